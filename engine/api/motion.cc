@@ -115,7 +115,7 @@ ReadBody BodyOfArrays(const Npz& arrays, const std::string& file, double rate_hz
   if (const auto body = BodyOf(raw)) {
     read = ResampledBody(*body, {"Etude's own arrays"}, rate_hz);
   } else {
-    ReadingOptions others = options;  // ReadingOptions others = options;  // `raw` already has the user's unit and axis
+    ReadingOptions others = options;  // `raw` already has the user's unit and axis
     others.metres_per_unit = 0;
     others.up = 0;
     read = BodyOfMarkers(MarkersOf(raw), file, rate_hz, {.evidence = UpEvidence::kFormat}, others);

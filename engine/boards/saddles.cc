@@ -58,8 +58,8 @@ bool IsStrongestAround(const GreyImage& strengths, int x, int y) {
 
 // Returns the saddle with the directions of zero curvature, xx cos² + 2 xy cos sin + yy sin² = 0.
 Saddle Describe(const Hessian& hessian, double x, double y) {
-  // In the frame of the principal directions, with curvatures k1 > 0 and −k2 < 0, the condition is k1 cos² − k2 sin² =
-  // 0.
+  // In the frame of the principal directions, with curvatures k1 > 0 and −k2 < 0, the condition is
+  // k1 cos² − k2 sin² = 0.
   const double mean = 0.5 * (hessian.xx + hessian.yy), half = std::hypot(0.5 * (hessian.xx - hessian.yy), hessian.xy);
   // Direction of the largest curvature.
   const double bright = 0.5 * std::atan2(2 * hessian.xy, hessian.xx - hessian.yy);

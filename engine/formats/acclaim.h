@@ -32,9 +32,9 @@ bool IsAcclaimMotion(std::string_view text);
 /// channels, bones that are defined twice or not connected, numbers beyond ±10⁹, or more than 1,000 bones.
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file);
 
-/// Reads an AMC file for such a skeleton. The file has no frame rate; 120 Hz is assumed, as in CMU's. Returns an error
-/// for bones that the skeleton lacks, a wrong number of values, frames that are not numbered consecutively, or no
-/// frames.
+/// Reads an AMC file for a skeleton of ReadAcclaimSkeleton. The file has no frame rate; 120 Hz is assumed, the rate of
+/// CMU's recordings. Returns an error for bones that the skeleton lacks, a wrong number of values, frames that are not
+/// numbered consecutively, or no frames.
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file);
 
 }  // namespace etude

@@ -56,7 +56,7 @@ Skeleton SmplSkeleton() {
                                .rest = {.translation = joint.offset},
                                .is_end_site = joint.is_end_site});
   }
-  // The recordings have Z up and rotate the pelvis accordingly; the rest pose must do so, too.
+  // The recordings have Z up and rotate the pelvis accordingly, so the rest pose rotates the pelvis in the same way.
   skeleton.joints.front().rest.rotation = glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0));
   return skeleton;
 }
@@ -108,7 +108,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
                   i / array->shape[1], array->values[i]);
     }
   }
-  // Rotations are in radians; degrees, read as radians, would exceed this angle.
+  // A larger angle shows that rotations are in degrees instead of radians.
   constexpr double kMaxAngle = 4 * kPi;
   for (std::size_t t = 0; t < frames; ++t) {
     for (std::size_t joint = 0; joint < kJoints; ++joint) {

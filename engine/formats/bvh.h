@@ -12,18 +12,21 @@ namespace etude {
 /// it `file`, and the clip's name is `file` without folder and extension.
 ///
 /// Accepted:
-/// - any order and mix of channels per joint, with rotations multiplied in the order written (R = R₁R₂R₃); position
-///   channels of any joint, which replace that joint's offset, or are added to it if most of them stay near 0 where
-///   their offsets do not; joints without channels;
+/// - any order and mix of channels per joint, with rotations multiplied in the order written (R = R₁R₂R₃);
+/// - position channels of any joint, which replace that joint's OFFSET;
+/// - joints without channels;
 /// - "End Site"s, which become joints named "<parent>_End" (names that some exporters give them are ignored);
 /// - names with spaces and colons, keywords in any case, tabs, empty lines, line ends LF, CR LF or CR, a missing last
 ///   line end, a byte order mark.
 /// A name that occurs again becomes "<name>#2", so that joints can be told apart. A rate within 0.01 % of a whole
-/// number is rounded to it, because files print few digits (.0083333 means 120 Hz). One frame more than announced is
-/// dropped, because some exporters announce the number of their last frame (Boxing_Toes of assimp's models). If a joint
-/// below the root has position channels and an OFFSET of 0, its rest position is that of the first frame. If positions
-/// stay around 0 although the joint has an OFFSET, they are relative to it. `remarks` receives a sentence about each of
-/// the last three cases.
+/// number is rounded to it, because files print few digits (.0083333 means 120 Hz).
+///
+/// `remarks` receives a sentence about each of these cases:
+/// - If the file has one frame more than announced, that frame is dropped, because some exporters announce the number
+///   of their last frame (Boxing_Toes of assimp's models).
+/// - If a joint below the root has position channels and an OFFSET of 0, its rest position is that of the first frame.
+/// - If the positions of most joints with an OFFSET stay near 0, they are relative to the OFFSETs and are added to
+///   them.
 ///
 /// Returns an error with line and column for anything outside the grammar, a second ROOT, a frame that is not one line
 /// with one number per channel, a wrong number of frames, no frames, frame times outside 0.1 ms…10 s, nesting deeper
@@ -33,13 +36,13 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
 
 /// Writes a clip as BVH. The root and every joint whose translation changes get three positions, and an OFFSET of 0:
 /// some readers replace OFFSET by positions, others add them to it. Every joint gets Z, X, Y rotations in degrees;
-/// numbers have six decimals. Every joint has the same position as in the clip, in all frames; when the file is read
+/// numbers have six decimals. Every joint has the same position as in the clip, in all frames. When the file is read
 /// again, the rest position of a joint with positions is that of the first frame, and the root rests at the origin.
-/// What BVH cannot express is converted by WithoutScales, WithOneRoot and WithWorldAxesAtRest. Frames that were read
-/// from BVH need no conversion and are reproduced to the printed precision. Joints are written depth first, regardless
-/// of their order in the clip; end sites that have children or move become joints; braces and control characters in
-/// names become '_', and duplicate names are numbered as in reading. The clip must have at least one joint and numbers
-/// within ±10⁹ (the limit of ReadBvh).
+/// Scales, several roots and rotated axes at rest, which BVH cannot express, are first removed by WithoutScales,
+/// WithOneRoot and WithWorldAxesAtRest. Frames that were read from BVH need no conversion and are reproduced to the
+/// printed precision. Joints are written depth first, regardless of their order in the clip. End sites that have
+/// children or move become joints. Braces and control characters in names become '_', and duplicate names are numbered
+/// as in reading. The clip must have at least one joint and numbers within ±10⁹ (the limit of ReadBvh).
 std::string WriteBvh(Clip clip);
 
 }  // namespace etude

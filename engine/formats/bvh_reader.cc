@@ -238,8 +238,8 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
   return MotionHeader{static_cast<int>(count), RateOf(seconds), count_token};
 }
 
-/// Multiplies a rotation by one about its own axis, without the products with zero. The axis is a template parameter so
-/// that the four numbers stay in registers; most of the reading time is spent here.
+/// Multiplies `rotation` by a rotation about its own axis `kAxis`, leaving out the products with zero. The axis is a
+/// template parameter so that the four numbers stay in registers; most of the reading time is spent here.
 template <int kAxis>
 void Turn(glm::dquat& rotation, double degrees) {
   constexpr int kNext = (kAxis + 1) % 3, kLast = (kAxis + 2) % 3;
@@ -272,7 +272,7 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
       Apply(channels[i], *value, pose[channels[i].joint]);
       continue;
     }
-    // This is rare: the number has another notation, or it is wrong.
+    // Rare: the number has another notation, or it is invalid.
     const Token token = scanner.NextInLine();
     if (token.text.empty()) {
       return Fail(scanner.At(token), "frame {} has {} numbers; its {} channels need {}", number, i, channels.size(),
@@ -293,9 +293,9 @@ std::string NameWithoutFolderAndExtension(std::string_view file) {
   return std::string(base.substr(0, base.find_last_of('.')));
 }
 
-/// Returns true if the positions of joints below the root are relative to their OFFSETs: most of the joints that have
-/// both stay within a fifth of the OFFSET's length around 0 in the median frame, where absolute positions are around the
-/// OFFSET.
+/// Returns true if the position channels of joints below the root are relative to the OFFSETs. Absolute positions stay
+/// around the OFFSET, relative ones around 0: the criterion is that, in the median frame, most joints with position
+/// channels and an OFFSET are within a fifth of the OFFSET's length of 0.
 bool AreRelativeToOffsets(const Skeleton& skeleton, const std::vector<BvhChannel>& channels,
                           const std::vector<LocalPose>& frames) {
   constexpr double kNear = 0.2;
@@ -389,14 +389,14 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
     AddOffsets(hierarchy.channels, clip);
     remark("the joints' positions are relative to their OFFSETs, which were added");
   }
-  // Angles that were written in radians hardly move the body if they are read as degrees.
+  // Angles in radians hardly move the body if they are read as degrees.
   constexpr double kMaxRadians = 6.2832, kMoves = 1.2;
   if (const double largest = LargestRotation(clip.frames); largest > kMoves && largest < kMaxRadians) {
     remark(fmt::format("no joint rotates by more than {:.2g} degrees: if the file's angles are radians, convert them to "
                        "degrees, which BVH files have",
                        largest));
   }
-  // Offsets of 0 beside positions do not define a rest pose.
+  // A joint with positions and an OFFSET of 0 has no rest position in the file.
   if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {
     remark(fmt::format(
         "{} joints with positions have an OFFSET of 0: their rest positions are taken from the first frame", taken));

@@ -41,7 +41,7 @@ std::string Printable(std::string_view name) {
     const bool is_control = static_cast<unsigned char>(c) < ' ' || c == '\x7F';
     if (is_control || c == '{' || c == '}') c = '_';
   }
-  // Spaces around a name are not part of it.
+  // Remove the spaces around the name.
   const std::size_t first = printable.find_first_not_of(' ');
   if (first == std::string::npos) return "unnamed";
   return printable.substr(first, printable.find_last_not_of(' ') - first + 1);
@@ -117,13 +117,14 @@ class Writer {
     for (int i = 0; i < 3; ++i) PrintNumber(Millionths(numbers[i]));
   }
 
-  /// Prints a number of millionths. This is written by hand because it takes most of the writing time.
+  /// Prints a number that is given in millionths. It is written by hand, because most of the writing time is spent
+  /// here.
   void PrintNumber(double millionths) {
     constexpr std::uint64_t kWhole = 1'000'000;
     if (millionths < 0) text_ += '-';
     const auto size = static_cast<std::uint64_t>(std::abs(millionths));
     const fmt::format_int whole(size / kWhole);
-    // The added 1 in front keeps leading zeros; it is not printed.
+    // Adding kWhole puts a digit in front, which keeps leading zeros; this digit is not printed.
     const fmt::format_int fraction(kWhole + size % kWhole);
     text_.append(whole.data(), whole.size()).append(1, '.').append(fraction.data() + 1, fraction.size() - 1);
     text_ += ' ';

@@ -60,7 +60,8 @@ std::size_t CountFrames(const C3dBytes& bytes, const C3dParameters& parameters) 
   };
   const auto begin = field("TRIAL:ACTUAL_START_FIELD"), end = field("TRIAL:ACTUAL_END_FIELD");
   if (begin && end && *end >= *begin) frames = *end - *begin + 1;
-  // If the number exceeds the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES as a float.
+  // If the number of frames does not fit into the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES as a
+  // float.
   if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
   if (const auto told = parameters.Number("POINT:LONG_FRAMES"); told && *told > frames) frames = *told;
   return frames >= 1 && frames <= kMaxC3dFrames ? static_cast<std::size_t>(frames) : 0;

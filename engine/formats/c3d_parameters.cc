@@ -32,7 +32,7 @@ std::size_t C3dParameters::Parameter::Count() const {
 }
 
 C3dParameters::C3dParameters(const C3dBytes& bytes, std::size_t at) : bytes_(bytes) {
-  // Records are groups and parameters.
+  // Read the records, which are groups and parameters.
   std::map<int, std::string> group_names;
   std::vector<std::pair<int, std::pair<std::string, Parameter>>> found;
   const std::size_t end = std::min(bytes.size(), at + kC3dBlock * std::max(1u, bytes.Byte(at + 2)));
@@ -71,7 +71,7 @@ std::optional<double> C3dParameters::Number(const std::string& name, std::size_t
   const Parameter* one = Find(name);
   if (one == nullptr || index >= one->Count()) return std::nullopt;
   if (one->type == 4) return bytes_.Float(one->at + 4 * index);
-  // Unsigned, because some files hold counts above 32,767.
+  // Read words as unsigned, because some files hold counts above 32,767.
   if (one->type == 2) return bytes_.Word(one->at + 2 * index);
   if (one->type == 1) return bytes_.Byte(one->at + index);
   return std::nullopt;

@@ -134,7 +134,8 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
 }
 
 Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file) {
-  // Parse the line below a heading, because a word in its first column would otherwise make it a heading.
+  // Parse the row below a dummy heading: otherwise a word in the row's first column would make the row itself a
+  // heading.
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file));
   RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));
   return RowOf(table.Row(0), columns);

@@ -34,7 +34,7 @@ struct JointCsv {
   std::vector<int> lines;         ///< per frame: its line in the text, from 1
   std::vector<std::array<std::optional<glm::dvec3>, kRoleCount>> frames;
 };
-/// Reads what `WriteJointCsv` writes, or any file with some of its columns in any order. Returns an error with the line
+/// Reads a file of `WriteJointCsv`, or any file with some of its columns in any order. Returns an error with the line
 /// for anything that `ReadNumberRows` refuses, unknown headings, a joint without all three coordinates, and decreasing
 /// times.
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file);

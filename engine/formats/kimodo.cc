@@ -14,7 +14,8 @@ struct SomaJoint {
 };
 using SomaSkeleton = std::vector<SomaJoint>;
 
-/// Adds joints, each the child of the one before; the first one is the child of `parent`. Returns the last one.
+/// Adds joints in a chain: the first one is the child of `parent`, each other one the child of the joint before it.
+/// Returns the last one.
 int AddChain(SomaSkeleton& joints, int parent, const std::string& prefix, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
     joints.push_back({prefix + std::string(name), parent});
@@ -23,7 +24,7 @@ int AddChain(SomaSkeleton& joints, int parent, const std::string& prefix, std::i
   return parent;
 }
 
-/// Returns the skeleton with whole fingers, somaskel77, or the one with two finger tips a hand, somaskel30.
+/// Returns somaskel77, the skeleton with whole fingers, or somaskel30, which has two finger tips per hand.
 SomaSkeleton MakeSoma(bool is_whole) {
   SomaSkeleton joints;
   const int head = AddChain(joints, -1, "", {"Hips", "Spine1", "Spine2", "Chest", "Neck1", "Neck2", "Head"});
@@ -85,7 +86,7 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
       return Fail({file}, "the matrix of joint {} in frame {} is no rotation", soma[j].name, f);
     }
   }
-  // The skeleton at rest: the first frame's offsets with no rotation.
+  // Make the skeleton at rest: the first frame's offsets, without rotations.
   Clip clip{.name = "kimodo", .skeleton = {}, .rate_hz = 30, .frames = {}};
   for (std::size_t j = 0; j < joints; ++j) {
     const int parent = soma[j].parent;
@@ -95,7 +96,7 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
     }
     clip.skeleton.joints.push_back(std::move(joint));
   }
-  // The frames: rotations relative to the parent.
+  // Make the frames: rotations relative to the parent.
   const LocalPose rest = RestPose(clip.skeleton);
   for (std::size_t f = 0; f < frames; ++f) {
     LocalPose& pose = clip.frames.emplace_back(rest);

@@ -16,11 +16,11 @@ bool IsKimodoNpz(const Npz& arrays);
 /// Reads `posed_joints` (frames × joints × 3, metres, Y up) and `global_rot_mats` (frames × joints × 3 × 3) on Kimodo's
 /// skeletons somaskel30 and somaskel77, whose rotations are the identity in their T-pose. Bones have the lengths of the
 /// first frame. The file contains no rate; the model's 30 Hz is used. Fails for other shapes, values that are not
-/// finite, and matrices that are no rotations.
+/// finite, and matrices that are not rotations.
 Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file);
 
-/// Returns `foot_contacts` (frames × 4: left heel, left toes, right heel, right toes; 0 or 1), also of other files than
-/// Kimodo's; nothing if there is no such array. Fails for another shape.
+/// Returns `foot_contacts` (frames × 4: left heel, left toes, right heel, right toes; 0 or 1); nothing if there is no
+/// such array. The file need not be Kimodo's. Fails for another shape.
 Result<std::optional<std::vector<bool>>> ReadFootContacts(const Npz& arrays, std::size_t frames,
                                                           const std::string& file);
 

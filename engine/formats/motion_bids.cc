@@ -25,7 +25,7 @@ std::string LabelOf(std::string_view name) {
   return label.empty() ? "motion" : label;
 }
 
-/// What each column of a recording holds: one coordinate of one point, or another channel.
+/// The meaning of each column of a recording: one coordinate of one point, or another channel.
 struct BidsChannels {
   struct Column {
     int point = -1;  ///< index into `points`; −1 for other channels than positions
@@ -65,7 +65,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
       ++channels.others;
       continue;
     }
-    // A coordinate of a point.
+    // Assign the column to a coordinate of its point.
     const std::string_view component = cells[at[0]], units = cells[at[3]];
     constexpr std::string_view kAxes = "xyz";
     if (component.size() != 1 || kAxes.find(component) == std::string_view::npos)
@@ -100,7 +100,7 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
   const std::string label = LabelOf(name);
   std::string rows, channels = "name\tcomponent\ttype\ttracked_point\tunits\treference_frame\n";
   const auto out = std::back_inserter(rows);
-  // _motion.tsv: a row per frame; _channels.tsv: a row per coordinate.
+  // Write _motion.tsv, one row per frame, and _channels.tsv, one row per coordinate.
   for (const BodyPose& pose : motion.poses) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const glm::dvec3& p = pose.joints[j];
@@ -112,7 +112,7 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
     for (const char axis : {'x', 'y', 'z'})
       channels += fmt::format("{0}_{1}\t{1}\tPOS\t{0}\tm\tglobal\n", RoleName(role), axis);
   }
-  // _motion.json.
+  // Write _motion.json.
   const std::string facts = fmt::format(
       R"({{"TaskName": "{0}", "TrackingSystemName": "etude", "SamplingFrequency": {1}, "MotionChannelCount": {2},
  "POSChannelCount": {2}, "TrackedPointsCount": {3}, "RecordingDuration": {4}, "SoftwareVersions": "Etude {5}",
@@ -120,11 +120,11 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
 )",
       label, motion.rate_hz, 3 * kRoleCount, kRoleCount, static_cast<double>(motion.poses.size()) / motion.rate_hz,
       version);
-  // _channels.json: x is left, y superior, z anterior (LSA) for a person who faces +Z.
+  // Write _channels.json. For a person who faces +Z, x is left, y superior, z anterior (LSA).
   const std::string axes = R"({"reference_frame": {"Levels": {"global": {"SpatialAxes": "LSA",
  "Description": "Metres; x to the left of a person who faces z, y up, origin on the floor"}}}}
 )";
-  // dataset_description.json.
+  // Write dataset_description.json.
   const std::string set = fmt::format(
       R"({{"Name": "Motions written by Etude", "BIDSVersion": "{}", "DatasetType": "raw", "License": "n/a",
  "Authors": ["n/a"], "GeneratedBy": [{{"Name": "Etude", "Version": "{}"}}]}}

@@ -72,7 +72,7 @@ std::optional<std::vector<double>> NumbersOf(std::string_view type, std::string_
     reader->second(bytes, values);
     return values;
   }
-  // Turn big-endian numbers round.
+  // Reverse the bytes of big-endian numbers.
   const auto size = static_cast<std::size_t>(type[2] - '0');
   std::string turned(bytes.substr(0, bytes.size() / size * size));
   for (auto at = turned.begin(); at != turned.end(); at += static_cast<std::ptrdiff_t>(size)) {
@@ -115,7 +115,8 @@ Result<NpyParts> SplitNpy(std::string_view bytes, const std::string& file) {
 
 std::string_view TypeOf(const NpyParts& parts) { return ValueOf(parts.header, "'descr': '", '\''); }
 
-/// Returns texts of fixed lengths, four bytes a letter; none if the type is another.
+/// Returns the texts of an array of fixed-length strings (four bytes per letter); an empty list for arrays of another
+/// type.
 std::vector<std::string> TextsOf(const NpyParts& parts) {
   const std::string_view type = TypeOf(parts);
   std::size_t letters = 0;
@@ -130,7 +131,7 @@ std::vector<std::string> TextsOf(const NpyParts& parts) {
   return texts;
 }
 
-/// Reads an .npy file; nothing when it holds no plain numbers.
+/// Reads the numbers of an .npy file; returns nothing if its values are not plain numbers.
 Result<std::optional<NumberArray>> NumbersIn(const NpyParts& parts, const std::string& file) {
   const Place place{file};
   const auto [header, data] = parts;
@@ -274,7 +275,7 @@ std::string NpyOfTexts(const std::vector<std::string>& texts) {
   return bytes;
 }
 
-/// Writing an archive into memory can only fail for lack of memory.
+/// Returns a result of the ZIP library, which must not be null: writing into memory can only fail for lack of memory.
 template <typename Made>
 Made Needed(Made made) {
   if (!made) throw std::bad_alloc();
@@ -292,7 +293,7 @@ std::string WriteNpz(const std::map<std::string, NumberArray>& numbers,
   for (const auto& [name, array] : texts) members[name + ".npy"] = NpyOfTexts(array);
 
   const Source whole(Needed(zip_source_buffer_create(nullptr, 0, 0, nullptr)), &zip_source_free);
-  // Closing the archive frees one reference; the written bytes are read through the other.
+  // Keep a second reference: closing the archive frees one, and the written bytes are read through the other.
   zip_source_keep(whole.get());
   Archive archive(Needed(zip_open_from_source(whole.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr)), &zip_discard);
   for (const auto& [name, bytes] : members) {

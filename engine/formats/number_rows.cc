@@ -66,7 +66,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
       table.heading = line;
       continue;
     }
-    // Every row must have as many numbers as the first.
+    // Refuse a row that has another number of values than the first.
     if (table.columns == 0) table.columns = words.size();
     if (words.size() != table.columns) {
       return Fail({file, line_number}, "{} values, but earlier rows have {}", words.size(), table.columns);

@@ -21,7 +21,8 @@ struct NumberRows {
   std::span<const double> Row(std::size_t row) const { return std::span(values).subspan(row * columns, columns); }
 };
 
-/// The maximal size of a text in bytes. It is about twenty minutes of a Kinect v2's 25 joints; an hour takes 170 MB.
+/// The maximum size of a text in bytes. It is enough for about twenty minutes of a Kinect v2's 25 joints; an hour takes
+/// 170 MB.
 constexpr std::size_t kMaxNumberTextBytes = std::size_t{64} << 20;
 
 /// Reads a table of numbers. Empty lines and lines that begin with '#' or "//" are skipped. "nan" in any case, or

@@ -50,8 +50,8 @@ double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
   return rate;
 }
 
-/// Returns the indices of the rows that are used: of rows with equal times, only the last. Fails if the times do not
-/// form a clock.
+/// Returns the indices of the rows that are used. Of rows with equal times only the last is used. Fails if the times do
+/// not form a clock.
 Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std::span<const int> lines,
                                               const std::string& file) {
   std::vector<std::size_t> rows;
@@ -101,8 +101,9 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   return Join(said, "; ");
 }
 
-/// Returns true if times in milliseconds, not seconds, agree with the stated rate or, without one, if rows would be
-/// more than a second apart.
+/// Returns true if the times are in milliseconds instead of seconds. With a stated rate, the median step must agree
+/// with that rate in milliseconds; without a stated rate, the median step must exceed 1, because rows are not more than
+/// a second apart.
 bool AreMilliseconds(std::span<const double> times, std::optional<double> rate_hz) {
   constexpr double kTolerance = 0.1, kPerSecond = 1000;
   constexpr std::size_t kMinSteps = 5;
@@ -144,8 +145,8 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   };
   const bool is_brief = told_hz && span < kMinSpan_s;
   if (is_brief && std::abs(fitted / *told_hz - 1) > kBriefTolerance) return std::nullopt;
-  // Take the first of these rates at which nearly all rows coincide with frames: the stated rate, a whole rate, and the
-  // rate at which the last row coincides with a frame.
+  // Try the stated rate, a whole rate, and the rate at which the last row coincides with a frame, in this order. Take
+  // the first at which nearly all rows coincide with frames.
   RowGrid grid{.rate_hz = fitted, .frames = {}, .remark = {}};
   for (const double near : {fitted, FittedRate(steps, true)}) {
     const double whole = std::round(near), to_last = std::round(span * near) / span;

@@ -31,16 +31,16 @@ struct RowGrid {
 /// Places rows on an even grid of frames by their times, which may be rounded to some decimals. The rate fits the steps
 /// between neighbouring rows; a whole rate, or `told_hz` (from the file's header, if any), is preferred if it is within
 /// their rounding. Rows that span less than half a second get the rate `told_hz`, or have no clock if their steps
-/// differ from it by more than 5 %. A frame is the row within a tenth of a frame of it (or within the rounding of
-/// times); otherwise it is interpolated, or it is a hole if a row is missing. Of rows with equal times only the last is
-/// used. Returns nullopt if there is no clock: fewer than two rows, no time, or equal times. Fails, naming the row's
-/// line (`lines` may be empty), for a missing time, falling times, steps over ten minutes, and holes of more than ten
-/// million values in total, `width` values per frame.
+/// differ from it by more than 5 %. A frame takes the row whose time is within a tenth of a frame of the frame's time
+/// (or within the rounding of times). Without such a row, the frame is interpolated between two rows, or it is a hole
+/// if a row is missing. Of rows with equal times only the last is used. Returns nullopt if there is no clock: fewer
+/// than two rows, no time, or equal times. Fails, naming the row's line (`lines` may be empty), for a missing time,
+/// falling times, steps over ten minutes, and holes of more than ten million values in total, `width` values per frame.
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 
-/// Returns times in seconds from frame numbers, if these are whole and ascend: the median step of the numbers
-/// corresponds to 1 / rate_hz. Otherwise returns an empty list.
+/// Returns times in seconds from frame numbers, if the numbers are whole and ascend: their median step corresponds to 1
+/// / rate_hz. Otherwise returns an empty list.
 std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_hz);
 
 /// Markers as rows of a file, before they are laid on its clock.
@@ -50,15 +50,15 @@ struct MarkerRows {
   std::vector<int> lines;       ///< line of each row, from 1
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
 };
-/// Places markers on frames by their times; in a hole, no marker was seen. The remark says what was changed. Fails as
+/// Places markers on frames by their times; in a hole, no marker was seen. The remark says what was changed. Fails like
 /// GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 
 /// Places the joints of a CSV on frames by their times; without times, by their frame numbers at kJudgedRateHz.
 Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file);
 
-/// Places a body's rows on frames by their times. Holes of up to a second are bridged linearly; if there are longer
-/// holes, only the longest stretch without one is kept. `remark` says so. Fails as GridOfRows.
+/// Places a body's rows on frames by their times. Holes of up to a second are bridged linearly. If there are longer
+/// holes, only the longest stretch without such a hole is kept. `remark` says what was changed. Fails like GridOfRows.
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
                               std::string& remark);
 

@@ -33,13 +33,13 @@ std::string WriteTrc(const MarkerMotion& motion, std::string name);
 
 struct MarkerRows;
 
-/// Reads a TRC file in m, cm, mm, in or ft (`Units`), without changing its axes. A marker counts as not
-/// seen if a cell is empty, "nan" or beyond ±10⁶ m. The columns Time, else Frame#, give the times of the rows, as in
-/// OpenSim (`LayOnClock`); the remark says what that changed. Returns an error with the line if there is no header, the
-/// number of frames or columns is wrong, a cell is not a number, or there are more than 1,000 markers or 64 MiB; also
-/// returns the errors of GridOfRows.
+/// Reads a TRC file in m, cm, mm, in or ft (`Units`), without changing its axes. A marker counts as not seen if a cell
+/// is empty, "nan" or beyond ±10⁶ m. The rows are placed on frames (`LayOnClock`) by the times in the column Time, else
+/// in Frame#, as in OpenSim; the remark says what was changed. Returns an error with the line if there is no header,
+/// the number of frames or columns is wrong, a cell is not a number, or there are more than 1,000 markers or 64 MiB;
+/// also returns the errors of GridOfRows.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
-/// Reads only the rows, as they are in the file.
+/// Reads a TRC file like ReadTrc, but keeps the rows as they are in the file, without placing them on frames.
 Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file);
 
 }  // namespace etude

@@ -54,7 +54,7 @@ std::optional<double> MeanOfMaxima(std::span<const ActivatedTerm> terms, const U
   return lengths.weight > 0 ? lengths.Mean() : points.Mean();
 }
 
-/// Adds the inputs at which a straight-sided term has a corner; for a Gaussian, small steps.
+/// Adds the inputs at which a straight-sided term has a corner; for a Gaussian, adds inputs in small steps.
 void AddCorners(const ActivatedTerm& term, const Universe& universe, std::vector<double>& corners) {
   for (double grade : {1.0, term.grade}) {
     const Cut cut = CutOf(term.shape, grade);

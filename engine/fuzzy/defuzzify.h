@@ -34,7 +34,7 @@ struct ActivatedTerm {
 /// if no term has an area.
 std::optional<double> Defuzzify(std::span<const ActivatedTerm> terms, const Universe& universe, Defuzzification method);
 
-/// Defuzzifies the grades of one feature to its input.
+/// Returns the crisp input of a feature that has these grades, like `Defuzzify`.
 std::optional<double> DefuzzifyFeature(const Grades& grades, Feature feature, const Memberships& memberships,
                                        Defuzzification method);
 

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
-/// Returns √S · μ of every frame. The Euclidean distance of two such points is that of equation 1.
+/// Returns √S · μ of every frame. The Euclidean distance of two such vectors is the distance of equation 1.
 std::vector<Grades> Scaled(std::span<const Grades> motion, const FeatureWeights& weights) {
   Grades roots{};
   for (std::size_t i = 0; i < kTermCount; ++i) {
@@ -73,7 +73,7 @@ std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::sp
   const std::vector<Grades> rows = Scaled(a, options.weights), columns = Scaled(b, options.weights);
   const Band band(rows.size(), columns.size(), options.band);
   const double steps = static_cast<double>(rows.size() + columns.size());
-  // If the sum exceeds this, the similarity is below `at_least`; the margin covers rounding.
+  // The similarity is below `at_least` if the sum of distances exceeds this; the margin covers rounding.
   const double max_cost =
       options.at_least > 0 ? steps * options.half_at * (1 / options.at_least - 1) * (1 + 1e-12) + 1e-12 : kUnreached;
 

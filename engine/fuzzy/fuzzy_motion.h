@@ -21,8 +21,8 @@ struct FuzzyMotion {
   std::vector<std::string> poses;  ///< the pose that the rules conclude; "" if no rule holds
 };
 
-/// Fuzzifies every frame of a motion and lets the rules name its pose. `standing_hip_height` is that of the performing
-/// body, in metres, > 0 (StandingHipHeight).
+/// Fuzzifies every frame of a motion, and names its pose by the rules. `standing_hip_height` is the hip height of the
+/// performing body, in metres, > 0 (StandingHipHeight).
 FuzzyMotion FuzzifyMotion(const BodyMotion& motion, double standing_hip_height, const FuzzySystem& system = {});
 
 struct MotionSimilarityOptions {

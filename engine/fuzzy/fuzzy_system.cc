@@ -293,7 +293,8 @@ Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& fi
   RETURN_IF_ERROR(fields.Finish());
   ASSIGN_OR_RETURN(const auto features, ReadFeatures(*features_node));
   ASSIGN_OR_RETURN(const auto rules, rules_node != nullptr ? ReadRules(*rules_node) : RuleBase{});
-  // Set every member: the defaults would read the paper's system, which may be the very system that is being read.
+  // Set every member explicitly: the members' defaults read the paper's system, which may be the system that is being
+  // read.
   return FuzzySystem{.name = name, .memberships = features.memberships, .weights = features.weights, .rules = rules};
 }
 

@@ -37,7 +37,7 @@ struct CutAt {
   }
   Cut operator()(const Singleton& s) const { return {s.at, s.at}; }
   Cut Sides(double left, double left_top, double right_top, double right) const {
-    // Computed from the top, so that grade 1 gives exactly the top.
+    // The limits are computed from the top, so that grade 1 gives exactly the top.
     return {left_top - (1 - grade) * (left_top - left), right_top + (1 - grade) * (right - right_top)};
   }
 };

@@ -12,7 +12,8 @@ namespace {
 constexpr int kUnknowns = static_cast<int>(kFeatureCount) + 1;  // the last one is the bias
 using Vector = Eigen::Matrix<double, kUnknowns, 1>;
 using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-/// A pair as a row of the regression. It is a plain array because this is the innermost loop, also in debug builds.
+/// A pair as a row of the regression. It is a plain array, because the innermost loop must be fast in debug builds,
+/// too.
 using Row = std::array<double, kUnknowns>;
 
 Row ToRow(const LabelledPair& pair) {

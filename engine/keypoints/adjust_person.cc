@@ -67,8 +67,8 @@ class Adjuster {
     BundleSmoothness& smooth = bundle.smoothness.emplace();
     smooth.rate_hz = options_.rate_hz;
     smooth.acceleration = options_.acceleration;
-    // No acceleration penalty on angles: those of this body may pass through full turns and singular orientations, and
-    // the penalty on points is sufficient.
+    // Put no acceleration penalty on angles: the angles of this body may pass through full turns and singular
+    // orientations, and the penalty on points is sufficient.
     smooth.angle_acceleration = std::numeric_limits<double>::infinity();
     smooth.points.resize(measurable_.points.size());
     smooth.accelerations.resize(measurable_.points.size());
@@ -84,7 +84,7 @@ class Adjuster {
   }
 
  private:
-  /// Returns start poses fitted to smoothed points: from noisy points, the solver needs many steps and may reach
+  /// Returns start poses fitted to smoothed points. From noisy points, the solver would need many steps and might reach
   /// another minimum.
   std::vector<TreeState> SmoothStart() const {
     constexpr double kCalmHz = 3;
@@ -139,7 +139,7 @@ class Adjuster {
       points_[Index(role)] = static_cast<int>(measurable_.points.size());
       measurable_.points.push_back({person_.body.roles[Index(role)].joint, person_.body.roles[Index(role)].p_LQ});
     }
-    // Lengthen one bone by a metre and take the change of all offsets as its derivative.
+    // Lengthen one bone by a metre; the changes of all offsets are their derivatives.
     for (const Bone& bone : AllBones()) {
       using enum Role;
       if (bone.child == kShoulderCentre || bone.child == kRightShoulder || bone.child == kRightHip) continue;
@@ -165,7 +165,7 @@ class Adjuster {
   }
 
   /// Adds the derivatives of all offsets with respect to one length. Offsets are linear in the lengths, so a derivative
-  /// is the change when that bone is a metre longer.
+  /// is the change of the offset when that bone is a metre longer.
   void AddShares(const CaptureBody& longer) {
     const int length = static_cast<int>(bones_.size());
     for (std::size_t j = 0; j < measurable_.tree.joints.size(); ++j) {

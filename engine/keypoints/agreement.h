@@ -33,16 +33,16 @@ MarkerMotion AtRate(MarkerMotion markers, double rate_hz);
 /// stretch) · k of the reference.
 struct ReferenceClock {
   double at = 0, stretch = 0;
-  /// The mean loss d² / (d² + s²) of the distances d between both, with s = 3 cm: `before` with equal frame numbers,
-  /// `after` with this clock.
+  /// The mean loss d² / (d² + s²) of the distances d between the two recordings, with s = 3 cm: `before` with equal
+  /// frame numbers, `after` with this clock.
   double before = 0, after = 0;
   /// Returns the drift of the clock over `frames` frames, in frames of the reference.
   double DriftOver(std::size_t frames) const { return stretch * static_cast<double>(frames); }
 };
 
 /// Estimates the clock from the markers that both recordings contain, to 1/500 of a frame. A grid search over offsets
-/// of up to two frames and drifts of up to three over half of the motion is followed by a local search. Returns nullopt
-/// if too few markers are in both.
+/// of up to two frames, and over drifts of up to three frames over half of the motion, is followed by a local search.
+/// Returns nullopt if both have too few markers in common.
 std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const MarkerMotion& reference);
 
 /// Returns `frames` frames of the reference at the times of the motion's frames, interpolated as by `AtRate`.

@@ -69,7 +69,7 @@ class Sum {
     return glm::normalize(up + tangent_ * step);
   }
 
-  /// Returns the standard deviation in the worse direction.
+  /// Returns the standard deviation of the direction, radians, along the axis in which it is least certain.
   double Deviation() const {
     const double half = 0.5 * (information[0][0] + information[1][1]);
     const double least = half - std::sqrt(std::max(0.0, half * half - glm::determinant(information)));
@@ -91,7 +91,8 @@ std::optional<glm::dvec3> Middle(const LandmarkPositions& at, Landmark a, Landma
   return p && q ? std::optional(0.5 * (*p + *q)) : std::nullopt;
 }
 
-/// Returns the mean direction from ankles to shoulders over the frames in which the person is straight.
+/// Returns the mean direction from ankles to shoulders over the frames in which the person is straight; nullopt if
+/// there are none.
 std::optional<glm::dvec3> StraightPerson(std::span<const LandmarkPositions> points) {
   constexpr double kStraight = 0.97;
   glm::dvec3 sum(0);
@@ -183,7 +184,7 @@ std::optional<glm::dvec3> Flight(std::span<const LandmarkPositions> points, doub
   return length >= kMinWindows ? std::optional(sum / length) : std::nullopt;
 }
 
-/// All that is known about the direction.
+/// All cues for the up direction.
 class Cues {
  public:
   Cues(std::span<const NamedCamera> cameras, std::span<const LandmarkPositions> points, double rate_hz, double stature,
@@ -198,7 +199,7 @@ class Cues {
     }
   }
 
-  /// Sums all residuals at a direction.
+  /// Sums all residuals at the direction `up`.
   Sum At(const glm::dvec3& up) const {
     Sum sum(up);
     AddCameras(up, sum);
@@ -209,7 +210,8 @@ class Cues {
     return sum;
   }
 
-  /// Lists start directions: those of the pictures in every quarter turn, of the person, and of the axes.
+  /// Lists start directions: the upper edges of the pictures in every quarter turn, the directions of the person, and
+  /// the coordinate axes.
   std::vector<glm::dvec3> Beginnings() const {
     std::vector<glm::dvec3> beginnings;
     constexpr std::size_t kMaxCameras = 4;
@@ -309,7 +311,8 @@ class Cues {
     if (!hips.empty() && UpperMedian(std::move(hips)) < -0.2 * stature_) sum.cost += kUnder;
   }
 
-  /// Adds a direction with the standard deviation `sigma`, unless leaving it out costs less.
+  /// Adds the cue that the up direction is `known`, with the standard deviation `sigma`. Its cost is limited to
+  /// `most_cost`; a cue that would cost more is an outlier and gets no residual.
   static void AddDirection(Cue cue, const glm::dvec3& known, double sigma, double most_cost, const glm::dvec3& up,
                            Sum& sum) {
     const double angle = AngleBetween(known, up) / sigma;

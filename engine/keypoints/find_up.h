@@ -17,18 +17,18 @@ struct FoundUp {
   std::string by;        ///< the evidence: "the cameras' horizons and resting feet"
 };
 
-/// Finds the up direction from several cues *(ours)*. It minimises a sum of robust squared residuals (Student's t, ν =
-/// 4) by Gauss–Newton steps from many start directions:
+/// Finds the up direction from several cues *(ours)*. It minimises a sum of robust squared residuals (Student's t,
+/// ν = 4) by Gauss–Newton steps from many start directions:
 /// - **Cameras** are mounted level: a picture's rows are horizontal to 3° (as in nerfstudio's `vertical` orientation of
-///   camera poses); cameras look down by 10° ± 20°. A camera may be turned by quarter turns, at a cost.
+///   camera poses); cameras look down by 10° ± 20°. A picture rotated by quarter turns adds a fixed cost.
 /// - **Resting feet** stand on one level floor: equal landmarks have one height, to 0.8 % of the stature; ankles, heels
 ///   and toes differ by the heights of a flat foot, to 1.5 %. Outliers (a foot on a chair, or on its toes) are ignored.
 /// - **A straight person** (the distance from ankles to shoulders is the length of legs and trunk) stands upright, to
-/// 6°, or lies, at a cost.
+///   6°; a lying person adds a fixed cost.
 /// - **In a flight** the body's centre of mass is accelerated by gravity, to 3°: a flight is at least 0.2 s in which a
 ///   parabola fits with an acceleration within 15 % of 9.81 m/s².
-/// The deviation is that of the solution, enlarged if the cues disagree by more than they should. If another direction
-/// explains them nearly as well, `within` extends to it. Other postures are not used as cues.
+/// The deviation is that of the solution, enlarged if the cues disagree by more than their standard deviations. If
+/// another direction explains the cues nearly as well, `within` extends to it. Other postures are not used as cues.
 /// @param metre length of a metre in the points' unit
 FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPositions> points, double rate_hz,
                double stature, double metre);

@@ -107,8 +107,8 @@ class Guesser {
     return UpperMedian(std::move(distances)) / std::max(1.0, std::max(HeightPx(one), HeightPx(other)));
   }
 
-  /// Returns the median, over frames and people, of the smallest distance to any person and labelling in the other
-  /// film.
+  /// Returns the median, over frames and people of film `a`, of the smallest distance to any person and labelling of
+  /// sides in film `b`.
   double Miss(std::size_t a, const Guess& guess_a, std::size_t b, const Guess& guess_b) {
     const auto key = std::tuple(a, guess_a, b, guess_b);
     if (const auto known = misses_.find(key); known != misses_.end()) return known->second;
@@ -181,7 +181,7 @@ class Guesser {
           if (guess == guesses_[c]) continue;
           const Change change{MissOf(c, guess), before, c, guess};
           if (!(change.after < std::min(kMaxPlausibleMiss, kBetter * before))) continue;
-          // Among nearly equal hypotheses the first, with the smallest change, is preferred.
+          // Among nearly equal hypotheses, prefer the first, which has the smallest change.
           if (!best || change.after < 0.999 * best->after) {
             second = best;
             best = change;

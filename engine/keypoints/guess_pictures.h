@@ -27,17 +27,17 @@ struct PictureGuess {
 };
 
 /// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or
-/// mirrored. Cameras are corrected one after the other, the one with the largest gain first. A correction is tried only
-/// if the keypoints are more than 0.3 % of the height off the other cameras' epipolar lines, and it must reduce this
-/// distance to less than half and to less than 5 % of the height (median over frames, over the best-fitting people and
-/// labelling of sides). A wrong correction cannot halve random errors. If pictures were fitted, the keypoints of all
-/// films may instead be in the rig's own pixels (if the estimator ran on the original pictures). The interpretation
-/// with the smaller distance is taken, unless a file states the film's size. `told` says if a second guess is nearly as
-/// good, as with two cameras.
+/// mirrored. Cameras are corrected one after the other, the camera with the largest gain first. A correction is tried
+/// only if the keypoints are more than 0.3 % of the height off the other cameras' epipolar lines, and it must reduce
+/// this distance to less than half and to less than 5 % of the height (median over frames, over the best-fitting people
+/// and labelling of sides). A wrong correction cannot halve random errors. If pictures were fitted, the keypoints of
+/// all films may instead be in the rig's own pixels (if the estimator ran on the original pictures). The interpretation
+/// with the smaller distance is taken, unless a file states the film's size. `told` also names a second correction that
+/// is nearly as good, which is common with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
-/// Returns the distance of keypoints, read as declared, from the other cameras' epipolar lines, as a share of the
-/// height: the mean, over pairs of cameras, of the median distance. 1 if it cannot be computed.
+/// Returns the distance of keypoints, mapped as declared, from the other cameras' epipolar lines, as a share of the
+/// height: the mean, over pairs of cameras, of the median distance. Returns 1 if the distance cannot be computed.
 double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// A distance above this share of the height indicates a mistake, not only imprecision.

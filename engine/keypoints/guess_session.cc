@@ -15,14 +15,15 @@ using Films = std::vector<PictureOfFilm>;
 
 constexpr std::size_t kMaxFilms = 8;  // with more films, exchanges are not tried
 
-/// A map from a file's pixel to a pixel of the film, whose size is given.
+/// A possible mistake in how keypoints were stored: `pixel` maps a pixel of the file to the right pixel of a film of
+/// this size.
 struct Reading {
   std::string_view told;
   glm::dvec2 (*pixel)(const glm::dvec2& p, const glm::dvec2& size);
 };
 
-/// Converts a pixel whose coordinates were interpreted relative to the picture but are relative to a square around it.
-/// `padded` is the share of the square's padding that comes before the picture.
+/// Corrects a pixel whose coordinates are relative to a square around the picture but were read as relative to the
+/// picture. `padded` is the share of the square's padding that comes before the picture.
 glm::dvec2 OfSquare(const glm::dvec2& p, const glm::dvec2& size, double padded) {
   const double side = std::max(size.x, size.y);
   return p * side / size - padded * (side - size);
@@ -40,7 +41,8 @@ constexpr std::array kReadings = {
     Reading{"keypoints are shares of the picture's longer side",
             [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0); }}};
 
-/// Reinterprets the pose that the rig's file gives for a camera: p_C = R_CF p_F + t.
+/// Returns the camera whose pose in the rig's file, p_C = R_CF p_F + t, is instead the inverse map, or that of a camera
+/// that looks along −z (OpenGL), or both.
 Camera WithPose(Camera camera, const glm::dmat3& R_WF, bool is_inverse, bool is_opengl) {
   glm::dmat3 R_CF = camera.R_CW * R_WF;
   glm::dvec3 t = -(camera.R_CW * camera.p_WC);
@@ -101,7 +103,7 @@ class SessionGuesser {
     return MissOfPictures(guessed, least_confidence_);
   }
 
-  // Keeps these films as the best hypothesis if they reduce the distance.
+  // Keeps `films` as the best hypothesis if they have the smallest distance so far.
   void Try(Films films, std::string told) {
     const double miss = MissOfPictures(films, least_confidence_);
     if (!(miss < least_)) return;

@@ -17,12 +17,13 @@ struct SessionGuess {
   std::string mended;              ///< description of the correction; "" if everything is as declared
 };
 
-/// Finds a mistake that concerns a whole session *(ours)*: the films of two cameras exchanged; a rig whose poses map
-/// from the cameras to the world, whose cameras look along −z (OpenGL), or both; keypoints of pictures of another size,
-/// with v counted from below, with x and y exchanged, all mirrored, or relative to a square around the picture or to
-/// its longer side. The candidate with the smallest distance to epipolar lines (`MissOfPictures`) is taken if that is
-/// less than 5 % of the height, and less than half of the distance that remains after `GuessPictures`. Exchanges are
-/// tried among at most eight films.
+/// Finds a mistake that concerns a whole session *(ours)*:
+/// - the films of two cameras are exchanged (tried among at most eight films);
+/// - the rig's poses map from the cameras to the world, its cameras look along −z (OpenGL), or both;
+/// - the keypoints belong to pictures of another size, count v from below, have x and y exchanged, are all mirrored, or
+///   are relative to a square around the picture or to its longer side.
+/// The candidate with the smallest distance to epipolar lines (`MissOfPictures`) is taken if that distance is less than
+/// 5 % of the height, and less than half of the distance that remains after `GuessPictures`.
 /// @param R_WF rotation from the axes of the rig's file to the cameras' world
 SessionGuess GuessSession(std::span<const PictureOfFilm> films, std::span<const std::string> names,
                           const glm::dmat3& R_WF, double min_confidence);

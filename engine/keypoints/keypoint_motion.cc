@@ -17,7 +17,7 @@ std::optional<glm::dvec3> Middle(const std::optional<glm::dvec3>& a, const std::
   return 0.5 * (*a + *b);
 }
 
-/// The joints of one side whose positions may have to be guessed, and those that they are guessed from.
+/// The joints of one side whose positions may have to be guessed, and the joints from which they are guessed.
 struct SideRoles {
   Role elbow, wrist, hand, ankle, foot;
 };
@@ -109,7 +109,7 @@ void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap) {
 
 void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cutoff_hz) {
   if (!(cutoff_hz < rate_hz / 2)) return;
-  // The standard deviation from exp(−2π²σ²f²) = 1/√2 at the cutoff.
+  // Choose the standard deviation so that exp(−2π²σ²f²) = 1/√2 at the cutoff.
   const double sigma = std::sqrt(std::log(2.0)) / (2 * kPi * cutoff_hz) * rate_hz;  // frames
   const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3 * sigma));
   const std::vector<LandmarkPositions> before(frames.begin(), frames.end());

@@ -25,7 +25,7 @@ struct TriangulateOptions {
 struct TriangulationReport {
   std::vector<double> rejected;  ///< for each camera, the share of its keypoints that were outliers
   double residual_px = 0;        ///< median over all points
-  double found = 0;              ///< share of frames × landmarks (those seen at least once) that were triangulated
+  double found = 0;              ///< share of the frames × landmarks seen at least once that were triangulated
 };
 
 /// A landmark in one frame.
@@ -35,8 +35,8 @@ struct TriangulatedLandmark {
   RobustPoint point;
 };
 
-/// Triangulates each landmark in each frame from the cameras that see it with enough confidence, weighted by it; those
-/// that cannot be triangulated are left out.
+/// Triangulates each landmark in each frame from the cameras that see it with enough confidence, weighted by
+/// confidence. Landmarks that cannot be triangulated are left out.
 std::vector<TriangulatedLandmark> TriangulateLandmarks(std::span<const ProjectionMatrix> cameras,
                                                        const MatchedPerson& person, const TriangulateOptions& options);
 

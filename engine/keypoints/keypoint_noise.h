@@ -18,13 +18,14 @@ struct KeypointNoise {
   std::array<std::optional<double>, kLandmarkCount> px{};  ///< the deviation of each landmark with at least 30 points
   std::size_t points = 0;                                  ///< number of triangulated points
 
-  /// Returns the deviation of the landmark that shows a joint; of all landmarks if none does.
+  /// Returns the deviation of the landmark at a joint; the deviation of all landmarks if the joint has no landmark or
+  /// its landmark has too few points.
   double Of(Role role) const;
 };
 
-/// Returns the variance of keypoints along each axis, px², that the residuals of one point from them suggest. A point
-/// that n cameras agree on leaves a sum of squared reprojection errors of σ²χ² with 2n − 3 degrees of freedom; the
-/// result is that sum divided by the median of its χ² (Wilson and Hilferty 1931), so its median over points is σ².
+/// Estimates the variance of keypoints along each axis, px², from the residuals of one point. A point that n cameras
+/// agree on leaves a sum of squared reprojection errors of σ²χ² with 2n − 3 degrees of freedom; the result is that sum
+/// divided by the median of its χ² (Wilson and Hilferty 1931), so its median over points is σ².
 double KeypointVarianceOf(const RobustPoint& point);
 
 /// Measures the random error of keypoints by how well the cameras agree: σ² is the median of KeypointVarianceOf over

@@ -6,7 +6,8 @@
 
 namespace etude {
 
-/// The point of the plane with the smallest loss among those tried, beginning with the origin. A loss may be unknown.
+/// Searches the plane for the point with the smallest loss: keeps the best of all points tried, beginning with the
+/// origin. A loss may be unknown.
 class LeastLoss2 {
  public:
   using Loss = std::function<std::optional<double>(double x, double y)>;

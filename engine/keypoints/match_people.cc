@@ -54,7 +54,8 @@ class Follower {
  private:
   using Candidate = std::tuple<double, std::size_t, std::size_t>;  ///< step, track, person
 
-  /// Returns the possible extensions by ascending step, without those that have another candidate nearly as near.
+  /// Returns the possible extensions by ascending step. Extensions with a competing candidate that is nearly as near
+  /// are left out.
   std::vector<Candidate> Candidates(const std::vector<PersonTrack>& tracks, std::size_t frame) const {
     std::vector<Candidate> all;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -96,8 +97,8 @@ struct Track : PersonTrack {
   std::size_t camera = 0;
 };
 
-/// Returns the midpoint of the shortest segment between two rays; nullopt if they are parallel or it lies behind a
-/// camera.
+/// Returns the midpoint of the shortest segment between two rays; nullopt if the rays are parallel or the midpoint lies
+/// behind a camera.
 std::optional<glm::dvec3> MiddleOf(const SightLine& a, const SightLine& b) {
   const double cosine = glm::dot(a.direction_W, b.direction_W);
   const double sine2 = 1 - cosine * cosine;
@@ -143,6 +144,7 @@ class PersonMatcher {
   double ErrorOf(std::size_t a, std::size_t b) const {
     const Track &one = tracks_[a], &other = tracks_[b];
     if (one.camera == other.camera) return std::numeric_limits<double>::infinity();
+    // List the frames that both tracks contain.
     struct Shared {
       std::size_t frame, one, other;
     };
@@ -151,6 +153,7 @@ class PersonMatcher {
       const auto found = other.entries.find(frame);
       if (found != other.entries.end()) shared.push_back({frame, entry, found->second});
     }
+    // Compute the median error over at most about kMaxFrames of these frames.
     constexpr std::size_t kMaxFrames = 60;
     const std::size_t stride = std::max<std::size_t>(1, shared.size() / kMaxFrames);
     const auto error_of = [&](bool is_swapped) {
@@ -165,6 +168,7 @@ class PersonMatcher {
       return errors.size() < kMinCount ? std::numeric_limits<double>::infinity() : UpperMedian(std::move(errors));
     };
     const double error = error_of(false);
+    // If the labelling as detected does not match, try exchanged sides, too.
     if (!options_.may_be_swapped || !(error >= options_.max_error)) return error;
     return std::min(error, error_of(true));
   }
@@ -215,14 +219,14 @@ class PersonMatcher {
 
   std::vector<MatchedPerson> Persons() const {
     std::vector<MatchedPerson> persons;
-    // Each group is one person; collect its detections and errors.
+    // Each group is one person.
     for (std::size_t g = 0; g < tracks_.size(); ++g) {
       if (group_[g] != g) continue;
       MatchedPerson person;
       person.seen.assign(people_.size(), std::vector<std::optional<SeenPerson>>(people_.front().size()));
       std::vector<bool> by(people_.size());
       std::vector<double> errors;
-      // Its detections in all cameras, and the errors of its pairs of tracks.
+      // Collect the person's detections in all cameras, and the errors of the pairs of tracks.
       for (std::size_t t = 0; t < tracks_.size(); ++t) {
         if (group_[t] != g) continue;
         by[tracks_[t].camera] = true;

@@ -122,7 +122,7 @@ class Mender {
     constexpr double kOff = 0.05, kBetter = 1.0 / 3;
     for (std::size_t frame = 0; frame < frames_; ++frame) {
       for (std::size_t round = 0; round < cameras_.size(); ++round) {
-        // Take the worst camera first, because its keypoints also raise the misfit of the others.
+        // Take the worst camera first, because its wrong keypoints also raise the misfit of the others.
         std::optional<std::size_t> worst;
         double most = kOff;
         std::size_t seeing = 0;
@@ -195,7 +195,7 @@ class Mender {
 
   double Loss(double px) const { return px * px / (px * px + scale_px_ * scale_px_); }
 
-  /// Returns the costs in one frame of keeping a group's labels and of swapping them.
+  /// Returns two costs in one frame: of keeping a group's labels, and of swapping them.
   std::array<double, 2> CostsOf(std::size_t group, std::size_t c, std::size_t frame) const {
     std::array<double, 2> costs{};
     const auto& one = person_.seen[c][frame];
@@ -303,8 +303,8 @@ class Mender {
     return from && to ? std::optional(*to - *from) : std::nullopt;
   }
 
-  /// Returns a value above 0 if the left landmarks are on the body's left side; nullopt if that is not seen or
-  /// ambiguous.
+  /// Returns a value above 0 if the left landmarks are on the body's left side, below 0 if they are on its right side;
+  /// nullopt if that is not seen or ambiguous.
   std::optional<double> Chirality(std::size_t group, std::size_t frame) const {
     const auto hips = MiddleOf(frame, kLeftHip, kRightHip), shoulders = MiddleOf(frame, kLeftShoulder, kRightShoulder);
     const auto left = PositionOf(frame, group == 0 ? kLeftShoulder : kLeftHip);
@@ -321,12 +321,12 @@ class Mender {
     return std::ranges::any_of(flips_[group], [&](const std::vector<bool>& camera) { return camera[frame]; });
   }
 
-  /// Finds which camera was wrong where sides were swapped: if the body then faces backwards, the swap is reversed in
+  /// Decides which camera was wrong where sides were swapped: if the body then faces backwards, the swap is reversed in
   /// all cameras.
   void ResolveFacing(std::size_t group) {
     std::vector<std::optional<double>> sides;
     for (std::size_t frame = 0; frame < frames_; ++frame) sides.push_back(Chirality(group, frame));
-    // True if at least `share` of the frames with a facing direction have left and right exchanged.
+    // Returns true if left and right are exchanged in at least `share` of the frames that have a facing direction.
     const auto is_wrong = [&](std::size_t first, std::size_t last, double share) {
       std::size_t wrong = 0, told = 0;
       for (std::size_t frame = first; frame < last; ++frame) {

@@ -60,8 +60,8 @@ std::span<const KeypointLayout> KeypointLayouts() {
               "REar LEar")},
       {"mediapipe",
        Listed("Nose - LEye - - REye - LEar REar - - LShoulder RShoulder LElbow RElbow LWrist RWrist - - - - - - LHip "
-              // With face and hands, whose points are not used.
               "RHip LKnee RKnee LAnkle RAnkle LHeel RHeel LBigToe RBigToe")},
+      // The following layouts continue with face and hands, whose points are not used.
       {"coco_wholebody",
        Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
               "RAnkle LBigToe LSmallToe LHeel RBigToe RSmallToe RHeel"),
@@ -89,7 +89,7 @@ const KeypointLayout* FindKeypointLayout(std::string_view name) {
 Landmark LandmarkOfName(std::string_view name) {
   std::string bare;
   for (const char c : name) {
-    // Drop separators and case.
+    // Keep only the letters, in lower case.
     if (c >= 'a' && c <= 'z') bare += c;
     if (c >= 'A' && c <= 'Z') bare += static_cast<char>(c - 'A' + 'a');
   }

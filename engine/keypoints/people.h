@@ -95,7 +95,7 @@ std::vector<std::string> KeypointLayoutNames();
 /// Finds a layout by its name; returns null if there is none.
 const KeypointLayout* FindKeypointLayout(std::string_view name);
 
-/// Finds the landmark of an estimator's name for it, ignoring case and separators: "left_shoulder", "LShoulder", "Left
+/// Finds a landmark by an estimator's name for it, ignoring case and separators: "left_shoulder", "LShoulder", "Left
 /// Big Toe", "mid_hip". Returns kNoLandmark for other names.
 Landmark LandmarkOfName(std::string_view name);
 

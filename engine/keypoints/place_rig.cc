@@ -22,7 +22,7 @@ using enum Landmark;
 struct LengthUnit {
   std::string_view name;
   double metres;
-  double min_stature_m;  ///< rare units must give an adult
+  double min_stature_m;  ///< lower limit of a plausible stature; a rare unit must give an adult
 };
 constexpr double kMinStature = 0.5, kMaxStature = 2.2, kAdult = 1.2;
 constexpr std::array kUnits = {LengthUnit{"m", 1, kMinStature}, LengthUnit{"cm", 0.01, kMinStature},
@@ -203,7 +203,7 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
     }
     return ChosenUp{usual, false, told};
   }
-  // Prefer an axis of the file that is close to what was found.
+  // Prefer an axis of the file that is close to the direction that was found.
   if (camera.empty() && options.up == "auto") {
     for (const FileAxis& axis : kAxes) {
       const glm::dvec3 up = rig.R_WF * axis.direction;
@@ -251,7 +251,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   if (!stature || !person)
     return Fail({}, "no frame shows hips, knees, ankles and shoulders, so the rig's unit and up axis cannot be found");
   RigPlacement place;
-  // Unit, then up axis.
+  // Choose the unit, then the up axis.
   std::string unit_told;
   ASSIGN_OR_RETURN(const double unit, UnitOf(rig, *stature / rig.unit_m, options, unit_told));
   place.scale = unit == rig.unit_m ? 1 : unit / rig.unit_m;
@@ -259,7 +259,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   ASSIGN_OR_RETURN(const ChosenUp chosen, UpOf(rig, *person, found, options));
   place.R = Upright(chosen.up);
   place.stature_m = place.scale * *stature;
-  // The floor.
+  // Choose the floor.
   std::string floor_told = ", the floor as in the file";
   const bool at_feet = options.floor == "feet" || (options.floor == "auto" && chosen.from_the_take);
   if (const auto height = ParseFinite(options.floor)) {

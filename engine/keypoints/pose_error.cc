@@ -14,7 +14,7 @@ using Square = Eigen::Matrix<double, kNumbers, kNumbers>;
 
 int RowOf(Role role) { return 3 * static_cast<int>(role); }
 
-/// Returns the linear map from errors of triangulated joints to errors of all joints.
+/// Returns the linear map from the errors of the triangulated joints to the errors of all joints.
 Square PointsMap() {
   Square map = Square::Identity();
   const auto compose = [&](Role role, Role a, double share_of_a, Role b) {
@@ -77,7 +77,7 @@ Result<PoseErrorForecast> PoseErrorForecast::Of(const BodyPose& pose) {
   ASSIGN_OR_RETURN(const CaptureBody body, BodyOfBones(lengths));
   const auto fit = PoseFitter(body).Fit(TargetsAt(pose));
   if (!fit) return Fail({}, "the pose is not finite");
-  // An orthonormal basis of all displacements of the joints that the body allows.
+  // Compute an orthonormal basis of the displacements of all joints that the body allows.
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> basis(JointDerivatives(body, fit->state));
   const Eigen::MatrixXd reachable =
       basis.householderQ() * Eigen::MatrixXd::Identity(kNumbers, static_cast<Eigen::Index>(basis.rank()));
@@ -92,7 +92,7 @@ Result<PoseErrorForecast> PoseErrorForecast::Of(const BodyPose& pose) {
 std::optional<std::array<JointErrors, kRoleCount>> PoseErrorForecast::At(std::span<const Camera> cameras,
                                                                          const glm::dvec3& shift, SightingErrors errors,
                                                                          std::span<const double> noise_px) const {
-  // Split the covariance into what all joints share (calibration) and what each joint has alone (noise).
+  // Split the covariance into a part that all joints share (calibration) and a part of each joint alone (noise).
   Eigen::MatrixXd common =
       Eigen::MatrixXd::Zero(kNumbers, static_cast<Eigen::Index>(kCalibrationParameters * cameras.size()));
   Square own = Square::Zero();

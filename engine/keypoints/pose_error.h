@@ -24,17 +24,17 @@ struct JointErrors {
 /// Returns false for hip centre, shoulder centre and spine, which lie between triangulated joints.
 bool IsTriangulated(Role role);
 
-/// Computes the errors to be expected of the joints of one pose, as `TriangulatePerson` and `FitPerson` find them, to
-/// first order. Seventeen joints are triangulated; hip centre, shoulder centre and spine lie between them. To first
-/// order, the fitted body is the projection of all positions to those that its angles and its root can reach: J(JᵀJ)⁺Jᵀ
-/// with the derivatives J of the joints. Its bone lengths are medians of many frames and count as exact. *(Ours.)*
+/// Computes, to first order, the expected errors of the joints of one pose that `TriangulatePerson` and `FitPerson`
+/// recover. Seventeen joints are triangulated; hip centre, shoulder centre and spine lie between them. The fitted body
+/// is the projection of all positions to those that its angles and its root can reach: J(JᵀJ)⁺Jᵀ with the derivatives J
+/// of the joints. Its bone lengths are medians of many frames and count as exact. *(Ours.)*
 class PoseErrorForecast {
  public:
-  /// Fails if the pose is not one of a body: two joints coincide.
+  /// Fails if the pose cannot be that of a body, because two joints coincide.
   static Result<PoseErrorForecast> Of(const BodyPose& pose);
 
   /// Returns the errors of all joints if the pose is moved by `shift`, metres; nullopt if some joint cannot be
-  /// triangulated there. Preconditions: those of ExpectedPointError.
+  /// triangulated there. The preconditions are those of ExpectedPointError.
   /// @param noise_px the deviation of each role's keypoints; empty: `errors.noise_px` for all
   std::optional<std::array<JointErrors, kRoleCount>> At(std::span<const Camera> cameras, const glm::dvec3& shift,
                                                         SightingErrors errors,

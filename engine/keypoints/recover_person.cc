@@ -61,7 +61,7 @@ PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
 }
 
 /// Alternates between moving the root by the weighted mean offset of all joints and fitting the angles. The tree's root
-/// is the left toe; without these steps its error would shift the whole body.
+/// is the left toe; without these steps the toe's error would shift the whole body.
 TreeState MoveRoot(const CaptureBody& body, const PoseFitter& fitter, const PoseTargets& wanted, TreeState state) {
   for (int step = 0; step < kRootSteps; ++step) {
     const BodyPose pose = ToBodyPose(body, state);
@@ -125,7 +125,8 @@ std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::sp
 
 namespace {
 
-/// Fills frames without a state with the last one before, or the first one at the start. Precondition: one has a state.
+/// Gives each frame without a state the last state before it, and frames at the start the first state. Precondition: at
+/// least one frame has a state.
 std::vector<TreeState> HoldStates(std::span<const std::optional<TreeState>> states) {
   const auto first = std::ranges::find_if(states, [](const auto& state) { return state.has_value(); });
   assert(first != states.end());
@@ -162,7 +163,7 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
   assert(cameras.size() >= 2 && cameras.size() == people.size());
   RecoveredPerson person;
   person.people = MatchPeople(cameras, people, options.match);
-  // The candidates are those that two cameras or more saw.
+  // The candidates are the people whom at least two cameras saw.
   std::vector<std::size_t> in_space;
   for (std::size_t i = 0; i < person.people.size(); ++i) {
     if (person.people[i].cameras >= 2) in_space.push_back(i);

@@ -27,10 +27,10 @@ Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths);
 Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames);
 
 /// Finds, in every frame, the angles and the root's position that minimise Σ weight · |position − joint|², at least
-/// locally, over the joints that landmarks determine (`JointsOf`). Joints that a frame lacks keep their relative
-/// position of the frame before, with weight 0.01. The spine, which no landmark shows, has a target on the line from
-/// hips to shoulders with weight 1, because otherwise a trunk that appears too short could bend in any direction.
-/// Returns nullopt for frames with fewer than eight joints. *(Ours.)*
+/// locally, over the joints that landmarks determine (`JointsOf`). A joint that a frame lacks gets a target with weight
+/// 0.01 that keeps its relative position from the frame before. The spine, which no landmark shows, has a target on the
+/// line from hips to shoulders with weight 1, because otherwise a trunk that appears too short could bend in any
+/// direction. Returns nullopt for frames with fewer than eight joints. *(Ours.)*
 std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPositions> frames);
 
 struct RecoverPersonOptions {
@@ -41,7 +41,7 @@ struct RecoverPersonOptions {
   double max_gap_s = 0.5;  ///< longer gaps are not filled
   double cutoff_hz = 0;        ///< cutoff of the smoothing of positions; 0: none
   bool mends = false;  ///< use MendPerson, with `triangulate.robust.outlier_px` as the upper limit of OutlierLimit
-  double min_outlier_px = 0;  ///< … and this as its lower limit
+  double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
 
 /// Returns the options for pictures with this longer side, pixels: keypoints that are off by more than 3 % of it are
@@ -77,7 +77,7 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
 /// (MedianBody) and its poses (FitPerson). Fails if some bone is never seen.
 Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOptions& options);
 
-/// Computes clip and poses from the body and its states.
+/// Computes the clip and the motion of `person` from its body and states.
 void ShowStates(RecoveredPerson& person);
 
 /// Recovers the motion of one person from the keypoints of all: LocatePerson, then FitLocated.

@@ -54,14 +54,14 @@ std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> pa
   return std::sqrt((count - 1) / count * squares);
 }
 
-/// A factor on the focal length of one film, or of all films (`film` is nullopt).
+/// A factor on the focal length of one film; if `film` is nullopt, of all films.
 struct FocalGain {
   std::optional<std::size_t> film;
   double gain = 1, error = 0;
   double cost = 0;
 };
 
-/// A reading of relative coordinates as those of a square that contains the picture. `padded` is the share of the
+/// The hypothesis that relative coordinates refer to a square that contains the picture. `padded` is the share of the
 /// square's padding that lies before the picture.
 struct SquareReading {
   double padded;
@@ -238,7 +238,7 @@ class RigChecker {
         return p * side / size - square.padded * (side - size);
       };
       const double share = ShouldersOfLegs(read);
-      // The reading stretches one axis, and the distances with it.
+      // This reading stretches one axis and thereby the distances, so scale the distances back.
       const auto [shorter, longer] = std::minmax(in.width, in.height);
       const double miss_read =
           MedianMiss(as_they_are, read) * static_cast<double>(shorter) / static_cast<double>(longer);

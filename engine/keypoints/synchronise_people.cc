@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// A person of one camera at any time.
+/// A tracked person of one camera, at any time between its frames.
 class MovingPerson {
  public:
   MovingPerson(const SeenPeople& people, const PersonTrack& track) : people_(people), track_(track) {}
@@ -163,7 +163,7 @@ class ClockFinder {
     constexpr double kHalf = 0.5;
     for (int round = 0; round < kRounds; ++round) {
       for (std::size_t c = 1; c < films_.size(); ++c) {
-        // In the first round compare only with the films before it, whose clocks are already found.
+        // In the first round, compare the film only with the films before it, whose clocks are already found.
         const std::size_t others = round == 0 ? c : films_.size();
         const FilmClock given = films_[c].clock;
         const auto before = LossOf(c, given, others);
@@ -181,7 +181,7 @@ class ClockFinder {
   }
 
  private:
-  /// Returns the mean loss over keypoints: each person is compared with the best-fitting person of each of the first
+  /// Returns the mean loss over keypoints: each person is compared with the best-fitting person in each of the first
   /// `others` cameras. Returns nullopt if too few keypoints are shared.
   std::optional<double> LossOf(std::size_t c, const FilmClock& clock, std::size_t others) const {
     constexpr std::size_t kMaxFrames = 60;
@@ -196,7 +196,7 @@ class ClockFinder {
         if (o == c || !geometry_(o, c)) continue;
         const std::vector<SeenPerson> there = PeopleAt(films_[o], films_[o].clock, time);
         for (const SeenPerson& person : here) {
-          // Of the other camera's people, the one of the lowest mean loss counts.
+          // In the other camera, the person with the lowest mean loss counts.
           std::pair<double, std::size_t> best{0, 0};
           for (const SeenPerson& somebody : there) {
             const auto pair = PairLoss(*geometry_(o, c), somebody, person);

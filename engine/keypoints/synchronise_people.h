@@ -14,17 +14,17 @@ struct PeopleSyncOptions {
   FollowOptions follow;
 };
 
-/// Estimates the delay of each camera's pictures *(ours)*, like the overload for marks: its frame k was taken at frame
-/// time k + offset of the first camera. People need not be identified: at each offset, every person tracked in the
-/// first camera is compared with all people of the other, and the one of the lowest mean squared epipolar distance
-/// (`EpipolarGeometry`) counts. A camera whose offset cannot be determined gets 0; the offset of the first camera is 0
-/// by definition.
+/// Estimates the delay of each camera's pictures *(ours)*, like the overload for marks: frame k of a camera was taken
+/// at the first camera's time k + offset. People need not be identified: at each offset, every person tracked in the
+/// first camera is compared with all people of the other camera, and the person with the lowest mean squared epipolar
+/// distance (`EpipolarGeometry`) counts. A camera whose offset cannot be determined gets 0; the offset of the first
+/// camera is 0 by definition.
 /// @param cameras of the rig without distortion; the pixels are undistorted, too
 /// @param people of each camera, each with its own number of frames
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                          const PeopleSyncOptions& options = {});
 
-/// A film's clock: its frame k was taken at offset + (1 + drift) · k, in frames of the first film.
+/// A film's clock: frame k of the film was taken at offset + (1 + drift) · k, in frames of the first film.
 struct FilmClock {
   double offset = 0;
   double drift = 0;
@@ -40,11 +40,11 @@ struct FoundClock {
   FilmClock nearest;             ///< the clock of minimal loss, even if it was not accepted
 };
 
-/// Finds clocks that explain the keypoints much better than the given ones *(ours)*. The search covers offsets of up to
-/// `max_frames` from them and drifts of up to three frames over half of the film; it minimises the mean Geman–McClure
-/// loss of epipolar distances at a scale of 1 % of the height, first on a grid, then with ever smaller steps down to
-/// 1/500 of a frame. A clock is changed only if that halves the loss, because wrong keypoints alone are not evidence of
-/// a wrong clock.
+/// Finds clocks that explain the keypoints much better than the given ones *(ours)*. The search covers offsets that
+/// differ by up to `max_frames` from the given ones, and drifts of up to three frames over half of the film. It
+/// minimises the mean Geman–McClure loss of epipolar distances at a scale of 1 % of the height, first on a grid, then
+/// with ever smaller steps down to 1/500 of a frame. A clock is changed only if that halves the loss, because wrong
+/// keypoints alone are not evidence of a wrong clock.
 std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                    std::span<const FilmClock> given, int max_frames, const FollowOptions& options);
 

@@ -33,11 +33,11 @@ class GltfCurve {
   static Result<GltfCurve> Read(GltfFile& file, int animation, int sampler, std::size_t width);
 
   const std::vector<double>& times() const { return times_; }
-  /// Returns the number of times; times within microseconds of the one before, as separate keys for three axes have,
-  /// count once.
+  /// Returns the number of distinct times. Times that differ by microseconds count once; they occur if a file has
+  /// separate keys for three axes.
   std::size_t CountTimes() const;
   GltfInterpolation interpolation() const { return interpolation_; }
-  /// Returns true if any key differs from the first by more than rounding to floats explains.
+  /// Returns true if any key differs from the first by more than the rounding to floats.
   bool Moves() const;
   /// Returns the value at a time, which is constant before the first key and after the last. Rotations have length 1.
   Value At(double time) const;
@@ -231,10 +231,10 @@ bool LiesOnGrid(const std::vector<double>& times, double start, double rate_hz) 
   });
 }
 
-/// Returns the rate at which sampling loses no information: that of evenly spaced keys with linear interpolation; else
-/// the default rate.
+/// Returns the rate of the keys if all moving properties are linear with evenly spaced keys, because sampling at this
+/// rate loses no information; otherwise returns the default rate.
 double RateOf(const std::vector<Channel>& channels, double start) {
-  // Exporters give resting joints only two keys, at both ends; these say nothing about the rate.
+  // Exporters give resting joints only two keys, at both ends. These keys say nothing about the rate.
   const bool any_moves = std::ranges::any_of(channels, [](const Channel& channel) { return channel.curve.Moves(); });
   const auto counts = [&](const Channel& channel) { return !any_moves || channel.curve.Moves(); };
   const GltfCurve* densest = nullptr;
@@ -292,7 +292,7 @@ class ClipReader {
     // Read each channel's target and curve.
     for (std::size_t i = 0; i < animation.channels.size(); ++i) {
       const tinygltf::AnimationChannel& source = animation.channels[i];
-      if (source.target_node == kNoIndex) continue;  // its target has no node
+      if (source.target_node == kNoIndex) continue;  // the channel has no target node
       const std::string where = fmt::format("animations[{}].channels[{}]", index, i);
       RETURN_IF_ERROR(file_.CheckIndex(source.sampler, animation.samplers.size(), where + ".sampler"));
       Property property;
@@ -303,7 +303,7 @@ class ClipReader {
       } else if (source.target_path == "scale") {
         property = Property::kScale;
       } else if (source.target_path == "weights") {
-        continue;  // of morph targets, which are not read
+        continue;  // weights of morph targets are not read
       } else {
         return file_.Refuse(where + ".target.path", "found {}; allowed: translation, rotation, scale, weights",
                             Quote(source.target_path));
@@ -346,7 +346,8 @@ class ClipReader {
     return {};
   }
 
-  /// Returns the animation's name as in the file; an unnamed one is named by its index, and duplicates get a number.
+  /// Returns the animation's name as in the file; an unnamed animation is named by its index, and duplicate names get a
+  /// number.
   std::string UniqueName(int index) {
     const std::string& given = At(index).name;
     const std::string base = given.empty() ? fmt::format("animation_{}", index) : given;

@@ -76,7 +76,7 @@ class JsonShape {
           while (i < json.size() && json[i] != '"') i += json[i] == '\\' ? 2 : 1;
           if (i >= json.size()) return Fail(place, "a string of the JSON has no end");
           if (depth_ == 1) key_ = json.substr(start, i - start);
-          // An escaped name could be "buffers" without being recognised below.
+          // Refuse escaped keys: an escaped form of "buffers" would not be recognised below.
           if (depth_ == 1 && key_.find('\\') != std::string_view::npos) {
             return Fail(place, "found {} at the top of the JSON; allowed: names without '\\'", Quote(key_));
           }

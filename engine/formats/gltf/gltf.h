@@ -29,8 +29,8 @@ struct GltfContent {
 /// material has no texture.
 using FetchFile = std::function<Result<std::string>(const std::string& uri)>;
 
-/// Decodes a PNG or JPEG file with at most `max_pixels` pixels. An error tells what is wrong with the picture, but not
-/// where it is.
+/// Decodes a PNG or JPEG file with at most `max_pixels` pixels. The error describes what is wrong with the picture,
+/// without its place in the file.
 using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, std::size_t max_pixels)>;
 
 /// Reads glTF 2.0 as text (.gltf) or binary (.glb), in metres with Y up, as the format defines. Without `fetch`, the
@@ -49,12 +49,15 @@ using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, 
 /// the four largest weights are used. Surfaces without normals get flat ones. Colours are base colour factors,
 /// multiplied by base colour textures if `decode` is given (PNG, JPEG; others are ignored); transparency is not read.
 ///
-/// Returns an error that names the position in the JSON for anything that is not glTF 2.x; required extensions except
-/// those for materials, textures and lights, quantised meshes, and Draco's compressed meshes (which are left out);
-/// indices out of range; accessors outside their buffers; cycles or nodes with two parents; excessive sizes (as for BVH
-/// 1,024 joints and 128 levels; 200 MB of frames, 2 million triangles, 256 MB of files, 64 million pixels of textures,
-/// 500 bytes per name); damaged pictures; times that do not ascend; numbers that are not finite or beyond ±10⁹; URIs
-/// that leave the file's folder.
+/// Returns an error that names the position in the JSON for:
+/// - anything that is not glTF 2.x;
+/// - required extensions, except those for materials, textures, lights, quantised meshes and Draco's compressed meshes
+///   (compressed meshes are left out);
+/// - indices out of range, accessors outside their buffers, cycles, or nodes with two parents;
+/// - excessive sizes (as for BVH 1,024 joints and 128 levels; 200 MB of frames, 2 million triangles, 256 MB of files,
+///   64 million pixels of textures, 500 bytes per name);
+/// - damaged pictures, times that descend, numbers that are not finite or beyond ±10⁹, and URIs that leave the file's
+///   folder.
 Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, const FetchFile& fetch,
                              const DecodePicture& decode = {});
 

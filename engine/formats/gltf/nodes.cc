@@ -65,8 +65,8 @@ class NodeReader {
     return {};
   }
 
-  /// Returns the error for a node that is nested too deep or lies below a cycle; a path longer than the number of nodes
-  /// must contain a cycle.
+  /// Returns the error for a node that is nested too deep or lies below a cycle: a path longer than the number of nodes
+  /// contains a cycle.
   Result<void> TooDeep(int node) const {
     std::size_t steps = 0;
     for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {

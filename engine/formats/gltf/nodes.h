@@ -32,7 +32,7 @@ Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const
                            const std::string& where);
 
 /// Returns true if the squared length of a vector or quaternion is 1 within the precision of floats. Such vectors are
-/// not normalised, so that writing and reading a file does not change them.
+/// left as they are, so that reading and writing a file does not change them.
 bool IsUnit(double square_length);
 
 /// Returns the rotation of a quaternion in glTF's order x, y, z, w, of any length above 0.

@@ -39,7 +39,8 @@ struct Fetcher {
   }
 };
 
-/// Returns true if a file is a picture, because the parser requests pictures in the same way as buffers.
+/// Returns true if a URI names a picture. The parser requests pictures in the same way as buffers, so only the
+/// extension tells them apart.
 bool IsPicture(const std::string& uri) {
   constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".gif"};
   std::string lower = uri;
@@ -122,8 +123,8 @@ bool KeepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, 
   return true;
 }
 
-/// Returns the first real error of tinygltf, which reports its errors as lines of one text and continues if possible.
-/// Warnings about optional properties are ignored.
+/// Returns the first real error in tinygltf's text, which has one line per error; tinygltf continues after an error if
+/// possible. Warnings about optional properties are ignored.
 std::string Complaint(std::string_view text) {
   constexpr std::array<std::string_view, 3> kHarmless = {
       "'inverseBindMatrices' property is missing in Skin.",  // optional since 2.0
@@ -199,7 +200,8 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
   return {};
 }
 
-/// Refuses index lists without a buffer view: tinygltf 2.7 refuses them, 2.9 reads them as zeros. CheckCounts has passed.
+/// Refuses index lists without a buffer view: tinygltf 2.7 refuses them, 2.9 reads them as zeros. Precondition:
+/// CheckCounts has passed.
 Result<void> CheckIndexLists(const nlohmann::json& json, const std::string& file) {
   const nlohmann::json::json_pointer to_meshes("/meshes"), to_accessors("/accessors");
   if (!json.contains(to_meshes) || !json.contains(to_accessors) || !json[to_accessors].is_array()) return {};
@@ -327,7 +329,8 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   if (!is_read || !complaint.empty()) {
     // A file that could not be fetched is an error only if it was needed.
     if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
-    // Our own complaint is the same with every version of tinygltf; files of glTF 1 have names where 2.0 has numbers.
+    // Prefer our own complaints, which are the same with every version of tinygltf. They apply to glTF 2 only, because
+    // glTF 1 has names where 2.0 has numbers.
     const nlohmann::json::json_pointer version("/asset/version");
     if (json.contains(version) && json[version].is_string() && json[version].get<std::string>().starts_with("2")) {
       RETURN_IF_ERROR(CheckCounts(json, "", file));

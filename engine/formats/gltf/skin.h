@@ -14,7 +14,8 @@ struct Primitive;
 
 namespace etude {
 
-/// Returns the joints to which a node's mesh is bound: those of its skin, or the node itself.
+/// Returns the joints to which a node's mesh is bound: the joints of the node's skin, or the node itself if it has no
+/// skin.
 Result<std::vector<SkinnedMesh::Binding>> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int node);
 
 /// Reads the joints and weights of a mesh whose bindings and vertices are known. It keeps the four largest weights of a

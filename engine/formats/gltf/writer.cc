@@ -150,7 +150,7 @@ std::array<Track, 3> TracksOf(const Skeleton& skeleton, const Clip& clip, std::s
   return tracks;
 }
 
-/// Adds a channel whose number of keys is that of the accessor `input`: one, or one per frame.
+/// Adds a channel whose keys are at the times in accessor `input`: one key, or one per frame.
 void AddTrack(tinygltf::Model& model, tinygltf::Animation& animation, const Track& track, int input) {
   const std::size_t count = model.accessors[static_cast<std::size_t>(input)].count;
   const auto width = static_cast<std::size_t>(track.width);
@@ -178,7 +178,7 @@ void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& c
   for (std::size_t joint = 0; joint < skeleton.joints.size(); ++joint) {
     for (Track& track : TracksOf(skeleton, clip, joint)) tracks.push_back(std::move(track));
   }
-  // An animation needs at least one channel, and one of full length even if nothing moves.
+  // An animation needs at least one channel. If nothing moves, one channel needs all keys, so that the length is kept.
   const bool all_still = std::ranges::all_of(tracks, &Track::IsStill);
   const int times = AddTimes(model, clip.frames.size(), clip.rate_hz);
   int first_time = -1;  // created on first use
