@@ -33,7 +33,7 @@ constexpr std::array<BodyTreeLimb, kBodyTreeJointCount> kLimbs = {{
     {kRightAnkle, kRightFoot},
 }};
 
-// R_WL of limbs when the body stands at rest, facing +Z. Columns are X, Y, Z.
+// R_WL of limbs when the body stands at rest, facing +Z. The columns are the limb's X, Y and Z axes.
 const glm::dvec3 kRight(-1, 0, 0), kUp(0, 1, 0), kForward(0, 0, 1);
 const glm::dmat3 kClimbing(kRight, kForward, kUp);
 const glm::dmat3 kHipLine(kForward, kUp, kRight);
@@ -167,7 +167,7 @@ Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double
   Clip clip;
   clip.name = name;
   clip.rate_hz = rate_hz;
-  // The skeleton: offsets between the joints of the rest pose.
+  // Make the skeleton from the offsets between the joints of the rest pose.
   const TreeFrames rest_frames = ComputeFrames(body, StandingState(body));
   const BodyPose rest = ToBodyPose(body, rest_frames);
   for (const ClipJointRow& row : kClipJoints) {
@@ -175,7 +175,7 @@ Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double
     clip.skeleton.joints.push_back({std::string(row.name), row.parent, {.translation = offset}, row.is_end});
   }
 
-  // Each frame: the world rotation of every joint, then its rotation relative to its parent.
+  // In each frame, compute the world rotation of every joint, then its rotation relative to its parent.
   clip.frames.reserve(states.size());
   TreeFrames frames;
   std::array<glm::dquat, kClipJoints.size()> R_WC;  // rotation of each clip joint, identity at rest

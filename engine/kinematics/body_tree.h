@@ -24,7 +24,7 @@ struct LimbLengths {
   double hand = 0.18;  ///< wrist to finger tips
 };
 
-/// A length and its name in files.
+/// A limb length and its name in files.
 struct NamedLength {
   const char* name;
   double LimbLengths::*length;
@@ -66,8 +66,8 @@ enum BodyTreeJoint {
 
 /// Returns paper B's body (figure 3.10): rooted at the left toe, with 15 joints, 29 degrees of freedom, limits `adult`
 /// and the effectors right foot, left hand, right hand, head, in this order. At rest (all angles zero) it stands with
-/// hanging arms. *Ours*: its feet are level in the rest pose, because on real clips this keeps the ankles within their
-/// limits most often.
+/// hanging arms. *Ours*: its feet are level in the rest pose, because this choice keeps the ankles within their limits
+/// most often on real clips.
 KinematicTree MakeBodyTree(const LimbLengths& lengths);
 
 /// One limb of the tree, named by two roles of the canonical body.

@@ -23,7 +23,7 @@ struct CaptureBody {
     Role role;
     bool has_position = true;
     bool has_direction = true;
-    double sense = 1;  ///< −1 if the tree's limb runs against the stroke, which leads away from the trunk
+    double sense = 1;  ///< −1 if the tree's limb points towards the trunk; strokes point away from it
   };
   /// The twist of a limb, given by two neighbouring limbs: its X axis points along `bends` · (middle − upper) × (lower
   /// − middle).
@@ -63,25 +63,26 @@ CaptureBody PaperBody(const LimbLengths& lengths);
 /// Makes a body for one person from a rest pose: every joint of `rest` that lies between two of the twenty roles
 /// becomes a joint of the tree, so the tree can follow everything the person does. The tree is rooted at the left toe,
 /// where the whole body turns freely. *(Ours.)*
-/// - Joints without a role beyond them are left out. A joint between the pelvis and a hip, as skeletons of depth
-///   sensors have it, stays (`hips_turn`).
+/// - Joints without a role beyond them are left out. A joint between the pelvis and a hip, as in skeletons of depth
+///   sensors, is kept (`hips_turn`).
 /// - A limb with one child along its own line has two degrees of freedom, which point it in any direction; its rotation
-///   about itself is not visible. Three degrees of freedom have: the pelvis, limbs with several children, limbs whose
-///   points do not lie on one line, and the upper arms, the right thigh and the left shank, whose rotation turns the
-///   plane in which elbow or knee bends.
+///   about itself is not visible.
+/// - These limbs have three degrees of freedom: the pelvis, limbs with several children, limbs whose points do not lie
+///   on one line, and the upper arms, the right thigh and the left shank, whose rotation turns the plane in which elbow
+///   or knee bends.
 /// - Joints turn freely, because the range of this person's joints is unknown. Only angles of joints that coincide with
 ///   no role (toes, the middle of the neck) are limited, to ±90°.
 /// Fails with a reason if a role is not connected to the pelvis or a limb has no length.
 Result<CaptureBody> FittedBody(const RestBody& rest);
 
-/// Returns the twenty joints of a pose of the tree.
+/// Returns the twenty joints of the body in the pose `state`.
 BodyPose ToBodyPose(const CaptureBody& body, const TreeState& state);
 BodyPose ToBodyPose(const CaptureBody& body, const TreeFrames& frames);
 
-/// Makes the inverse-kinematics problem that follows a start pose: move the ends back to their observed positions and
-/// point the last limbs in their observed directions, where `CaptureBody::ends` says that a limb has one. X and Y axes
-/// of a target are those of the start pose, turned by the smallest rotation, with weight 0. Parts that `observation`
-/// lacks have weight 0. The limits are those of the tree.
+/// Makes the inverse-kinematics problem that follows a start pose: move the ends back to their observed positions, and
+/// point the last limbs in their observed directions if `CaptureBody::ends` gives them a direction. The smallest
+/// rotation to that direction also turns the X and Y axes of the start pose into those of the target, which have weight
+/// 0. Parts that `observation` lacks have weight 0. The limits are those of the tree.
 IkProblem MakeImageProblem(const CaptureBody& body, const LimbObservation& observation, const TreeState& start);
 
 /// Returns a motion of the body as a clip with its own skeleton: metres, Y up, rooted at the hips. The conversion is

@@ -15,7 +15,7 @@ using enum Role;
 constexpr double kSamePositionM = 1e-6;
 constexpr double kMinLimbLengthM = 1e-4;
 constexpr double kMaxOffLineM = 1e-4;
-// A range without effect: angles start within half a turn of zero, so they never reach ±3π.
+// A range without effect: start angles are within half a turn of zero, so no angle reaches ±3π.
 constexpr double kUnlimited = 3 * kPi;
 // The limit of a joint that does not coincide with a role.
 constexpr double kMaxHiddenAngle = Radians(90);
@@ -46,8 +46,8 @@ class Parts {
     return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
   }
 
-  /// Removes parts that are not below the pelvis or have no tips. Parts that turn about the same point get the same
-  /// parent.
+  /// Removes parts that do not belong to the pelvis or its descendants, and parts without tips. Parts that turn about
+  /// the same point get the same parent.
   void Simplify() {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].is_left_out = !IsBelowPelvis(static_cast<int>(i));
     for (const Role role : AllRoles()) AssignToParent(role);
@@ -104,7 +104,7 @@ class Parts {
     while (carrier != pelvis_ && AreSame(all_[carrier].at, positions_[role])) carrier = all_[carrier].parent;
   }
 
-  // Leaves out one part without tips. Returns false if there is none.
+  // Removes one part without tips. Returns false if there is none.
   bool LeaveOutOne() {
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const int part = static_cast<int>(i);
@@ -153,20 +153,20 @@ class Builder {
   explicit Builder(const Parts& parts) : parts_(parts), limb_of_(parts.size(), -1) {}
 
   Result<CaptureBody> Build() {
-    // The left leg, from the toe to the pelvis, where parent and child of the rest body change roles.
+    // Add the left leg, from the toe to the pelvis. A limb's parent in the rest body is its child in the tree.
     AddRoot();
     int below = -1;
     for (int part = parts_.CarrierOf(kLeftFoot); part >= 0; part = parts_[part].parent) {
       RETURN_IF_ERROR(AddLeftLegLimb(part, below));
       below = part;
     }
-    // All other parts, parents first.
+    // Add all other parts, parents first.
     for (std::size_t limb = 1; limb < order_.size(); ++limb) {  // order_ grows inside the loop
       for (const int child : parts_.ChildrenOf(order_[limb])) {
         if (limb_of_[child] < 0) RETURN_IF_ERROR(AddOutwardLimb(child));
       }
     }
-    // What pictures show of the body, and its skeleton as a clip.
+    // Describe what pictures show of the body, and make its skeleton as a clip.
     PlaceRoles();
     AddTwists();
     AddEnds();
@@ -181,7 +181,7 @@ class Builder {
     rest_axes_.push_back(glm::dmat3(1));
   }
 
-  // Adds one limb of the left leg or the pelvis, which begins where the limb below it ends.
+  // Adds the limb of a part of the left leg, or of the pelvis. It begins at the end of limb `below`.
   Result<void> AddLeftLegLimb(int part, int below) {
     RestLimb limb;
     limb.from = below < 0 ? parts_.places()[kLeftFoot] : parts_[below].at;
@@ -221,16 +221,16 @@ class Builder {
     if (!(glm::distance(limb.from, limb.to) > kMinLimbLengthM)) {
       return Fail({}, "'{}' of the body at rest has no length", parts_[part].name);
     }
-    // If the parent turns about the same point, attach the limb to the first ancestor that does not.
+    // If the parent turns about the same point, attach the limb to the first ancestor that turns about another point.
     while (parent > 0 && AreSame(OriginOf(parent), limb.from)) parent = body_.tree.joints[parent].parent;
-    // Axes at rest, and the axes at which all angles are zero.
+    // Set the axes at rest, and the axes at which all angles are zero.
     TreeJoint joint{.name = {}, .parent = parent};
     const glm::dmat3 R_WL = RestAxes(part, limb);
     joint.p_PJ = glm::transpose(rest_axes_[parent]) * (limb.from - OriginOf(parent));
     joint.R_PJ = glm::transpose(rest_axes_[parent]) * NeutralAxes(limb, R_WL);
     joint.first_dof = body_.tree.dof_count();
     joint.dof_count = DofsOf(part, limb);
-    // Limits of its angles.
+    // Set the limits of the angles.
     const double max_angle = IsHidden(part, limb.from) ? kMaxHiddenAngle : kUnlimited;
     for (int dof = 0; dof < joint.dof_count; ++dof) body_.tree.limits.push_back({-max_angle, max_angle});
     limb_of_[part] = static_cast<int>(body_.tree.joints.size());
@@ -269,7 +269,7 @@ class Builder {
     return {x, glm::cross(kDownwards, x), kDownwards};
   }
 
-  // Returns 3 for limbs whose rotation about themselves is visible, else 2.
+  // Returns 3 for limbs whose rotation about their own axis is visible, else 2.
   int DofsOf(int part, const RestLimb& limb) const {
     const bool is_branched = parts_.ChildrenOf(part).size() > 1 || part == parts_.pelvis();
     const glm::dvec3 z = glm::normalize(limb.to - limb.from);
@@ -325,7 +325,7 @@ class Builder {
   }
 
   // Adds paper B's four ends. The left foot needs no target position, because the root is put at its observed position;
-  // only the direction of its limb is a target.
+  // only the direction of the foot's limb is a target.
   void AddEnds() {
     for (const Role role : {kRightFoot, kLeftHand, kRightHand, kHead}) AddEnd(role, true);
     AddEnd(kLeftFoot, false);
@@ -347,7 +347,7 @@ class Builder {
   }
 
   void AddSkeleton() {
-    // One skeleton joint per part, parents first, from the pelvis outwards.
+    // Make one skeleton joint per part, parents first, from the pelvis outwards.
     std::vector<int> joint_of(parts_.size(), -1);
     std::vector<int> next{parts_.pelvis()};
     for (std::size_t i = 0; i < next.size(); ++i) {
@@ -363,7 +363,7 @@ class Builder {
       const std::vector<int> children = parts_.ChildrenOf(part);
       next.insert(next.end(), children.begin(), children.end());
     }
-    // The five ends of the body as end sites.
+    // Add the five ends of the body as end sites.
     body_.skeleton_root = PointAt(parts_[parts_.pelvis()].at, parts_.pelvis());
     for (const Role role : {kHead, kLeftHand, kRightHand, kLeftFoot, kRightFoot}) {
       const int part = parts_.CarrierOf(role);

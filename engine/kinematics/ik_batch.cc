@@ -55,6 +55,7 @@ void IkBatch::Set(int problem_index, const IkProblem& problem) {
 }
 
 IkProblem IkBatch::Get(int problem_index) const {
+  // Read the column's numbers one after the other, in the order of `Column`.
   const double* from = numbers_.data() + problem_index;
   const auto take = [&] {
     const double number = *from;
@@ -63,6 +64,7 @@ IkProblem IkBatch::Get(int problem_index) const {
   };
   const auto take_all = [&](double* numbers, int count) {
     for (int n = 0; n < count; ++n) numbers[n] = take();
+  // Fill the problem in that order.
   };
   IkProblem problem;
   problem.start.angles.resize(dofs_);
@@ -84,7 +86,7 @@ IkProblem IkBatch::Get(int problem_index) const {
 
 // Works row by row without branches, so that compilers vectorise it. Every check is a comparison that fails for NaN.
 std::vector<int> IkBatch::FindSound() const {
-  // These checks set faults[n] for every problem n that fails them.
+  // Each check sets faults[n] for every problem n that fails it.
   const std::size_t count = count_;
   std::vector<std::int64_t> faults(count);  // as wide as a double, for vectorisation
   const auto demand = [&](const auto& holds) {
@@ -107,14 +109,14 @@ std::vector<int> IkBatch::FindSound() const {
       return std::abs(determinant - 1) < kFrameTolerance;
     });
   };
-  // Angles and limits are finite and in order.
+  // Check that angles and limits are finite and in order.
   for (int dof = 0; dof < dofs_; ++dof) {
     demand_sane(start_angles(dof));
     demand_sane(lower_limits(dof));
     demand_sane(upper_limits(dof));
     demand([lower = lower_limits(dof), upper = upper_limits(dof)](std::size_t n) { return lower[n] <= upper[n]; });
   }
-  // The root and every target are orthonormal frames at a sane position, with non-negative weights.
+  // Check that the root and every target are orthonormal frames at a sane position, with non-negative weights.
   for (int k = 0; k < 3; ++k) demand_sane(root(k));
   demand_frame([this](int k) { return root(3 + k); });
   for (int e = 0; e < effectors_; ++e) {

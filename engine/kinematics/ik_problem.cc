@@ -30,7 +30,7 @@ inline bool IsUnit(const glm::dvec3& axis) { return std::abs(glm::dot(axis, axis
 
 inline bool IsWeight(double weight) { return (weight >= 0) & (weight <= kMaxIkValue); }
 
-// True for unit axes at right angles to each other that form a right-handed frame.
+// Returns true for unit axes at right angles to each other that form a right-handed frame.
 inline bool IsAFrame(const glm::dmat3& axes) {
   return IsUnit(axes[0]) & IsUnit(axes[1]) & IsUnit(axes[2]) & (std::abs(glm::determinant(axes) - 1) < kFrameTolerance);
 }
@@ -40,8 +40,8 @@ inline bool IsGood(const EffectorTarget& target) {
          IsWeight(target.axis_weights.z) & IsSane(target.position) & IsAFrame(target.axes);
 }
 
-// True if the first joint is the only root and does not turn, parents come before children, degrees of freedom are
-// numbered consecutively, and all indices are valid.
+// Returns true if the first joint is the only root and does not turn, parents come before children, degrees of freedom
+// are numbered consecutively, and all indices are valid.
 bool IsATree(const KinematicTree& tree) {
   const int joints = static_cast<int>(tree.joints.size());
   int dofs = 0;
@@ -92,7 +92,7 @@ Branch BranchOf(const KinematicTree& tree, const FixedPoint& point, std::span<co
   return branch;
 }
 
-// Returns the largest possible distance of two points: the limbs between them, stretched out.
+// Returns the largest possible distance between two points: the length of the limbs between them when stretched out.
 double LongestBetween(const KinematicTree& tree, const FixedPoint& a, const FixedPoint& b) {
   const Branch to_a = BranchOf(tree, a, b.joints), to_b = BranchOf(tree, b, a.joints);
   if (to_a.top < 0 || to_b.top < 0) return to_a.length + to_b.length;
@@ -177,7 +177,7 @@ std::string_view FindTreeFault(const KinematicTree& tree) {
   if (!IsATree(tree)) return "the joints are not a tree that begins with its root";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
-    // A joint may coincide with the root, which lets the whole tree turn.
+    // A child of the root may coincide with the root; such a joint lets the whole tree turn.
     if (!IsSane(joint.p_PJ) || (joint.parent > 0 && glm::length(joint.p_PJ) <= 0)) return "a limb has no length";
   }
   for (const Effector& effector : tree.effectors) {

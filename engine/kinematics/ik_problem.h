@@ -14,22 +14,22 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// How an end effector's position error is weighted relative to the errors of its three axes. Paper B, section 3.7.3,
-/// proposes weights that depend on the errors but gives no formula; the formulas are ours. e = distance to the target
-/// in cm, θ_k = angle of axis k to its target axis.
+/// The rule for weighting an end effector's position error against the errors of its three axes. Paper B, section
+/// 3.7.3, proposes weights that depend on the errors but gives no formula; the formulas are ours. Here e is the
+/// distance to the target in cm, and θ_k the angle of axis k to its target axis.
 enum class WeightRule {
   kFixed,          ///< w_p = 1, w_o = 1
   kFixedTuned,     ///< w_p = 0.0015, w_o = 1
-  kAdaptive,       ///< w_p = e, w_ok = θ_k in degrees: B's rule, plain
+  kAdaptive,       ///< w_p = e, w_ok = θ_k in degrees: B's proposal without factors
   kAdaptiveTuned,  ///< w_p = 0.003 e, w_ok = θ_k in degrees
   kAdaptivePower,  ///< w_p = 5·10⁻⁵ e^0.75, w_ok = θ_k^0.75, radians
   kWangChen,       ///< w_p = 0.0007 (1 + min/max(|P_d|, |P_c|)), w_o = 1 (Wang and Chen 1991)
 };
 
-/// When a sweep recomputes adaptive weights: once per sweep, per joint, or per degree of freedom.
+/// How often a sweep recomputes adaptive weights: once per sweep, per joint, or per degree of freedom.
 enum class WeightRefresh { kSweep, kJoint, kDof };
 
-/// The names that scenario files use: "fixed", "fixed-tuned", … and "sweep", "joint", "dof".
+/// Returns the names that scenario files use: "fixed", "fixed-tuned", … and "sweep", "joint", "dof".
 const std::vector<std::string>& WeightRuleNames();
 const std::vector<std::string>& WeightRefreshNames();
 std::optional<WeightRule> FindWeightRule(std::string_view name);
@@ -51,7 +51,7 @@ struct WeightFormula {
   ErrorPower power = ErrorPower::kNone;
 };
 
-/// Returns the rule in SI units; for `kWangChen` without the factor 1 + ρ.
+/// Returns the rule in SI units; for `kWangChen` the formula lacks the factor 1 + ρ.
 WeightFormula FormulaOf(WeightRule rule);
 
 /// Returns true if the weights depend on the errors. The weights of `kWangChen` do not; they depend on the joint that
@@ -74,8 +74,8 @@ struct EffectorTarget {
   glm::dvec3 axis_weights{1};  ///< multiplies w_o of each axis; (0, 0, 1) when only the limb's direction is known
 };
 
-/// Find angles that bring every end effector to its target. The search begins at the angles of `start`; the root of
-/// `start` stays fixed.
+/// The problem of finding angles that bring every end effector to its target. The search begins at the angles of
+/// `start`; the root of `start` stays fixed.
 struct IkProblem {
   TreeState start;
   std::vector<EffectorTarget> targets;  ///< one per effector of the tree, in its order
@@ -104,10 +104,10 @@ struct IkOptions {
   /// Maximum difference between an angle and its start angle, radians (paper B, section 3.7.2). Empty: unlimited.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;
-  /// A pose has converged if every effector is nearer to its target than `position_goal` and every single axis of it
-  /// nearer than `axis_goal`; axes and positions of weight 0 do not count. (A mean over the axes would accept a twisted
-  /// limb, because a twist does not change the limb's own axis.) The defaults, 0.1 cm and 0.1°, mean "solved
-  /// practically".
+  /// A pose has converged if every effector is nearer to its target than `position_goal`, and each of its axes is
+  /// nearer to the target's axis than `axis_goal`. Axes and positions of weight 0 do not count. (A mean over the axes
+  /// would accept a twisted limb, because a twist does not change the limb's own axis.) The defaults, 0.1 cm and 0.1°,
+  /// mean "solved practically".
   double position_goal = 0.001;     ///< metres
   double axis_goal = Radians(0.1);  ///< radians
   /// A solver has stalled if no angle moves by more than this in one iteration, radians. The default is far below any
@@ -134,7 +134,7 @@ struct EffectorError {
   double position = 0;        ///< metres
   glm::dvec3 axis_angles{0};  ///< between each axis and its target axis, radians
 
-  /// Returns the mean over the axes whose weight is positive, radians; 0 if there is none.
+  /// Returns the mean angle over the axes whose weight is positive, radians; 0 if there is none.
   double MeanAxisAngle(const glm::dvec3& axis_weights) const;
 };
 
@@ -156,8 +156,8 @@ struct IkSolution {
   std::vector<IkTraceEntry> trace;
 };
 
-/// Upper bound on the magnitude of every number of a problem (in metres: 1,000 km). Beyond it, squared distances lose
-/// the digits that the goals depend on.
+/// Upper bound on the magnitude of every number of a problem (in metres: 1,000 km). For larger numbers, squared
+/// distances lose the digits that the goals depend on.
 inline constexpr double kMaxIkValue = 1e6;
 /// Tolerances on the squared length of an axis and on the determinant of a frame, which should both be 1.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
@@ -167,8 +167,8 @@ inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 /// exceed `kMaxIkValue`; limbs of zero length (a joint may coincide with the root); limits with lower > upper; axes
 /// that are not orthonormal; negative weights; an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
-/// The same checks in parts: of tree and options, of the tree, of the options, and of one problem of a tree without
-/// faults.
+/// These make parts of the same checks: of tree and options, of the tree, of the options, and of one problem of a tree
+/// without faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
 std::string_view FindTreeFault(const KinematicTree& tree);
 std::string_view FindFault(const IkOptions& options);
@@ -182,7 +182,7 @@ bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem);
 /// Returns the range that every angle may take: the intersection of its limits (if on) with the angle-change tolerance
 /// around its start angle. The start angle is first clamped into its limits, so the intersection is never empty.
 std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options);
-/// Returns the range of one angle, as above.
+/// Returns the range that one angle may take, by the rule of `AllowedRanges`.
 AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options);
 
 /// Returns the distance of an effector from its target, and the angles between their axes.

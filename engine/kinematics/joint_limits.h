@@ -20,7 +20,7 @@ enum class LimitSet {
   kAma,
 };
 
-/// The names that scenario files use: "adult", "aaos", "kendall", "hoppenfeld", "ama".
+/// Returns the names that scenario files use: "adult", "aaos", "kendall", "hoppenfeld", "ama".
 const std::vector<std::string>& LimitSetNames();
 std::optional<LimitSet> FindLimitSet(std::string_view name);
 
@@ -28,11 +28,11 @@ std::optional<LimitSet> FindLimitSet(std::string_view name);
 /// movements of a body in the anatomical position: standing, palms forward. The mapping from movements to the axes of
 /// the tree is *ours*; the left side mirrors the right side:
 /// - X is flexion and extension (hips, knees, ankles, trunk, neck, shoulders, elbows, wrists); Y is abduction, the
-///   wrist's radial abduction, and lateral bending of trunk and neck; Z is rotation about the limb. The foot's
-///   inversion turns its toes inward, which is Y; the ankle at the root has no such axis.
+///   wrist's radial abduction, and lateral bending of trunk and neck; Z is rotation about the limb. Inversion of the
+///   foot turns its toes inward and is therefore a rotation about Y; the ankle at the root has no such axis.
 /// - The tree runs up the left leg, so the left hip's angles turn the pelvis about the thigh: X is abduction
 ///   (negative), Y outer (negative) and inner rotation, Z flexion (negative). Each angle alone has the same range of
-///   movement as on the right side; but combined angles are composed in another order than at the right hip.
+///   movement as on the right side. Several angles together are composed in another order than at the right hip.
 /// - |Y| is limited to 80°, below the singularity of the three Euler angles at 90°. This shortens the shoulder's
 ///   abduction.
 /// - The table has no shoulder adduction, so it is taken from `adult`. The tree has no axis for pronation and

@@ -97,7 +97,7 @@ class Completer {
                             : Lacks(kHead)   ? like_[kHipCentre]
                                              : whole_.ends[kHead] - neck - trunk;
     const glm::dvec3 shoulders = seen_shoulders.value_or(hips + trunk);
-    // Extend the limbs from there to the missing ends.
+    // Extend the limbs from these midpoints to the missing ends.
     PutEnds(legs, hips);
     PutEnds(arms, shoulders);
     if (Lacks(kHead)) whole_.ends[kHead] = shoulders + neck;
@@ -168,7 +168,7 @@ std::span<const Role, 13> ObservedLimbs() { return kObserved; }
 std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const LimbLengths& lengths) {
   if (!IsUsable(observation) || !IsValid(lengths)) return std::nullopt;
   BodyPose joints;
-  // Figure 3.2(a): the legs, the arms.
+  // Figure 3.2(a): build the chains of the legs, then of the arms.
   ChainBuilder chain_builder(observation, joints);
   chain_builder.From(kLeftFoot).To(kLeftAnkle, lengths.foot).To(kLeftKnee, lengths.shank).To(kLeftHip, lengths.thigh);
   chain_builder.From(kRightFoot)
@@ -204,7 +204,7 @@ std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const
   Shift(kLeftArm, joints[kShoulderCentre] - half_width - joints[kLeftShoulder], joints);
   Shift(kRightArm, joints[kShoulderCentre] + half_width - joints[kRightShoulder], joints);
 
-  // The head and the spine follow from the trunk.
+  // Place the head and the spine, which follow from the trunk.
   joints[kHead] = joints[kShoulderCentre] + lengths.neck * glm::normalize(observation.directions[Index(kHead)]);
   joints[kSpine] = glm::mix(joints[kHipCentre], joints[kShoulderCentre], kSpineShare);
   return joints;

@@ -43,8 +43,8 @@ constexpr double kSpineShare = 0.45;
 /// positive, or both hips, both shoulders, or P₁ and P₂ coincide.
 std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const LimbLengths& lengths);
 
-/// Returns the limb lengths that paper B's body needs to follow a motion: means over both sides and all frames. The
-/// trunk ends midway between the shoulders, where the neck begins, as in paper B's model (a real neck begins a little
+/// Returns the limb lengths with which paper B's body follows a motion: means over both sides and all frames. The trunk
+/// ends midway between the shoulders, where the neck begins, as in paper B's model (a real neck begins a little
 /// higher). `poses` must not be empty.
 LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
 

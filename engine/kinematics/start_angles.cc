@@ -101,7 +101,7 @@ std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPos
   const std::optional<glm::dmat3> root = FindRootFrame(*directions);
   if (!root) return std::nullopt;
 
-  // From the root outwards: angles of each joint, given the actual axes of its parent.
+  // From the root outwards, compute the angles of each joint from the actual axes of its parent.
   TreeState state{joints[kLeftFoot], *root, std::vector<double>(limits.size(), 0.0)};
   std::array<glm::dmat3, kBodyTreeJointCount> R_WL;
   R_WL[kTreeLeftToe] = *root;

@@ -10,7 +10,8 @@
 namespace etude {
 namespace {
 
-/// Multiplies R_WF by the rotation by `angle` about F's axis `kAxis`. Returns that axis, which does not change.
+/// Multiplies R_WF by the rotation by `angle` about F's axis `kAxis`. Returns that axis, which the rotation does not
+/// change.
 template <int kAxis>
 glm::dvec3 TurnColumns(glm::dmat3& R_WF, double angle) {
   constexpr int i = (kAxis + 1) % 3, j = (kAxis + 2) % 3;
@@ -42,7 +43,7 @@ glm::dvec3 JointAngles(const TreeJoint& joint, std::span<const double> angles) {
 glm::dvec3 DofAxis(const TreeJoint& joint, const glm::dmat3& R_WJ, std::span<const double> angles, int axis) {
   if (axis == 0) return R_WJ[0];
   const glm::dvec3 q = JointAngles(joint, angles);
-  // X turns the Y axis; X and Y turn the Z axis.
+  // The rotation about X turns the Y axis; the rotations about X and Y turn the Z axis.
   const double cx = std::cos(q.x), sx = std::sin(q.x);
   if (axis == 1) return R_WJ * glm::dvec3(0, cx, sx);
   const double cy = std::cos(q.y), sy = std::sin(q.y);
@@ -63,7 +64,7 @@ void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames
       out.R_WJ[i] = state.root_frame;
       continue;
     }
-    // A joint: rest axes from its parent, then its rotations about X, Y, Z, as many as it has.
+    // Compute the joint's rest axes from its parent, then its rotations about X, Y and Z, as far as it has them.
     const LimbFrame& X_WP = out.joints[joint.parent];
     glm::dmat3 R_WL = X_WP.axes * joint.R_PJ;  // R_WJ until the joint turns
     out.R_WJ[i] = R_WL;
@@ -74,7 +75,7 @@ void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames
     if (joint.dof_count > 2) dof_axes[2] = TurnColumns<2>(R_WL, angles[2]);
     out.joints[i] = {X_WP.position + X_WP.axes * joint.p_PJ, R_WL};
   }
-  // Effectors are fixed to their limbs.
+  // Place the effectors, which are fixed to their limbs.
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     const LimbFrame& X_WL = out.joints[tree.effectors[e].joint];
     out.effectors[e] = {X_WL.position + X_WL.axes * tree.effectors[e].p_LE, X_WL.axes};

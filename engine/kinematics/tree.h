@@ -13,8 +13,8 @@ struct AngleRange {
   double upper = 0;
 };
 
-/// Returns `angle`, or `angle` ± 2π, if that lies in `range`; otherwise the end of `range` that is nearest on the
-/// circle. For example, an angle just above −π is next to +170°, not to −50°.
+/// Returns the one of `angle` and `angle` ± 2π that lies in `range`. If none does, returns the end of `range` that is
+/// nearest on the circle. For example, for the range −50° to 170°, an angle just above −180° gives 170°, not −50°.
 double ClampAngle(double angle, const AngleRange& range);
 
 /// A joint and the rigid limb beyond it. The frame of the limb L is at the joint, with its Z axis along the limb (paper
@@ -77,7 +77,7 @@ struct TreeFrames {
   std::vector<LimbFrame> effectors;  ///< X_WE
 };
 
-/// Computes the frames of a pose. `out` is reused from call to call without allocation.
+/// Computes the frames of a pose. The memory of `out` is reused from call to call.
 void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames& out);
 TreeFrames ComputeFrames(const KinematicTree& tree, const TreeState& state);
 

@@ -93,7 +93,7 @@ double CcdSweep::Sweep() {
 }
 
 double CcdSweep::Turn() {
-  // The weights of this sweep are computed from the errors measured last.
+  // Compute the weights of this sweep from the errors measured last.
   for (std::size_t e = 0; e < weights_.size(); ++e) {
     weights_[e] = ComputeWeights(options_.weights, errors_[e].position, errors_[e].axis_angles);
   }
@@ -152,7 +152,7 @@ HingeGain CcdSweep::GainAbout(const glm::dvec3& axis_W, int joint) const {
   return gain;
 }
 
-// Rotates the effectors beyond a joint about it by a rotation given in the world.
+// Rotates all effectors beyond a joint about that joint; `rotation` is given in the world.
 void CcdSweep::TurnBelow(int joint, const glm::dmat3& rotation) {
   const glm::dvec3& p_WJ = frames_.joints[joint].position;
   for (int e : effectors_below_[joint]) {
@@ -193,7 +193,7 @@ double CcdSweep::TurnWhole(int joint) {
   glm::dmat3 R_JL = RotationXyz(angles);
   for (int axis = 0; axis < limb.dof_count; ++axis) {
     if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
-    // The best turn about this axis, without limits.
+    // Find the best turn about this axis, without limits.
     const double turn = GainAbout(R_WJ[axis], joint).Optimum();
     const glm::dmat3 best_R_JL = TurnedAbout(axis, turn, R_JL);
     // Clip the Euler angles of the turned joint.
@@ -216,7 +216,8 @@ double CcdSweep::TurnWhole(int joint) {
 
 namespace {
 
-// A larger half tangent means an angle almost half a turn from its middle, near the pole of the tangent.
+// A larger half tangent belongs to an angle almost half a turn from the middle of its range, near the pole of the
+// tangent.
 constexpr double kMaxHalfTangent = 100;
 
 bool AreFarFromPole(std::span<const double> half_tangents) {
@@ -271,8 +272,8 @@ class Accelerated {
   bool MissesGoals() const { return sweep_.MissesGoals(); }
   std::vector<double> Angles() const { return sweep_.Angles(); }
 
-  /// One iteration. Returns the largest turn of the sweep, radians. The caller counts one forward-kinematics pass; a
-  /// second one is counted here.
+  /// Makes one iteration. Returns the largest turn of the sweep, radians. The caller counts one forward-kinematics
+  /// pass; a second one is counted here.
   double Step(IkRun& run) {
     sweep_.ReadHalfTangents(now_);
     const double change = sweep_.Turn();
@@ -283,7 +284,7 @@ class Accelerated {
       sweep_.Measure();
       return change;
     }
-    // Extrapolate; go back to the plain sweep if that raises the weighted sum.
+    // Extrapolate. If that raises the weighted sum, go back to the plain sweep.
     const double merit = sweep_.Merit();  // at the pose before the sweep, with this sweep's weights
     mixing_.Extrapolate(now_, swept_, mixed_);
     sweep_.SetHalfTangents(mixed_);
@@ -373,7 +374,7 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
   }
 }
 
-// Stores the newest pair and its difference from the one before, in place of the oldest difference.
+// Stores the newest pair and its difference from the pair before it, in place of the oldest difference.
 void AndersonMixing::RecordPair(std::span<const double> x, std::span<const double> g) {
   if (has_last_ && memory_ > 0) {
     // Overwrite the oldest difference.

@@ -14,7 +14,7 @@ namespace etude {
 /// forward-kinematics pass.
 IkSolution SolveCcd(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
-/// Solves as `SolveCcd` does, but treats a joint of two or three degrees of freedom as a sequence of hinges. *Ours.*
+/// Solves like `SolveCcd`, but treats a joint of two or three degrees of freedom as a sequence of hinges. *Ours.*
 IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 /// The gain of a hinge: how well the end effectors beyond it match their targets after it turns by φ (paper B,
@@ -43,12 +43,12 @@ struct HingeGain {
   double OptimumWithin(const AngleRange& range) const;
 };
 
-/// How a joint of two or three degrees of freedom is turned.
+/// The way in which a joint of two or three degrees of freedom is turned.
 enum class CcdJoint {
-  /// Paper B, case 2: turn about each axis of the joint's rest frame in turn; after each turn decompose the joint's
-  /// whole rotation into Rx Ry Rz, clip the angles, and compose it again.
+  /// Paper B, case 2: rotate about the axes of the joint's rest frame, one after the other. After each rotation,
+  /// decompose the joint's whole rotation into Rx Ry Rz, clip the angles, and compose it again.
   kWhole,
-  /// Ours: as hinges about its Euler axes, each clipped immediately. This never lowers the gain.
+  /// Ours: turn the joint as hinges about its Euler axes, each clipped immediately. This never lowers the gain.
   kHinges,
 };
 
@@ -100,12 +100,12 @@ class CcdSweep {
 struct CcdAndersonOptions {
   /// The number of former sweeps that the extrapolation uses. The default solves nearly as many problems as larger
   /// values, in slightly more sweeps (README.md has the figures). Raise it if a sweep is much more expensive than the
-  /// extrapolation, whose cost grows with its square.
+  /// extrapolation, whose cost grows with the square of this number.
   int memory = 5;
 };
 
-/// Solves by the sweeps of `ccd-hinges`, extrapolated from the last of them (`AndersonMixing`). *Ours.* In paper B one
-/// joint is optimised after the other, so errors move slowly along the limbs; such slow convergence can be
+/// Solves by the sweeps of `ccd-hinges`, extrapolated from the last few sweeps (`AndersonMixing`). *Ours.* In paper B
+/// one joint is optimised after the other, so errors move slowly along the limbs; such slow convergence can be
 /// extrapolated. Each angle q is represented by x = tan((q − middle of its range) / 2), which needs no trigonometric
 /// functions. If an extrapolation raises Σ w_p e² + Σ w_o |u_c − u_d|² (with the weights of its sweep), it is discarded
 /// and the result of the sweep is kept. One iteration is one sweep; it costs one forward-kinematics pass, or two if its

@@ -53,7 +53,7 @@ class Residuals final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(moving_.size()));
   }
 
-  // Forward kinematics at `x`, computed only if an angle has changed.
+  // Returns the forward kinematics at `x`, computed only if an angle has changed.
   const TreeFrames& FramesAt(const double* x) const {
     bool has_moved = false;
     for (std::size_t i = 0; i < moving_.size(); ++i) {
@@ -64,7 +64,7 @@ class Residuals final : public ceres::CostFunction {
     if (has_moved) ComputeFrames(tree_, state_, frames_);
     return frames_;
   }
-  /// All angles of the last evaluation.
+  /// Returns all angles of the last evaluation.
   const std::vector<double>& angles() const { return state_.angles; }
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
@@ -87,13 +87,13 @@ class Residuals final : public ceres::CostFunction {
         row += 3;
       };
       if (target.position_weight > 0) {
-        // Position residuals, in units of `kPositionScale`.
+        // Write the position residuals, in units of `kPositionScale`.
         const double scale = std::sqrt(target.position_weight) / kPositionScale;
         write(scale * (X_WE.position - target.position),
               [&](const glm::dvec3& shift, const glm::dvec3&) { return scale * shift; });
       }
       if (IsWholeFrame(target)) {
-        // Three axes of one weight: the rotation between E and D.
+        // Write the residuals of three axes of one weight: the rotation between E and D.
         const double scale = std::sqrt(2 * target.axis_weights.x);
         const glm::dquat missing = MissingTurn(X_WE.axes, target.axes);
         const glm::dvec3 v(missing.x, missing.y, missing.z);
@@ -104,7 +104,7 @@ class Residuals final : public ceres::CostFunction {
       }
       for (int k = 0; k < 3; ++k) {
         if (target.axis_weights[k] <= 0) continue;
-        // Single axes: the difference of the unit vectors.
+        // Write the residuals of single axes: the difference of the unit vectors.
         const double scale = std::sqrt(target.axis_weights[k]);
         write(scale * (X_WE.axes[k] - target.axes[k]),
               [&](const glm::dvec3&, const glm::dvec3& turn) { return scale * glm::cross(turn, X_WE.axes[k]); });
@@ -161,12 +161,12 @@ class Recorder final : public ceres::IterationCallback {
   bool has_stepped_ = false;
 };
 
-// The fastest options for this kind of problem; bench/peers/README.md compares the alternatives.
+// Returns the fastest options for this kind of problem; bench/peers/README.md compares the alternatives.
 ceres::Solver::Options TunedOptions(const IkOptions& options, const CeresLmOptions& own) {
   ceres::Solver::Options tuned;
   tuned.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
   // With about 24 residuals and 29 angles, the matrices are so small that Eigen does not divide them into blocks by
-  // cache size. (That would make results depend on the machine.)
+  // cache size, which would make results depend on the machine.
   tuned.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   tuned.dense_linear_algebra_library_type = ceres::EIGEN;
   // Use Levenberg's damping by the identity. With Marquardt's scaling by the diagonal of JᵀJ, weakly determined angles

@@ -12,8 +12,9 @@ struct CeresLmOptions {
   double first_radius = 10;
 };
 
-/// Solves by the Levenberg–Marquardt method of Ceres Solver, the general-purpose solver that ours are compared with,
-/// tuned for speed (bench/peers/README.md lists what was tried). It minimises what `damped-least-squares` minimises,
+/// Solves by the Levenberg–Marquardt method of Ceres Solver, tuned for speed (bench/peers/README.md lists what was
+/// tried): the general-purpose solver with which ours are compared. It minimises the same sum as
+/// `damped-least-squares`,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
 /// by steps (JᵀJ + I / radius) dq = −Jᵀr with an analytic Jacobian; the sum may rise for some steps. Limits are Ceres's
 /// bounds. `IkOptions::weights` and `refresh` do not apply. One iteration is one attempted step. The solver also stalls

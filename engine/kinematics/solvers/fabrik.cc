@@ -25,10 +25,10 @@ class Follower {
     for (std::vector<int>& limbs : led_) std::ranges::reverse(limbs);
   }
 
-  // Updates `angles`, which must be those of `frames`.
+  // Updates `angles`, which must be the angles of `frames`.
   void Follow(const TreeFrames& frames, std::vector<double>& angles) {
     limbs_ = frames.joints;
-    // First round: each joint fits the tips of its own limb. Second round: it fits all tips beyond it.
+    // In the first round, each joint fits the tips of its own limb. In the second round, it fits all tips beyond it.
     for (int j = 1; j < static_cast<int>(led_.size()); ++j) {
       if (!led_[j].empty()) TurnJoint(j, std::span(led_[j]).first(1), angles);
     }
@@ -57,7 +57,7 @@ class Follower {
         }
       }
       if (lever < kMinLeverM) continue;  // all tips lie on the axis
-      // Turn by the best angle within the range, and move the limbs beyond along.
+      // Turn by the best angle within the range, and rotate all limbs beyond the joint with it.
       double& angle = angles[joint.first_dof + axis];
       const AngleRange& range = ranges_[joint.first_dof + axis];
       const double best = angle + gain.OptimumWithin({range.lower - angle, range.upper - angle});
@@ -105,7 +105,7 @@ IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, cons
 }
 
 glm::dmat3 BestTurn(std::span<const glm::dvec3> from, std::span<const glm::dvec3> to) {
-  // The longest vector defines the line, if all vectors are parallel.
+  // If all vectors are parallel, the longest vector defines their line.
   glm::dvec3 longest(0);
   for (const glm::dvec3& v : from) {
     if (glm::length(v) > glm::length(longest)) longest = v;
@@ -143,7 +143,7 @@ FabrikPass::FabrikPass(const KinematicTree& tree, std::span<const EffectorTarget
     if (targets[e].position_weight <= 0) continue;
     tips_[tree.effectors[e].joint].push_back({tree.effectors[e].p_LE, -1, static_cast<int>(e)});
   }
-  // Children stand after their parents, so all tips of a limb are known when it is reached.
+  // Children are stored after their parents, so all tips of a limb are known when it is reached.
   for (int limb = static_cast<int>(tree.joints.size()) - 1; limb > 0; --limb) {
     if (!tips_[limb].empty()) tips_[tree.joints[limb].parent].push_back({tree.joints[limb].p_PJ, limb, -1});
   }
@@ -151,13 +151,13 @@ FabrikPass::FabrikPass(const KinematicTree& tree, std::span<const EffectorTarget
 
 void FabrikPass::Run(const TreeFrames& frames) {
   limbs_ = frames.joints;
-  // Backward, then forward.
+  // Run the backward pass, then the forward pass.
   for (int limb = static_cast<int>(limbs_.size()) - 1; limb > 0; --limb) LayBackward(limb);
   for (int limb = 1; limb < static_cast<int>(limbs_.size()); ++limb) {
     const int above = tree_.joints[limb].parent;
     limbs_[limb].position = limbs_[above].position + limbs_[above].axes * tree_.joints[limb].p_PJ;
     if (tips_[limb].empty()) {
-      // R_WL = R_WP R_PL with the old R_PL.
+      // Keep the old R_PL: R_WL = R_WP R_PL.
       limbs_[limb].axes = limbs_[above].axes * glm::transpose(frames.joints[above].axes) * frames.joints[limb].axes;
     } else {
       LayForward(limb);

@@ -8,17 +8,17 @@
 
 namespace etude {
 
-/// Solves by FABRIK (Aristidou and Lasenby 2011), which moves joints as points, forward and backward towards the
-/// targets (`FabrikPass`). It uses positions only; the targets' axes are ignored but still count in the errors. The
-/// step from points to angles is *ours*. After every pair of passes the joints turn, parents first and hinge by hinge,
-/// each within its range and starting from the actual pose of the joints before it. The first round moves the tips of
-/// each joint's own limb as near as possible to their positions in the passes, without changing the twist; the second
-/// round does so for all tips beyond the joint. The second round compensates for hinges and limits farther out: without
-/// it, a wrist at its limit would keep its hand away from the target. Without the first round, the solver takes twice
-/// as many steps and solves only three of four problems. The next passes begin at that pose, and errors are measured
-/// there, so a goal counts as reached only if the angles reach it. A limb in line with its target stays in line (figure
-/// 3.8), because points on a line move only along it. `IkOptions::weights` and `refresh` do not apply. One iteration is
-/// one pair of passes with both rounds; each costs one forward-kinematics pass.
+/// Solves by FABRIK (Aristidou and Lasenby 2011), which moves joints as points, backward from the targets and forward
+/// from the root (`FabrikPass`). It uses positions only; the targets' axes are ignored but still count in the errors.
+/// The step from points to angles is *ours*. After every pair of passes the joints turn, parents first and hinge by
+/// hinge, each within its range and starting from the actual pose of the joints before it. The first round moves the
+/// tips of each joint's own limb as near as possible to their positions in the passes, without changing the twist; the
+/// second round does so for all tips beyond the joint. The second round compensates for hinges and limits farther out:
+/// without it, a wrist at its limit would keep its hand away from the target. Without the first round, the solver takes
+/// twice as many steps and solves only three of four problems. The next passes begin at the resulting pose. Errors are
+/// measured there, so a goal counts as reached only if the angles reach it. A limb in line with its target stays in
+/// line (figure 3.8), because points on a line move only along it. `IkOptions::weights` and `refresh` do not apply. One
+/// iteration is one pair of passes with both rounds, and costs one forward-kinematics pass.
 IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 /// FABRIK's two passes (Aristidou and Lasenby 2011) over a tree of rigid limbs, on positions alone. A limb has a base
@@ -34,7 +34,7 @@ IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, cons
 /// target moves along with the limb before it.
 class FabrikPass {
  public:
-  /// A point T of a limb beyond which there is a target: the base of another limb, or an effector.
+  /// A point T of a limb that leads to a target: the base of another limb, or an effector.
   struct Tip {
     glm::dvec3 p_LT;    ///< T in the frame of the limb L, metres
     int limb = -1;      ///< the limb whose base it is, or −1

@@ -18,7 +18,7 @@ namespace {
 // An error within this share of a goal plus this absolute amount may be decided by rounding, so it is measured exactly.
 constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
 
-// The float solver aims at this share of each goal, so float's rounding cannot make a missed goal look met.
+// The float solver aims at this share of each goal, so that float's rounding cannot make a missed goal look reached.
 constexpr double kFloatShare = 0.9;
 // Stall threshold in float, radians: an angle may move by its last bit after it has converged.
 constexpr double kFloatStall = 2e-7;
@@ -286,7 +286,7 @@ IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& 
   solution.fk_evaluations.resize(count);
   if (!FindFault(tree, options).empty()) return solution;
 
-  // Solve all problems without faults, then solve those again in double that float did not solve.
+  // Solve all problems without faults. Problems that float did not solve are solved again in double.
   std::vector<int> asked = problems.FindSound();
   const GaussNewtonTree lane_tree(tree);
   ScalarHelp help(tree, options, [&problems](int n) { return problems.Get(n); });

@@ -46,7 +46,7 @@ struct GaussNewtonOptions {
 IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const GaussNewtonOptions& own = {});
 
-/// Solves one problem of a tree after the other as `SolveGaussNewton` does. The tree is checked and its joints are
+/// Solves problems of one tree, one after the other, like `SolveGaussNewton`. The tree is checked and its joints are
 /// ordered once, and memory is allocated once. `tree` must outlive this object. Use it along a motion, or for problems
 /// that arrive one by one; for many problems at once, `SolveGaussNewtonBatch` is faster.
 class GaussNewtonSolver {
@@ -73,16 +73,16 @@ enum class Precision { kFloat, kDouble };
 /// restarts with their sweeps; everything else runs in lanes.
 /// - `kDouble`: every solution equals that of `SolveGaussNewton` to the last bit.
 /// - `kFloat`: twice as many lanes. The solver aims at nine tenths of each goal, so that the requested goal is met in
-///   double. Damping is at least 10⁻⁵. Once |e|² < 10⁻⁶, where float cannot resolve the pull to the start, steps do
-///   without it. A problem that float does not solve is solved again in double from its start; only those iterations
-///   are reported. If several poses meet the targets, float may find another one than double. Not for goals below
-///   2·10⁻⁴ cm or degrees.
+///   double. Damping is at least 10⁻⁵. Once |e|² < 10⁻⁶, steps are taken without the pull to the start, which float
+///   cannot resolve there. A problem that float does not solve is solved again in double from its start; only the
+///   iterations in double are reported. If several poses meet the targets, float may find another pose than double. Do
+///   not use it for goals below 2·10⁻⁴ cm or degrees.
 /// A faulty problem gets kBadInput; if the tree or the options have a fault, all problems do. `IkOptions::trace` is
 /// ignored.
 IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,
                                       Precision precision, const GaussNewtonOptions& own = {});
 
-/// Solves as above and returns one solution per problem, with errors.
+/// Solves like the function above, and returns one solution per problem, with errors.
 std::vector<IkSolution> SolveGaussNewtonBatch(const KinematicTree& tree, std::span<const IkProblem> problems,
                                               const IkOptions& options, Precision precision,
                                               const GaussNewtonOptions& own = {});

@@ -46,7 +46,7 @@ class GaussNewtonCourse {
   GaussNewtonCourse() = default;
   GaussNewtonCourse(const IkOptions& options, const GaussNewtonOptions& own, const Numerics& numerics);
 
-  /// Decides what follows from a new pose, given its |e|² and whether it meets the goals. `is_out_of_reach()` returns
+  /// Decides the next action at a new pose, given its |e|² and whether it meets the goals. `is_out_of_reach()` returns
   /// true if no pose can meet the targets; it is called at most once, where restarts would begin.
   template <class IsOutOfReach>
   Next Arrive(double squares, bool is_met, const IsOutOfReach& is_out_of_reach) {
@@ -73,7 +73,7 @@ class GaussNewtonCourse {
         if (Approach(squares, next)) return next;
         continue;
       }
-      // Then restarts, then the best pose, then the end.
+      // After the steps come the restarts, then the best pose, then the end.
       const bool is_best = next.is_best;
       if (phase_ == Phase::kHere) restarts_ = MayGoOn() && !is_out_of_reach() ? max_restarts_ : 0;
       if (MayGoOn() && phase_ != Phase::kSettle) {

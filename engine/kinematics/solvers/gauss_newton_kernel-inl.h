@@ -115,8 +115,8 @@ HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   }
 }
 
-/// Sets `screw` for a hinge at J: first its unit axis, then the translation per radian of the limb's point at the root
-/// R.
+/// Sets `screw` for a hinge at J: first its unit axis, then the translation per radian of the limb's point at R, the
+/// root.
 template <class V>
 HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
   V shift[3];
@@ -170,7 +170,7 @@ struct ResidualLanes {
 template <class V>
 HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], const V (&p_WE)[3], const V (&p_WR)[3],
                           TargetQuadraticLanes<V>& asked, ResidualLanes<V>& miss) {
-  // Position: weighted error, its moment about the root, its part of the residual.
+  // Compute the weighted position error, its moment about the root, and its part of the residual.
   const V w = target.position_weight;
   V p_RE_W[3], p_ED_W[3], pull[3], twist[3];
   for (int k = 0; k < 3; ++k) {
@@ -183,7 +183,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
   const V nothing(0.0);
   miss.squared_distance = Larger(miss.squared_distance, Select(Below(nothing, w), Dot3(p_ED_W, p_ED_W), nothing));
   for (int k = 0; k < 3; ++k) {
-    // Axis k: moment of its error, chord, part of the residual.
+    // Compute the moment of the error of axis k, its chord, and its part of the residual.
     const V u = target.axis_weights[k];
     V cross[3], chord[3];
     Cross(R_WE[k], target.axes[k], cross);
@@ -194,7 +194,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
     squares = squares + V(2.0) * u * (V(1.0) - Dot3(R_WE[k], target.axes[k]));
     miss.squared_chord = Larger(miss.squared_chord, Select(Below(nothing, u), Dot3(chord, chord), nothing));
   }
-  // Λ and η (see `GaussNewtonStep::LineariseTarget`).
+  // Compute Λ and η (see `GaussNewtonStep::LineariseTarget`).
   const V ux = target.axis_weights[0], uy = target.axis_weights[1], uz = target.axis_weights[2];
   const V straight = w * Dot3(p_RE_W, p_RE_W) + ux + uy + uz;
   for (int k = 0; k < 3; ++k) asked.lever[k] = p_RE_W[k] * w;
@@ -215,12 +215,14 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
 /// Expands the quadratic of one target into the full Λ and η: sets `sum` to it or adds it.
 template <bool kIsFirst, class V>
 HWY_INLINE void Gather(const TargetQuadraticLanes<V>& asked, QuadraticLanes<V>& sum) {
+  // `put` sets an entry of Λ or adds to it; float keeps only the lower triangle.
   const V nothing(0.0);
   const auto put = [&](int row, int column, const V& x) HWY_ATTR {
     if (!kHasUpperTriangle<V> && column > row) return;
     V& cell = sum.matrix[6 * row + column];
     cell = kIsFirst ? x : cell + x;
   };
+  // Fill the rotation block, the translation block, and the two blocks between them, then η.
   int cell = 0;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c <= r; ++c) {
@@ -257,7 +259,8 @@ HWY_INLINE V Dot6(const V (&a)[6], const V (&b)[6]) {
   return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
 }
 
-/// Eliminates a hinge from the quadratic of its limb. `pull`, `lower` and `upper` are changes of its angle.
+/// Eliminates a hinge from the quadratic of its limb. `pull` is the change of its angle that leads to the preferred
+/// angle; `lower` and `upper` are the changes that lead to the ends of its range.
 template <class V>
 HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, const V& upper, QuadraticLanes<V>& limb,
                                HingeLanes<V>& hinge) {
@@ -271,7 +274,7 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   };
   for (int i = 0; i < 6; ++i)
     y[i] = (times(0, i) + times(1, i)) + (times(2, i) + times(3, i)) + (times(4, i) + times(5, i));
-  // The best change, if the limb before does not move; a fixed hinge moves to its end instead.
+  // Compute the best change if the limb before does not move; a fixed hinge moves to its end instead.
   const V nothing(0.0);
   const V scale = V(1.0) / (damping + Larger(nothing, Dot6(y, s)));
   const V best = scale * (damping * pull + Dot6(limb.vector, s));
@@ -284,7 +287,7 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
     const V row_share = share * y[r];
     for (int i = 0; i < (kHasUpperTriangle<V> ? 6 : r + 1); ++i) m[6 * r + i] = m[6 * r + i] + row_share * y[i];
   }
-  // Subtract the part of its change from η.
+  // Subtract from η the part of the hinge's change.
   const V back = nothing - change;
   for (int k = 0; k < 6; ++k) {
     limb.vector[k] = limb.vector[k] + back * y[k];
@@ -300,8 +303,8 @@ HWY_INLINE V Clamped(const V& x, const V& lower, const V& upper) {
   return Select(Below(x, lower), lower, Select(Below(upper, x), upper, x));
 }
 
-/// Computes the hinge's change and side. `movement` is that of the limb before the hinge, and afterwards that of the
-/// limb beyond.
+/// Computes the hinge's change and side. `movement` is first the movement of the limb before the hinge, and afterwards
+/// the movement of the limb beyond it.
 template <class V>
 HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes<V>& hinge, V& change, V& side,
                                 V (&movement)[6]) {
@@ -315,7 +318,7 @@ HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes
 
 // ---- The step for one limb, by rows --------------------------------------------------------------------------------
 
-// Rows of six numbers; every sum is taken in the same order as above.
+// The rows have six numbers. Every sum is taken in the same order as above.
 
 /// Six numbers and two zeros.
 struct SixRow {
@@ -395,8 +398,8 @@ HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_l
   hinge.best = FirstOf(best);
 }
 
-/// Computes the hinge's change. `movement` is that of the limb before the hinge, and afterwards that of the limb
-/// beyond. Returns true if the hinge has changed sides.
+/// Computes the hinge's change. `movement` is first the movement of the limb before the hinge, and afterwards the
+/// movement of the limb beyond it. Returns true if the hinge has changed sides.
 HWY_INLINE bool SubstituteHinge(double to_lower, double to_upper, TrunkHinge& hinge, double& change, SixRow& movement) {
   const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);
   const Four lower(to_lower), upper(to_upper);

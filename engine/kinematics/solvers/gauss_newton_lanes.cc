@@ -55,7 +55,7 @@ class GaussNewtonLanes {
 
   struct Lane {
     int problem = -1;
-    bool steps = false;  ///< true if it takes part in the step of this round
+    bool steps = false;  ///< true if the lane takes part in the step of this round
     int passes = 0;      ///< active-set passes of its present step in former rounds
     GaussNewtonCourse course;
   };

@@ -39,7 +39,7 @@ class LimbLanes final : public GaussNewtonLimbs {
       *row = next;
       next += index_count_;
     }
-    // Padding that is no hinge keeps the angle 0 in the range ±1, so it never reaches a limit.
+    // Padding entries belong to no hinge. They keep the angle 0 in the range ±1, so they never reach a limit.
     std::fill_n(lower_, index_count_, -1.0);
     std::fill_n(upper_, index_count_, 1.0);
     angles = start_;
@@ -146,7 +146,7 @@ class LimbLanes final : public GaussNewtonLimbs {
         std::memset(static_cast<void*>(&sum), 0, sizeof(sum));
         is_empty = false;
       }
-      // Eliminate its hinges.
+      // Eliminate the level's hinges.
       for (int slot = level.first_slot + level.hinge_count; slot-- > level.first_slot;) {
         const int index = LimbPacks::kWidth * slot;
         EliminateHinge(damping, LoadFour(to_start_ + index), LoadFour(to_lower_ + index), LoadFour(to_upper_ + index),

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// Runs one problem as its GaussNewtonCourse decides.
+// Solves one problem; GaussNewtonCourse decides the actions.
 class PlainSolver {
  public:
   PlainSolver(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
@@ -28,6 +28,7 @@ class PlainSolver {
         course_(options, own, {}) {}
 
   void Solve() {
+    // Measure the pose, get the next action, and perform it, until the course ends.
     using enum GaussNewtonCourse::Act;
     while (true) {
       const GaussNewtonCourse::Next next = LinearisePose();
@@ -114,13 +115,13 @@ class PlainSolver {
     Place();
   }
 
-  // Forward kinematics at a pose that was not produced by an iteration.
+  // Computes the forward kinematics at a pose that was not produced by an iteration.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
     run_.CountPass();
   }
 
-  // Forward kinematics and errors after an iteration.
+  // Computes forward kinematics and errors after an iteration.
   void Measure() {
     ComputeFrames(tree_, state_, frames_);
     run_.RecordFrames(frames_, state_.angles);
@@ -192,7 +193,7 @@ GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const Effe
       change_(tree.limits.size()) {}
 
 double GaussNewtonStep::Build(const TreeFrames& frames) {
-  // The screw of every hinge: its axis, and the translation per radian of the limb's point at the root.
+  // Compute the screw of every hinge: its axis, and the translation per radian of the limb's point at the root.
   const glm::dvec3 p_WR = frames.joints[0].position;
   for (const int n : inwards_) {
     const TreeJoint& joint = tree_.joints[n];
@@ -203,7 +204,7 @@ double GaussNewtonStep::Build(const TreeFrames& frames) {
       hinges_[d].screw = {axis.x, axis.y, axis.z, shift.x, shift.y, shift.z};
     }
   }
-  // The quadratic of every effector.
+  // Compute the quadratic of every effector.
   double squares = 0;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     squares += LineariseTarget(targets_[e], frames.effectors[e], p_WR, effectors_[e]);

@@ -13,8 +13,9 @@
 
 namespace etude {
 
-/// Solves as `SolveGaussNewton` does with scalar code, written for readability: the code to read, and the oracle for
-/// the fast versions. The answer is the same to the last bit; the trace is filled if `IkOptions::trace` is set.
+/// Solves like `SolveGaussNewton`, with the same answer to the last bit, in scalar code that is written for
+/// readability. Read this version to understand the method; tests use it as the oracle for the fast versions. The trace
+/// is filled if `IkOptions::trace` is set.
 IkSolution SolveGaussNewtonPlainly(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                    const GaussNewtonOptions& own = {});
 

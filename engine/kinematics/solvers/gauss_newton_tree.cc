@@ -66,7 +66,7 @@ class LimbPacker {
     bool is_trunk = false;
   };
 
-  // The trunk: joints with several branches or several effectors, and all joints between them and the root.
+  // Finds the trunk: joints with several branches or several effectors, and all joints between them and the root.
   void FindTrunk() {
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
       Joint& joint = joints_[tree_.effectors[e].joint];
@@ -81,7 +81,7 @@ class LimbPacker {
       ++parent.child_count;
     }
     joints_[0].is_trunk = true;
-    // Copy them as plain numbers.
+    // Copy the trunk joints as plain numbers.
     made_.trunk.reserve(joints_.size());
     made_.inwards.reserve(joints_.size());
     for (std::size_t n = 0; n < joints_.size(); ++n) {
@@ -251,7 +251,8 @@ GaussNewtonTree::GaussNewtonTree(const KinematicTree& tree)
     int& quadratic = joints[joint.parent].quadratic;
     if (quadratic < 0) quadratic = joint.quadratic;
   }
-  // Elimination, height by height: hinges of one height alternate; then the additions to parents.
+  // List the steps of elimination, height by height: first the hinges, alternating between the joints of one height,
+  // then the additions to parents.
   const std::vector<int> heights = JointHeights(tree);
   for (auto first = inwards.begin(); first != inwards.end();) {
     const auto is_higher = [&](int n) { return heights[n] > heights[*first]; };

@@ -28,8 +28,8 @@ struct GaussNewtonTree {
     bool is_first = false;  ///< true for the first effector of its limb
   };
 
-  /// One step of elimination: a hinge, or, after all hinges of a joint, the addition of its limb's quadratic to the
-  /// parent's.
+  /// One step of elimination: a hinge, or, after all hinges of a joint, the addition of its limb's quadratic to that of
+  /// the parent.
   struct Step {
     int joint = 0;
     int dof = -1;  ///< −1 for the addition
@@ -66,7 +66,7 @@ struct LimbPacks {
     int first_slot = 0;
     int ends = -1;  ///< index in `ends` of its effectors, −1 if it has none
   };
-  /// One effector of each of four limbs. A limb without an effector has a target of weight 0.
+  /// One effector of each of four limbs. For a limb without an effector, the target has weight 0.
   struct Ends {
     alignas(kAlignment) double p_LE[3][kWidth] = {};
     int effectors[kWidth] = {-1, -1, -1, -1};

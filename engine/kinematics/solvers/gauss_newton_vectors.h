@@ -22,7 +22,7 @@ struct GaussNewtonRules {
   int extra_passes = 0;
   double max_turn = 0;  ///< `kMaxTurn`
 
-  /// Returns true if a pose meets the goals; calls `measure()` if that is in doubt.
+  /// Returns true if a pose meets the goals; calls `measure()` if the squares do not decide this.
   template <class Measure>
   bool AreMet(double squared_distance, double squared_chord, const Measure& measure) const {
     // NaN fails every comparison, so a NaN residual never meets the goals.
@@ -59,7 +59,7 @@ class GaussNewtonLimbs {
   static std::unique_ptr<GaussNewtonLimbs> Make(const LimbPacks& packs);
   virtual ~GaussNewtonLimbs() = default;
 
-  /// Input: start angles and ranges; output: the solved angles. They stand at the indices of `LimbPacks::places`; all
+  /// Input: start angles and ranges; output: the solved angles. Their indices are those in `LimbPacks::places`; all
   /// other entries must stay unchanged.
   double *angles = nullptr, *lower = nullptr, *upper = nullptr;
   double root[12] = {};  ///< p_WL, then R_WL column by column
@@ -74,7 +74,7 @@ class GaussNewtonLimbs {
   };
   virtual End EndOf(int effector) = 0;
 
-  /// Solves the problem as `course` decides. Calls to `help` name problem 0.
+  /// Solves the problem; `course` decides the actions. Calls to `help` name problem 0.
   virtual void Solve(const GaussNewtonRules& rules, GaussNewtonCourse& course, GaussNewtonHelp& help) = 0;
 };
 
@@ -101,7 +101,7 @@ class GaussNewtonQueue {
   virtual void Finish(int problem, const GaussNewtonCourse& course, std::span<const double> angles) = 0;
 };
 
-/// Solve all problems of the queue, each in one lane.
+/// These solve all problems of the queue, each in one lane.
 void SolveInFloats(const GaussNewtonTree& tree, const GaussNewtonRules& rules, GaussNewtonQueue& queue,
                    GaussNewtonHelp& help);
 void SolveInDoubles(const GaussNewtonTree& tree, const GaussNewtonRules& rules, GaussNewtonQueue& queue,

@@ -26,8 +26,8 @@ class IkRun {
   /// Returns the problem's start angles, clamped to their ranges.
   const std::vector<double>& start_angles() const { return start_angles_; }
 
-  /// Records the start at the first call, later the result of each iteration. `errors` belong to `angles`, which is a
-  /// list or a function that makes one; the function is called only for a trace. `fk_evaluations` is the number of
+  /// Records the start at the first call, and later the result of each iteration. `errors` belong to `angles`, which is
+  /// a list or a function that makes one; the function is called only for a trace. `fk_evaluations` is the number of
   /// forward-kinematics passes since the last record.
   template <class Angles>
   void Record(std::span<const EffectorError> errors, const Angles& angles, int fk_evaluations = 1) {
@@ -60,7 +60,8 @@ class IkRun {
   /// Returns true if the next record enters the trace.
   bool Traces() const { return options_.trace && std::ssize(solution_.trace) < options_.max_trace_entries; }
 
-  /// Records an iteration that certainly misses the goals, without its errors. Must not be called while `Traces()`.
+  /// Records an iteration that certainly misses the goals, without its errors. It must not be called while `Traces()`
+  /// returns true.
   void RecordMisses();
 
   /// Counts a forward-kinematics pass in addition to the one per iteration.
@@ -75,7 +76,8 @@ class IkRun {
   bool MustGoOn() const { return !HasConverged() && !has_stalled_ && solution_.iterations < options_.max_iterations; }
   int iterations() const { return solution_.iterations; }
 
-  /// Ends the run and returns the solution. `angles` must be those recorded last, unless `DiscardErrors` was called.
+  /// Ends the run and returns the solution. `angles` must be the angles recorded last, unless `DiscardErrors` was
+  /// called.
   IkSolution Finish(std::vector<double> angles);
 
  private:

@@ -62,7 +62,7 @@ class PreparedGaussNewton final : public PreparedIkSolver {
   const GaussNewtonSolver solver_;
 };
 
-/// Adapts a solver without preparation.
+/// Adapts a solver that needs no preparation.
 class Unprepared final : public PreparedIkSolver {
  public:
   Unprepared(const IkSolver& solver, const KinematicTree& tree) : solver_(solver), tree_(tree) {}
@@ -153,7 +153,7 @@ std::span<const IkSolver> AllIkSolvers() {
        .uses_axes = false,
        .step = "passes",
        .solve = SolveFabrik},
-      // Steps without a measure of their success.
+      // Methods that do not check whether a step lowers the error.
       WithSetting({.name = "jacobian-pinv",
                    .description =
                        "paper B's Jacobian pseudo-inverse, with the start as preferred posture and limits by clamping",

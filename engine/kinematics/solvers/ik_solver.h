@@ -17,11 +17,11 @@ namespace etude {
 class PreparedIkSolver {
  public:
   virtual ~PreparedIkSolver() = default;
-  /// Returns what `IkSolver::solve` returns, whatever was solved before.
+  /// Returns the same solution as `IkSolver::solve`, regardless of earlier calls.
   virtual IkSolution Solve(const IkProblem& problem, const IkOptions& options) const = 0;
 };
 
-/// A number by which a solver can be set.
+/// A numeric setting of a solver, and the function that sets it.
 struct IkSolverSetting {
   NumberSetting number;
   std::function<void(SolverSettings& settings, double value)> set;
@@ -33,7 +33,7 @@ struct IkSolver {
   std::string description;    ///< one line, for people
   bool uses_weights = false;  ///< true if IkOptions::weights and refresh apply
   bool uses_axes = true;      ///< true if it aligns the axes of effectors; false if it uses positions only
-  std::string_view step;      ///< what one iteration is called: "sweeps", "steps"
+  std::string_view step;      ///< the word for iterations: "sweeps", "steps"
   std::vector<IkSolverSetting> settings = {};  ///< those of `IkOptions::solver_settings` that it reads
   std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)> solve = {};
   /// Prepares the solver for problems of one tree that come one after the other; empty if there is nothing to prepare.
@@ -55,10 +55,10 @@ std::vector<IkSolution> SolveAll(const IkSolver& solver, const KinematicTree& tr
 
 std::span<const IkSolver> AllIkSolvers();
 std::vector<std::string> IkSolverNames();
-/// Returns null if no solver has this name.
+/// Finds a solver by its name; returns null if no solver has this name.
 const IkSolver* FindIkSolver(std::string_view name);
 
-/// Returns the present name of the solver that was called `name`; empty if no solver was.
+/// Returns the present name of the solver that was formerly called `name`; empty if there was none.
 std::string_view NewNameOfIkSolver(std::string_view name);
 
 }  // namespace etude

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-// A matrix is singular if its smallest pivot is not above this share of its largest.
+// A matrix is singular if its smallest pivot is not above this share of its largest pivot.
 constexpr double kSingular = 1e-12;
 constexpr int kMaxPasses = 4;  // of an active set
 
@@ -133,7 +133,7 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
 constexpr double kMinDamping = 1e-9;
 constexpr double kMaxDamping = 1e6;
 constexpr double kDampingStep = 5;
-// The solver stalls if a step lowers the sum by less than this share, because only a million such steps would matter.
+// The solver stalls if a step lowers the sum by less than this share: a million such steps would be needed to matter.
 constexpr double kMinGain = 1e-6;
 
 }  // namespace
@@ -196,12 +196,12 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
         while (!inverse.StepWithin(damping, no_preference, state.angles, run.ranges(), step)) damping *= kDampingStep;
         Shorten(step);
       }
-      // Try it.
+      // Compute the sum of squares after the step.
       const double largest = MoveWithin(run.ranges(), state.angles, step, trial.angles);
       ComputeFrames(tree, trial, trial_frames);
       const double trial_cost = linear.Cost(trial_frames);
       if (largest < options.stall_change || damping > kMaxDamping) run.Stall();
-      // Accept it and lower the damping, or reject it and raise the damping.
+      // Accept the step and lower the damping, or reject it and raise the damping.
       if (trial_cost < cost) {
         if (cost - trial_cost < kMinGain * cost) run.Stall();
         std::swap(state, trial);
@@ -222,7 +222,7 @@ namespace {
 
 // Range of Nielsen's factor on the damping. A smaller factor would not keep steps short if the residual stays large.
 constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9;
-// Growth of that factor after the first rejected step.
+// After the first rejected step, the factor on the damping grows by this.
 constexpr double kFirstGrowth = 2;
 // Minimum damping: JJᵀ of limbs at their limits is singular.
 constexpr double kMinMu = 1e-9;
@@ -254,10 +254,10 @@ class Minimiser {
         best_angles_(state.angles) {}
 
   void Minimise() {
-    // The first descent.
+    // Run the first descent.
     const int patience = std::clamp(options_.max_iterations / kPartOfIterations, 1, kMaxPatience);
     Descend(kMinProgress, patience);
-    // Restarts, unless no pose can meet the targets.
+    // Run the restarts, unless no pose can meet the targets.
     const int restarts = run_.MustGoOn() && !IsOutOfReach(tree_, problem_) ? kRestarts : 0;
     for (int restart = 1; restart <= restarts && run_.MustGoOn(); ++restart) {
       ScatterAround(run_.start_angles(), run_.ranges(), restart, state_.angles);
@@ -277,7 +277,7 @@ class Minimiser {
   }
 
  private:
-  /// Forward kinematics at a pose that was not produced by an iteration.
+  /// Computes the forward kinematics at a pose that was not produced by an iteration.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
     run_.CountPass();
@@ -290,13 +290,13 @@ class Minimiser {
     double factor = 1, growth = kFirstGrowth;
     bool has_moved = true;
     for (int left = patience; left > 0 && factor <= kMaxFactor && run_.MustGoOn();) {
-      // Try a step; after a rejected one the linearisation is still valid.
+      // Try a step. After a rejected step the linearisation is still valid.
       if (has_moved) Linearise();
       if (FindStep(std::max(kMinMu, factor * damping_share_ * cost)) < options_.stall_change) break;
       ComputeFrames(tree_, trial_, trial_frames_);
       const double trial_cost = linear_.Cost(trial_frames_);
       has_moved = trial_cost < cost;
-      // Accept it and update the factor by Nielsen's rule, or reject it and grow the factor.
+      // Accept the step and update the factor by Nielsen's rule, or reject it and raise the factor.
       if (has_moved) {
         const double surplus = 2 * (cost - trial_cost) / inverse_.Gain(step_) - 1;
         factor = std::max(kMinFactor, factor * std::max(1.0 / 3, 1 - surplus * surplus * surplus));
@@ -309,7 +309,7 @@ class Minimiser {
         growth *= 2;
       }
       run_.RecordFrames(frames_, state_.angles);
-      // Measure progress.
+      // Count the steps without enough progress.
       if (cost < progress * fallen_to) {
         fallen_to = cost;
         left = patience;

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// How a solver of dense linear steps keeps angles within their ranges.
+/// The way in which a solver of dense linear steps keeps angles within their ranges.
 enum class Bounds {
   kClamped,  ///< `Step`, then the new angles are clamped; other angles do not compensate
   /// `StepWithin`: angles that would leave their range are fixed at its end, and the step is solved for the others
@@ -37,7 +37,7 @@ class DampedInverse {
   /// set of the last step takes more passes.) At most four passes are made; with the damping of `levenberg-marquardt`
   /// the mean is 1.5; nearly all sets settle, and more passes hardly help the others. The answer always lies within the
   /// ranges. It is the optimum if the set has settled (`is_exact`): then the conditions of Karush, Kuhn and Tucker
-  /// hold. Returns false as above, for the matrix of the free angles.
+  /// hold. Returns false, like `Step`, if the matrix of the free angles is singular.
   bool StepWithin(double damping, std::span<const double> preferred, std::span<const double> angles,
                   std::span<const AngleRange> ranges, std::vector<double>& step);
 
@@ -88,10 +88,10 @@ struct JacobianPinvOptions {
 /// Solves by the pseudo-inverse; a preferred posture determines the angles that the targets leave open (paper B,
 /// equations 3.5 and 3.7):
 ///     dΘ = J⁺dX + (I − J⁺J) dZ,   J⁺ = Jᵀ(JJᵀ + μI)⁻¹,   dZ = Θ₀ − Θ
-/// *Ours*: the preferred posture is the start Θ₀; μ is zero in the paper; no step turns an angle by more than 0.6 rad;
-/// limits by clamping the stepped angles, as in the paper. The error need not fall: it may rise near a singularity and
-/// where limits are active, and other angles do not compensate for a clamped one. If JJᵀ is singular (a stretched limb,
-/// figure 3.8), the formula is undefined (`DampedInverse`), and the solver stalls with its present angles.
+/// *Ours*: the preferred posture is the start Θ₀, and no step turns an angle by more than 0.6 rad. As in the paper, μ
+/// is zero by default, and limits are kept by clamping the stepped angles. The error may rise near a singularity and
+/// where limits are active, because other angles do not compensate for a clamped one. If JJᵀ is singular (a stretched
+/// limb, figure 3.8), the formula is undefined (`DampedInverse`), and the solver stalls with its present angles.
 /// `IkOptions::weights` and `refresh` do not apply. One iteration is one step; each costs one forward-kinematics pass.
 IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                              const JacobianPinvOptions& own = {});
@@ -102,21 +102,21 @@ struct DampedLeastSquaresOptions {
   /// start: raise it if the answer should stay there (README.md has the figures).
   double first_damping = 1e-2;
   /// How a step keeps the limits. Clamping is the default because most implementations of this method do it. It is slow
-  /// along limits, because other angles compensate for a clamped one only in later steps.
+  /// along limits, because other angles compensate for a clamped angle only in later steps.
   /// `damped-least-squares-active-set` uses the active set.
   Bounds bounds = Bounds::kClamped;
 };
 
 /// Solves by damped least squares (Wampler 1986; Buss and Kim 2005), the most common method today. A new implementation
-/// should use the active set, or `SolveLevenbergMarquardt`. Minimises
+/// should use the active set, or `SolveLevenbergMarquardt`. The method minimises
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ]
 /// over the angles with Gauss–Newton steps (JᵀJ + λI) Δq = Jᵀ r. The damping follows Marquardt: λ is divided by 5 after
-/// a step that lowers the sum, and multiplied by 5 after a step that does not lower it, which is undone. With
+/// a step that lowers the sum; a step that does not lower the sum is undone, and λ is multiplied by 5. With
 /// `Bounds::kClamped`, each angle moves by at most 0.6 rad a step and is clamped to its limits. With `kActiveSet`,
 /// angles that would leave their limits are fixed there and the step is solved for the others (Baerlocher and Boulic
 /// 2004; here the set is the optimal one, `DampedInverse::StepWithin`), and the whole step is scaled down to at most
 /// 0.6 rad. `IkOptions::weights` and `refresh` do not apply. The solver also stalls if a step lowers the sum by less
-/// than 10⁻⁶ of it. One iteration is one attempted step and costs one forward-kinematics pass.
+/// than 10⁻⁶ of its value. One iteration is one attempted step and costs one forward-kinematics pass.
 IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                    const DampedLeastSquaresOptions& own = {});
 
@@ -128,19 +128,20 @@ struct LevenbergMarquardtOptions {
 };
 
 /// Solves by the dense Levenberg–Marquardt method (Levenberg 1944; Marquardt 1963) with limits as a projected active
-/// set. It is the state of the art for this problem, and the strongest competitor of `gauss-newton`. Minimises what
-/// `damped-least-squares` minimises,
+/// set. It is the state of the art for this problem, and the strongest competitor of `gauss-newton`. The method
+/// minimises the same sum as `damped-least-squares`,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
-/// by the best step within the ranges, argmin |J dq − e|² + μ |dq|²; angles at an end of their range are fixed if the
-/// gradient pushes them out of it (Bertsekas 1982; `DampedInverse::StepWithin`). The damping μ is the sum of squares
-/// (Sugihara 2011), which makes convergence near the targets quadratic, times a factor that follows the ratio of actual
-/// to predicted reduction (Nielsen 1999): it falls to a third at most after a good step; after steps that would raise
-/// the sum, which are undone, it is doubled, then quadrupled, and so on. No step turns an angle by more than 0.6 rad.
+/// by the best step within the ranges, argmin |J dq − e|² + μ |dq|². Angles at an end of their range are fixed if the
+/// gradient pushes them out of the range (Bertsekas 1982; `DampedInverse::StepWithin`). The damping μ is the sum of
+/// squares (Sugihara 2011), which makes convergence near the targets quadratic, times a factor that follows the ratio
+/// of actual to predicted reduction (Nielsen 1999). A good step lowers the factor, to a third at most. A step that
+/// would raise the sum is undone, and the factor is doubled, after the next such step quadrupled, and so on. No step
+/// turns an angle by more than 0.6 rad.
 ///
 /// A descent is stuck if six steps (a fifth of the allowed iterations, if that is less) have not reduced the sum to 0.7
 /// of its value. Then up to twenty restarts follow, from the same poses around the start that `gauss-newton` uses
 /// (`ScatterAround`); there are none if no pose can reach the targets. Finally, steps from the pose of the smallest sum
-/// continue until they gain almost nothing; that is the answer if the targets cannot be met.
+/// continue until they gain almost nothing; the result is the answer if the targets cannot be met.
 ///
 /// `IkOptions::weights` and `refresh` do not apply. One iteration is one attempted step; each costs one
 /// forward-kinematics pass, a restart one more. A trace can jump where a restart begins.

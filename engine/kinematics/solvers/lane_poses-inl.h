@@ -35,7 +35,8 @@ class LanePoses {
         asked_(tree.effectors.size()),
         miss_(1) {}
 
-  /// Loads root and targets of a problem into lane n. Its numbers are `stride` apart, as `IkBatch::column` has them.
+  /// Loads root and targets of a problem into lane n. The problem's numbers are `stride` apart, as in
+  /// `IkBatch::column`.
   void Load(int n, const double* from, std::size_t stride) {
     const auto take = [&from, stride] {
       const double number = *from;
@@ -79,13 +80,13 @@ class LanePoses {
       FrameLanes<V>& frame = frames_[n];
       V p_RJ_W[3], axes[3][3];
       V p_PJ_W[3];
-      // Position of the joint.
+      // Compute the position of the joint.
       MixNumbers(parent.axes, joint.p_PJ, p_PJ_W);
       for (int k = 0; k < 3; ++k) {
         frame.position[k] = parent.position[k] + p_PJ_W[k];
         p_RJ_W[k] = frame.position[k] - root.position[k];
       }
-      // Axes before the joint turns: renamed copies of the parent's axes where possible.
+      // Compute the axes before the joint turns: renamed copies of the parent's axes where possible.
       if (joint.renames_axes) {
         for (int c = 0; c < 3; ++c) {
           for (int k = 0; k < 3; ++k) axes[c][k] = parent.axes[joint.from[c]][k] * V(joint.sign[c]);
@@ -93,7 +94,7 @@ class LanePoses {
       } else {
         for (int c = 0; c < 3; ++c) MixNumbers(parent.axes, joint.R_PJ[c], axes[c]);
       }
-      // Turn about X, Y, Z, as many as the joint has.
+      // Turn about X, Y and Z, as far as the joint has these degrees of freedom.
       if (joint.dof_count > 0) TurnHinge<0>(joint, angles, p_RJ_W, axes);
       if (joint.dof_count > 1) TurnHinge<1>(joint, angles, p_RJ_W, axes);
       if (joint.dof_count > 2) TurnHinge<2>(joint, angles, p_RJ_W, axes);

@@ -30,7 +30,7 @@ class LimbPoses {
 
   /// Places a pose: `angles` in the order of `LimbPacks`, `root` as p_WL and R_WL column by column.
   void Place(const double* angles, const double (&root)[12]) {
-    // Sines and cosines of all angles, then the trunk, then the limbs.
+    // Compute the sines and cosines of all angles, then place the trunk, then the limbs.
     ForEachVector(sines_.size(), [&](std::size_t i) HWY_ATTR {
       RowVector sine, cosine;
       SineAndCosine(LoadVector(angles + i), sine, cosine);
@@ -71,7 +71,7 @@ class LimbPoses {
   int Lane(int effector) const { return packs_.end_places[effector] % LimbPacks::kWidth; }
 
   void PlaceTrunk(const double (&root)[12]) {
-    // The root.
+    // Place the root.
     TrunkFrame& at_root = trunk_[0];
     alignas(64) double numbers[16] = {};
     for (int i = 0; i < 12; ++i) numbers[4 * (i / 3) + i % 3] = root[i];
@@ -79,7 +79,7 @@ class LimbPoses {
     for (int c = 0; c < 3; ++c) at_root.axes[c] = LoadFour(numbers + 4 * (c + 1));
     for (std::size_t n = 1; n < packs_.trunk.size(); ++n) {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
-      // The joint before it turns, then its rotations about X, Y, Z.
+      // Compute the frame of the joint before it turns, then its rotations about X, Y, Z.
       const TrunkFrame& parent = trunk_[joint.parent];
       Four axes[3];
       for (int c = 0; c < 3; ++c) axes[c] = MixRows(parent.axes, joint.R_PJ[c]);
@@ -111,14 +111,14 @@ class LimbPoses {
     PutFour(CrossAxes(p_RJ_W, axes[kAxis]), screw + 3);
   }
 
-  /// Forward kinematics of four limbs, outwards from the trunk joints that carry them.
+  /// Computes the forward kinematics of four limbs, outwards from the trunk joints that carry them.
   void PlaceLimbs(const LimbPacks::Pack& pack, const double (&root)[12]) {
     FrameLanes<Four> frame;
     TakeFrames(pack, frame);
     const Four p_WR[3] = {Four(root[0]), Four(root[1]), Four(root[2])};
     for (const LimbPacks::Level& level : packs_.LevelsOf(pack)) {
       Four p_PJ_W[3], p_RJ_W[3];
-      // Position, axes before the joints turn, rotations, effectors.
+      // Compute the position, the axes before the joints turn, the rotations, and the effectors.
       MixLoaded(frame.axes, level.p_PJ, p_PJ_W);
       for (int k = 0; k < 3; ++k) {
         frame.position[k] = frame.position[k] + p_PJ_W[k];

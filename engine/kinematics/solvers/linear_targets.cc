@@ -36,7 +36,7 @@ void LinearTargets::Build(const TreeFrames& frames) {
     const EffectorTarget& target = targets_[e];
     const LimbFrame& X_WE = frames.effectors[e];
     const int first = TreeJacobian::kPerEffector * static_cast<int>(e);
-    // Three rows of the position, along the world's axes.
+    // Add three rows for the position, along the world's axes.
     if (target.position_weight > 0) {
       const double scale = std::sqrt(target.position_weight) / kPositionScale;
       const glm::dvec3 gap = scale * (target.position - X_WE.position);
@@ -47,8 +47,8 @@ void LinearTargets::Build(const TreeFrames& frames) {
         residuals_.push_back(gap[k]);
       }
     }
-    // Up to three rows of the axes. A rotation by ω moves axis u_k by ω × u_k, and the sum of squares Σ w_k |ω × u_k|²
-    // is diagonal in the axes' own frame.
+    // Add up to three rows for the axes. A rotation by ω moves axis u_k by ω × u_k, and the sum of squares Σ w_k |ω ×
+    // u_k|² is diagonal in the axes' own frame.
     const glm::dvec3& w = target.axis_weights;
     const glm::dvec3 weight(w.y + w.z, w.x + w.z, w.x + w.y);
     glm::dvec3 pull(0);

@@ -23,7 +23,7 @@ struct TreeJacobian {
   }
 };
 
-/// Computes the Jacobian at `frames`, which belong to `tree`. `out` is reused from call to call without allocation.
+/// Computes the Jacobian at `frames`, which belong to `tree`. The memory of `out` is reused from call to call.
 void ComputeJacobian(const KinematicTree& tree, const TreeFrames& frames, TreeJacobian& out);
 
 /// A position error of this many metres counts as much as an axis error of one radian, in all solvers that minimise a
@@ -34,7 +34,7 @@ inline constexpr double kPositionScale = 0.30;
 /// position has three rows, in units of 0.30 m; the axes have up to three, in radians, about the effector's own axes.
 /// All rows are multiplied by the square root of their weight, so to first order |e|² is
 ///     Σ_e [ position_weight · (|P_d − P_c| / 0.30 m)² + Σ_k axis_weights_k · |u_kd − u_kc|² ].
-/// Positions and axes of weight 0 have no rows. Shared by all solvers that use a Jacobian.
+/// Positions and axes of weight 0 have no rows. All solvers that use a Jacobian share this class.
 class LinearTargets {
  public:
   LinearTargets(const KinematicTree& tree, std::span<const EffectorTarget> targets);
@@ -49,7 +49,7 @@ class LinearTargets {
   /// The residuals e, rows() numbers.
   std::span<const double> residuals() const { return residuals_; }
 
-  /// Returns the sum above exactly, without linearisation.
+  /// Returns the sum in the description of this class at `frames`, computed exactly, without linearisation.
   double Cost(const TreeFrames& frames) const;
 
  private:

@@ -47,7 +47,7 @@ struct GoalState {
   double position_pull, axis_pulls[3];
 };
 
-// Returns the reference of an angle: the middle of its range, or for a free angle its start.
+// Returns the angle from which an angle is counted: the middle of its range, or its start if the angle is free.
 double MiddleOf(const AngleRange& range, double start) {
   const bool is_free = start - kPi > range.lower && start + kPi < range.upper;
   return is_free ? start : 0.5 * (range.lower + range.upper);
@@ -91,8 +91,9 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   const double y = Sum(a * towards - b * from);
   const double square = x * x + y * y;
   const double length = std::sqrt(square);
-  // If the optimum is outside the range, the end nearer on the circle has the larger gain; on a tie the lower end. The
-  // test uses (x, y) and not its direction, so that it need not wait for the division.
+  // If the optimum is outside the range, take the end that is nearer on the circle, because it has the larger gain; on
+  // a tie, take the lower end. The test uses (x, y) and not its direction, so that the test need not wait for the
+  // division.
   const bool is_inside = x * hinge.cos_middle + y * hinge.sin_middle >= hinge.cos_half * length;
   const bool is_below = 0.0 >= y * hinge.cos_middle - x * hinge.sin_middle;
   const double half_s = is_below ? 0.0 - hinge.sin_half : hinge.sin_half;
@@ -136,8 +137,8 @@ void PassToParent(const SweepTree::Joint& joint, Moments& child, Moments& parent
   for (int r = 0; r < 4; ++r) parent.rows[r] = parent.rows[r] + child.rows[r];
 }
 
-// Returns the angle of a chord of the unit circle, 2 asin(√chord² / 2), with a relative error of 10⁻¹²: by a minimax
-// polynomial in (chord / 2)² up to a right angle (ours), and beyond it from the chord of the supplementary angle.
+// Returns the angle of a chord of the unit circle, 2 asin(√chord² / 2), with a relative error of 10⁻¹². Up to a right
+// angle it uses a minimax polynomial in (chord / 2)² (ours); beyond, it uses the chord of the supplementary angle.
 double AngleOfChord(double squared_chord) {
   constexpr double kTerms[] = {2.0000000000021307,   0.3333333319413167,  0.15000015042731862,  0.08927934444224939,
                                0.060903478193634814, 0.04293404585618574, 0.049655906059604696, -0.05387645705990194,
@@ -234,7 +235,7 @@ double MomentSweep::State::TurnHinges() {
   return largest;
 }
 
-// Forward kinematics from the root to the leaves, then the distances to the goals.
+// Computes the forward kinematics from the root to the leaves, then the distances to the goals.
 void MomentSweep::State::PlaceLimbs() {
   for (std::size_t n = tree.steps.size(); n-- > 0;) {
     const SweepTree::Step& step = tree.steps[n];

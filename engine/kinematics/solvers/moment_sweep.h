@@ -10,9 +10,9 @@
 namespace etude {
 
 /// The sweeps of `CcdSweep` with `CcdJoint::kHinges` and weights refreshed every sweep, in moment form
-/// (moment_sweep.cc). The angles are equal up to rounding, and it is four times as fast. It does not support
-/// `WeightRule::kWangChen`, whose weights differ from joint to joint. The constructor allocates all memory; `Sweep`
-/// allocates nothing. `tree` and `problem` must be free of faults (`FindFault`) and outlive this object.
+/// (moment_sweep.cc). The angles are equal up to rounding, and a sweep is four times as fast. The moment form does not
+/// support `WeightRule::kWangChen`, whose weights differ from joint to joint. The constructor allocates all memory;
+/// `Sweep` allocates nothing. `tree` and `problem` must be free of faults (`FindFault`) and outlive this object.
 class MomentSweep {
  public:
   MomentSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
@@ -39,8 +39,8 @@ class MomentSweep {
   /// Sets every angle, clamped to its range. Does not update the errors.
   void SetHalfTangents(std::span<const double> half_tangents);
 
-  /// Returns true if the pose measured last certainly misses the goals; much cheaper than `errors`. If false, the
-  /// errors decide.
+  /// Returns true if the pose measured last certainly misses the goals; this test is much cheaper than `errors`. If it
+  /// returns false, the errors decide.
   bool MissesGoals() const;
 
   /// Returns the angles, radians.

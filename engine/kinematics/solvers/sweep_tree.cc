@@ -129,7 +129,8 @@ void SweepTree::PlaceAxes() {
   }
 }
 
-// Assigns memory to moments: a limb shares that of its parent, unless the parent already has moments to add to.
+// Assigns memory to moments: a limb shares the memory of its parent, unless the parent already has moments, to which
+// those of the limb are added.
 void SweepTree::PlaceMoments() {
   for (Effector& effector : effectors) {
     Joint& joint = joints[effector.joint];

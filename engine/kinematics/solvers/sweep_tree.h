@@ -29,7 +29,8 @@ struct SweepTree {
     int names[3] = {};     ///< for each axis of the sweep: the index of the tree's axis
     double signs[3] = {};  ///< for each axis: 1 if both point the same way, else −1
   };
-  /// One hinge of a joint turns; or, after all of these, moments pass from the joint's limb to its parent.
+  /// A step: one hinge of a joint turns, or, after all hinges of the joint, moments pass from its limb to the parent
+  /// limb.
   struct Step {
     int joint = 0;
     int hinge = -1;             ///< −1 for the step to the parent

@@ -1,6 +1,6 @@
 // A CPU's vectors as values with operators: `Lanes` holds one number each of many problems, `Four` holds four doubles.
 // This file is included once per instruction set, which explains the include guard. No operation of `Lanes` mixes
-// lanes. None is a fused multiply-add, because it rounds once where CPUs without it round twice. Square roots and
+// lanes. No operation is a fused multiply-add, which rounds once where CPUs without it round twice. Square roots and
 // quotients are rounded correctly on all CPUs. The results of a problem therefore do not depend on the width of the
 // vectors.
 #if defined(ETUDE_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -98,7 +98,7 @@ HWY_INLINE bool Any(const LaneMask<T, D>& a) {
   return !hn::AllFalse(D(), a.m);
 }
 
-/// Returns the larger number of each lane as std::max(a, b) does: `a` unless `b` is greater.
+/// Returns std::max(a, b) of each lane: `a` unless `b` is greater.
 template <class V>
 HWY_INLINE V Larger(const V& a, const V& b) {
   return Select(Below(a, b), b, a);
@@ -132,13 +132,13 @@ HWY_INLINE void PutFour(const Four& a, double* to) { hn::StoreU(a.v, Four::Tag()
 
 HWY_INLINE double FirstOf(const Four& a) { return hn::GetLane(a.v); }
 
-/// (a1, a0, a3, a2)
+/// Returns (a1, a0, a3, a2).
 HWY_INLINE Four SwapNeighbours(const Four& a) { return Four(hn::Shuffle01(a.v)); }
-/// (a2, a3, a0, a1)
+/// Returns (a2, a3, a0, a1).
 HWY_INLINE Four SwapHalves(const Four& a) { return Four(hn::ConcatLowerUpper(Four::Tag(), a.v, a.v)); }
-/// (a0, a1, a0, a1)
+/// Returns (a0, a1, a0, a1).
 HWY_INLINE Four LowerTwice(const Four& a) { return Four(hn::ConcatLowerLower(Four::Tag(), a.v, a.v)); }
-/// (a1, a2, a0, a3)
+/// Returns (a1, a2, a0, a3).
 HWY_INLINE Four NextAxes(const Four& a) {
   alignas(32) static constexpr std::int64_t kOrder[] = {1, 2, 0, 3};
   return Four(hn::TableLookupLanes(a.v, hn::SetTableIndices(Four::Tag(), kOrder)));
