@@ -58,6 +58,7 @@ Result<Distortion> DistortionOf(const OpenCvParameters& p) {
   if (count != 0 && count != 4 && count != 5 && count != 8 && count != 12 && count != 14) {
     return Fail({}, "{} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (and k3), 8, 12 or 14", count);
   }
+  // Coefficients that are not given are 0.
   c.resize(14);
   return Distortion{.k1 = c[0],
                     .k2 = c[1],

@@ -64,8 +64,8 @@ IkProblem IkBatch::Get(int problem_index) const {
   };
   const auto take_all = [&](double* numbers, int count) {
     for (int n = 0; n < count; ++n) numbers[n] = take();
-  // Fill the problem in that order.
   };
+  // Fill the problem in that order.
   IkProblem problem;
   problem.start.angles.resize(dofs_);
   problem.limits.resize(dofs_);
