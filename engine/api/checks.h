@@ -17,7 +17,7 @@
 /// Checks of the library's input. Every function throws BadInput if its check fails.
 namespace etude::engine {
 
-/// Returns the value of a result. Throws BadInput with the text of its error if it has none.
+/// Returns the value of `result`. If `result` holds an error, throws BadInput with the error's text.
 template <typename T>
 T OrThrow(Result<T> result) {
   if (!result) throw BadInput(ToString(result.error()));

@@ -46,7 +46,7 @@ using LabelImage = Image<std::uint32_t>;
 /// A picture that is mapped to a surface by coordinates (u, v): (0, 0) is its upper left corner, (1, 1) the lower right
 /// one.
 struct Texture {
-  /// How the picture continues outside 0…1.
+  /// The continuation of the picture outside 0…1.
   enum class Beyond { kRepeats, kMirrors, kStays };
 
   ColourImage picture;

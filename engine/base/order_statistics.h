@@ -17,8 +17,8 @@ inline double Median(std::vector<double> values) {
   return values.size() % 2 == 1 ? *upper : 0.5 * (*std::max_element(values.begin(), upper) + *upper);
 }
 
-/// Returns the value below which `share` (0 to 1) of all values lie, interpolated linearly between neighbours in
-/// ascending order (rank share·(n − 1)). `values` must not be empty or contain NaN.
+/// Returns a quantile: the value of rank share·(n − 1) in ascending order, interpolated linearly between neighbours,
+/// for `share` in 0…1. `values` must not be empty or contain NaN.
 inline double Quantile(std::span<const double> values, double share) {
   assert(!values.empty());
   std::vector<double> copy(values.begin(), values.end());

@@ -15,7 +15,7 @@ struct Place {
   int column = 0;
 };
 
-/// What caused an error.
+/// The cause of an error.
 enum class ErrorKind {
   kInput,
   kMachine,  ///< neither the input nor a method: no process can be started, the disk is full (machine.h)
@@ -33,8 +33,8 @@ struct Error {
 std::string ToString(const Error& error);
 std::string ToString(const Place& place);
 
-/// A value, or the reason why bad input gave none. Our own bugs are assertions and numerical outcomes are status enums;
-/// neither is an Error.
+/// A value, or the reason why bad input gave no value. Our own bugs are assertions and numerical outcomes are status
+/// enums; neither is an Error.
 template <typename T>
 using Result = tl::expected<T, Error>;
 

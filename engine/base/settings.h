@@ -10,8 +10,8 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// A numeric setting of a method, as scenario files name it. Each method has its own settings, so two methods may have
-/// settings with the same name. Values are passed as numbers in the order of the method's settings.
+/// A numeric setting of a method, named by its key in scenario files. Each method has its own settings, so two methods
+/// may have settings with the same name. Values are passed as numbers in the order of the method's settings.
 struct NumberSetting {
   std::string key;
   double fallback = 0;
@@ -49,7 +49,7 @@ class SettingTable {
     return settings;
   }
 
-  /// Makes options from `values`, one per row in order; no values give the defaults.
+  /// Makes options from `values`, one per row in order; an empty list gives the defaults.
   Options Apply(std::span<const double> values) const {
     assert(values.empty() || values.size() == rows_.size());
     Options options;

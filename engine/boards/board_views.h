@@ -29,7 +29,7 @@ struct BoardSighting {
 class BoardViews {
  public:
   explicit BoardViews(std::vector<Board> boards) : boards_(std::move(boards)) {}
-  /// Detects one of OpenCV's boards instead.
+  /// Makes a collector that detects one of OpenCV's boards instead of ours.
   BoardViews(const PrintedBoard& board, std::unique_ptr<PrintedBoardFinder> finder)
       : boards_{{.columns = board.columns, .rows = board.rows, .square = board.square}}, printed_(std::move(finder)) {}
 

@@ -149,8 +149,8 @@ class Grower {
 };
 
 /// Returns the chessboard around saddle `seed`, grown along the edges; the lower right square of (0, 0) is bright.
-/// Saddles that are `taken` belong to other boards. The grid may be wrong, or hold only the seed; Reader checks it
-/// later by its codes.
+/// Saddles that are `taken` belong to other boards. The grid may be wrong, or hold only the seed; Reader later checks
+/// the grid by its codes.
 CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles, std::size_t seed,
                     const std::vector<bool>& taken) {
   return Grower(picture, saddles, taken).Grow(seed);
@@ -206,7 +206,7 @@ class Reader {
   std::optional<std::uint16_t> ReadCode(const CornerGrid& grid, const GridIndex& place) const {
     const auto [i, j] = place;
     if ((i + j) % 2 != 0) return std::nullopt;  // a black square
-    // The corners of the square.
+    // Collect the corners of the square.
     std::array<glm::dvec2, 4> corners;
     for (int k = 0; k < 4; ++k) {
       const auto found = grid.find({i + k % 2, j + k / 2});

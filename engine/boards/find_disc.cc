@@ -89,7 +89,7 @@ struct Darkness {
 };
 
 Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece) {
-  // Bounding box with a margin for the blurred edge.
+  // Find the bounding box, with a margin for the blurred edge.
   glm::ivec2 low = piece.front(), high = piece.front();
   std::vector<float> inside, around;
   for (const glm::ivec2& p : piece) {

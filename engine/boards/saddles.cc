@@ -56,12 +56,12 @@ bool IsStrongestAround(const GreyImage& strengths, int x, int y) {
   return true;
 }
 
-// Returns the saddle with the directions of zero curvature, xx cos² + 2 xy cos sin + yy sin² = 0.
+// Returns the saddle at (x, y). Its edges are the directions of zero curvature, xx cos² + 2 xy cos sin + yy sin² = 0.
 Saddle Describe(const Hessian& hessian, double x, double y) {
   // In the frame of the principal directions, with curvatures k1 > 0 and −k2 < 0, the condition is
   // k1 cos² − k2 sin² = 0.
   const double mean = 0.5 * (hessian.xx + hessian.yy), half = std::hypot(0.5 * (hessian.xx - hessian.yy), hessian.xy);
-  // Direction of the largest curvature.
+  // Compute the direction of the largest curvature.
   const double bright = 0.5 * std::atan2(2 * hessian.xy, hessian.xx - hessian.yy);
   const double open = std::atan(std::sqrt((half + mean) / (half - mean)));
   const auto along = [](double angle) { return glm::dvec2(std::cos(angle), std::sin(angle)); };
@@ -121,7 +121,7 @@ double BrightnessAt(const GreyImage& picture, const glm::dvec2& pixel) {
 std::vector<Saddle> FindSaddles(const GreyImage& picture) {
   std::vector<Saddle> saddles;
   const GreyImage smooth = Smooth(picture);
-  // Strength of every pixel.
+  // Compute the strength of every pixel.
   GreyImage strengths(picture.width, picture.height);
   double strongest = 0;
   for (int y = 1; y < picture.height - 1; ++y) {

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-// Sizes of a root's parameter blocks; the rotation is a quaternion w, x, y, z.
+// Sizes of the root's parameter blocks; the rotation is a quaternion w, x, y, z.
 inline constexpr int kPositionSize = 3, kTurnSize = 4;
 
 /// The parameter blocks of one frame, which Ceres changes, and the points of the body in that pose.

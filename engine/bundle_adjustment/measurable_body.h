@@ -14,7 +14,7 @@ struct BodyPoint {
   glm::dvec3 p_LQ{0};  ///< metres
 };
 
-/// The linear dependence of an offset on a length: it grows by `per_metre` for every metre of the length.
+/// The linear dependence of an offset on a length: the offset grows by `per_metre` for every metre of the length.
 struct LengthShare {
   int index = 0;   ///< of the joint (offset p_PJ) or of the point (offset p_LQ)
   int length = 0;  ///< index in `MeasurableBody::lengths`

@@ -71,7 +71,8 @@ class Places {
   Places(std::size_t cameras, std::size_t targets) : cameras_(cameras), targets_(targets) {}
 
   /// Adds the pose of one camera or board. Of the views in which only the camera's or only the board's pose is known,
-  /// it uses the one with the most corners. Returns false if there is none. The first board must be set before.
+  /// it uses the view with the most corners. Returns false if there is no such view. The pose of the first board must
+  /// be set before.
   bool Join(std::span<const PlaneView> views) {
     const PlaneView* best = nullptr;
     for (const PlaneView& view : views) {
@@ -211,7 +212,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   places.targets_.front() = CalibrationTargetPose{};
   while (places.Join(usable)) {
   }
-  // Begin the joint adjustment at these poses.
+  // Start the joint adjustment at these poses.
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {

@@ -15,10 +15,9 @@ namespace etude {
 /// (nearly) on one line, and for points that are not finite.
 Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs);
 
-/// Estimates the focal lengths of a camera from homographies of planes, without skew and distortion and with the
-/// principal point in the middle of the picture (Zhang 2000, section 3.1, with a given principal point). The result is
-/// a start for `RefineRig`. Fails if all planes are parallel to the picture, because the focal length is then
-/// undetermined.
+/// Estimates the focal lengths of a camera from homographies of planes (Zhang 2000, section 3.1). The principal point
+/// is assumed in the middle of the picture; skew and distortion are assumed to be zero. The result is a start for
+/// `RefineRig`. Fails if all planes are parallel to the picture, because the focal length is then undetermined.
 Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies, int width, int height);
 
 /// Returns the pose of the plane in the camera's frame (R_CT, p_CT), in front of the camera.
@@ -35,8 +34,8 @@ std::size_t NumberTargets(std::span<TargetView> views);
 /// Calibrates cameras from flat boards in their pictures. Each camera's intrinsics follow from its homographies; poses
 /// follow from boards that two cameras see at the same time; then `RefineRig` adjusts everything together. A target is
 /// a board in one pose; the frame of the first target in `views` is the world. Points must have z = 0. Views with fewer
-/// than four corners, or with corners on one line, are left out. Fails, naming the camera, if one has no view left, or
-/// never sees a board at the same time as another camera.
+/// than four corners, or with corners on one line, are left out. Fails, naming the camera, if a camera has no view
+/// left, or never sees a board at the same time as another camera.
 /// @param sizes of the cameras' pictures
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
                                        const RefineOptions& options = {});

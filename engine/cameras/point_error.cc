@@ -49,14 +49,14 @@ std::optional<PixelErrors> PixelErrorsOf(const Camera& camera, std::size_t index
   const auto noise = NoiseWithoutLens(camera, *shown, errors.noise_px);
   if (!noise) return std::nullopt;
   pixel.noise = *noise;
-  // The derivative of the pixel by the point in the camera's frame.
+  // Compute the derivative of the pixel by the point in the camera's frame.
   const Intrinsics& in = camera.intrinsics;
   const glm::dvec3 p_CQ = camera.R_CW * (p_WQ - camera.p_WC);
   const double x = p_CQ.x / p_CQ.z, y = p_CQ.y / p_CQ.z;
   const glm::dmat3x2 by_point(glm::dvec2(in.fx, 0) / p_CQ.z, glm::dvec2(in.skew, in.fy) / p_CQ.z,
                               glm::dvec2(-in.fx * x - in.skew * y, -in.fy * y) / p_CQ.z);
   pixel.by_position = by_point * camera.R_CW;
-  // The pixel's shift by one standard deviation of each calibration parameter.
+  // Compute the pixel's shift by one standard deviation of each calibration parameter.
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 unit(0);
     unit[axis] = 1;

@@ -45,12 +45,12 @@ struct PointError {
   double Rms() const;
 };
 
-/// Computes the error to be expected of the position that minimises the sum of squared pixel distances
-/// (`TriangulateLikeliest`, equal weights), to first order: with the derivatives J of the pixels by the position, K =
-/// (JᵀJ)⁻¹Jᵀ and the covariance S of the pixels, K S Kᵀ. S is the noise of the pixels after the lens distortion is
-/// removed, plus the covariance by the deviations of the calibration. Combinations of cameras are weighted by their
-/// probabilities. If fewer than two cameras have the point in their pictures, or if all lines of sight are parallel,
-/// `lost` is 1. Preconditions: at most kMaxDroppingCameras cameras unless `dropout` is 0.
+/// Computes, to first order, the expected error of the position that minimises the sum of squared pixel distances
+/// (`TriangulateLikeliest`, equal weights). The covariance of the position is K S Kᵀ with K = (JᵀJ)⁻¹Jᵀ, where J are
+/// the derivatives of the pixels by the position, and S is the covariance of the pixels: their noise after the lens
+/// distortion is removed, plus the effect of the calibration's deviations. Combinations of cameras are weighted by
+/// their probabilities. If fewer than two cameras have the point in their pictures, or if all lines of sight are
+/// parallel, `lost` is 1. Precondition: at most kMaxDroppingCameras cameras if `dropout` is not 0.
 PointError ExpectedPointError(std::span<const Camera> cameras, const glm::dvec3& p_WQ, const SightingErrors& errors);
 
 /// Returns true if the camera has the point in its picture.

@@ -51,8 +51,9 @@ struct RigGuess {
   std::vector<CalibrationTargetPose> targets;  ///< the first one is held fixed: it defines the world
 };
 
-/// The standard deviations of a camera's intrinsics, pixels. Each is the larger of two estimates: one assumes
-/// independent corner errors of equal size; the other, for four views or more, errors that all corners of a view share.
+/// The standard deviations of a camera's intrinsics, pixels. Each is the larger of two estimates. One assumes
+/// independent corner errors of equal size; the other, made for four views or more, assumes errors that all corners of
+/// a view share.
 struct IntrinsicsDeviation {
   double fx = 0, fy = 0, cx = 0, cy = 0;
 };
@@ -72,7 +73,7 @@ struct RefinedRig {
 /// Finds the cameras and target poses that minimise the sum of squared reprojection errors, with distortion (method
 /// "refined"; Levenberg–Marquardt by Ceres). `guess` must be near the solution: from `Calibrate`, `Decompose` or
 /// planes.h. Fails if a camera has no view, if there are fewer equations than unknowns, if the start does not show a
-/// point, and if the views leave a parameter undetermined, which the message names.
+/// point, and if the views leave a parameter undetermined (the message names it).
 Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> views,
                              const RefineOptions& options = {});
 

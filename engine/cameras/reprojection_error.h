@@ -36,7 +36,7 @@ std::array<T, 2> DistortByAny(const Distortion& lens, const T& x, const T& y) {
   }
 }
 
-/// The reprojection error of a point. It repeats the five-coefficient distortion of camera.h because Ceres
+/// The reprojection error of a point. The five-coefficient distortion of camera.h is repeated here, because Ceres
 /// differentiates it; any other lens is held fixed.
 struct ReprojectionError {
   glm::dvec3 p_TQ;

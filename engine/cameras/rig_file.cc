@@ -116,7 +116,7 @@ Result<NamedCamera> ReadCamera(const xmlNode* node) {
 }  // namespace
 
 Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text) {
-  // No entity substitution, no network, no messages on the terminal.
+  // Parse without substituting entities, using the network, or printing to the terminal.
   const std::unique_ptr<xmlDoc, void (*)(xmlDoc*)> document(
       xmlReadMemory(text.data(), static_cast<int>(text.size()), nullptr, nullptr,
                     XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING),
@@ -171,7 +171,8 @@ Result<double> NumberAt(const Node& camera, std::string_view key) {
   return AsNumber(*number);
 }
 
-/// Reads one camera. In a file of its own it may lack its distortion, and R and T if the world is the camera's frame.
+/// Reads one camera. A camera in a file of its own may lack its distortion, and R and T if the world is the camera's
+/// frame.
 Result<Camera> ReadCamera(const Node& node, bool is_alone) {
   OpenCvParameters p;
   const auto is_given = [&](const char* key) { return !is_alone || node.Find(key) != nullptr; };

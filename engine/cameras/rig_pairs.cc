@@ -123,7 +123,7 @@ std::vector<ColmapLine> LinesOf(std::string_view text) {
   return lines;
 }
 
-// Parses the words of a line from `first` to before `last` as numbers.
+// Parses the words [first, last) of a line as numbers.
 Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t first, std::size_t last) {
   std::vector<double> numbers;
   for (std::size_t i = first; i < last; ++i) {

@@ -48,8 +48,8 @@ std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSight
 
 namespace {
 
-/// For each view, the distance in pixels between its sighting and the projection of a point; infinity if the view
-/// cannot show the point.
+/// The distance of each view in pixels, from its sighting to the projection of a point; infinity if the view cannot
+/// show the point.
 using DistanceOfView = std::vector<double>;
 
 struct Consensus {
@@ -143,7 +143,7 @@ double DistancePx(const Sighting& sighting, const glm::dvec3& p_WQ) {
   return pixel ? glm::distance(*pixel, sighting.pixel) : std::numeric_limits<double>::infinity();
 }
 
-/// Returns which of the sightings of positive weight agree with each other.
+/// Returns true for each sighting that has positive weight and agrees with the others.
 std::vector<bool> AgreeingOf(std::span<const WeightedSighting> sightings, double outlier_px) {
   std::vector<Sighting> sure;
   std::vector<double> weights;

@@ -58,9 +58,9 @@ class EpipolarGeometry {
   /// Returns the geometry of two cameras; nullopt if a matrix has no centre (a camera at infinity).
   static std::optional<EpipolarGeometry> Of(const ProjectionMatrix& first, const ProjectionMatrix& second);
 
-  /// Returns by how many pixels two sightings must move to show one point, root mean square over the two pictures, to
-  /// first order (Sampson's distance; Hartley and Zisserman, section 11.4.3). No point needs to be triangulated. The
-  /// sign states on which side of the epipolar lines the pixels lie.
+  /// Returns the distance in pixels by which two sightings must move to show one point: the root mean square over the
+  /// two pictures, to first order (Sampson's distance; Hartley and Zisserman, section 11.4.3). No point needs to be
+  /// triangulated. The sign states on which side of the epipolar lines the pixels lie.
   double DistancePx(const glm::dvec2& first, const glm::dvec2& second) const;
 
  private:
@@ -71,7 +71,7 @@ class EpipolarGeometry {
 class PairGeometry {
  public:
   explicit PairGeometry(std::span<const ProjectionMatrix> cameras);
-  /// nullopt for a camera and itself, and where EpipolarGeometry::Of has none.
+  /// Returns nullopt for a camera and itself, and where EpipolarGeometry::Of has no geometry.
   const std::optional<EpipolarGeometry>& operator()(std::size_t first, std::size_t second) const {
     return of_[first * cameras_ + second];
   }

@@ -31,8 +31,8 @@ struct Node::Entry {
 };
 
 /// Parses one YAML document. `file` is its name in complaints. Refuses syntax errors, duplicate keys, aliases, a second
-/// document, more than `max_bytes` bytes (1 MiB, unless texts hold data), more than 10,000 values and nesting deeper
-/// than 32 levels.
+/// document, more than `max_bytes` bytes (by default 1 MiB; documents that hold data need more), more than 10,000
+/// values and nesting deeper than 32 levels.
 Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t max_bytes = std::size_t{1} << 20);
 
 /// Returns the number of values in a document or a part of it, including itself.

@@ -19,7 +19,7 @@ struct CaptureOptions {
 
 struct CapturedMotion {
   BodyMotion motion;
-  /// The same motion as a BVH file with rotating joints, metres, on the person's own skeleton.
+  /// The same motion as the text of a BVH file: joint rotations of the person's own skeleton, lengths in metres.
   std::string bvh;
   std::vector<bool> is_held;  ///< frames that could not be recovered, and which repeat the last pose
   double residual_px = 0;     ///< median residual of the triangulated keypoints
@@ -28,8 +28,8 @@ struct CapturedMotion {
 /// Recovers a person's motion from keypoints of two or more synchronised cameras: people are identified over time and
 /// across cameras, contradictory keypoints are left out, gaps are bridged, and the person's own skeleton is fitted.
 /// Throws BadInput for inputs that do not belong together, and if no person is seen by two cameras.
-/// @param seen the keypoints of each camera, all with the same number of frames; FindKeypointLayout has the orders in
-/// which estimators list landmarks
+/// @param seen the keypoints of each camera, all with the same number of frames; FindKeypointLayout returns the order
+/// in which an estimator lists landmarks
 ETUDE_API CapturedMotion Capture(std::span<const NamedCamera> cameras, std::span<const SeenPeople> seen,
                                  const CaptureOptions& options = {});
 

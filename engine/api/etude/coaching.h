@@ -14,7 +14,7 @@
 
 namespace etude::engine {
 
-/// The rules that decide when a coach interrupts: "at-first-mistake" (paper A's), "never", …
+/// Returns the names of the rules that decide when a coach interrupts: "at-first-mistake" (paper A's), "never", …
 ETUDE_API std::vector<std::string> CoachPolicies();
 
 struct CoachOptions {
@@ -35,8 +35,8 @@ struct CoachOptions {
 /// Hz.
 class ETUDE_API Coach {
  public:
-  /// @param moves right performances of the moves of the dance, in its order. Throws BadInput for a dance that breaks
-  /// the rules of its fields, for moves that are not in the dance, and for unknown names.
+  /// @param moves right performances of each move, in the order of the dance's moves. Throws BadInput for a dance that
+  /// violates the rules stated at its fields, for moves that are not in the dance, and for unknown names.
   Coach(const Dance& dance, std::span<const TaughtMove> moves, const CoachOptions& options = {});
   Coach(Coach&&) noexcept;
   Coach& operator=(Coach&&) noexcept;
@@ -44,7 +44,7 @@ class ETUDE_API Coach {
 
   /// Takes the sensor's next frame and returns the coach's next frame. `music_s` is the position of the heard music,
   /// seconds into the song; nullopt: no music. Throws BadInput for positions that are not finite, and for a `music_s`
-  /// outside 0 to 10⁶. Texts and the picture in the result are valid as long as the coach.
+  /// outside 0 to 10⁶. Texts and the picture in the result stay valid as long as the coach exists.
   CoachOutput Step(const SensedFrame& frame, std::optional<double> music_s = {});
 
  private:

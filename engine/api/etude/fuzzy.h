@@ -15,8 +15,8 @@ namespace etude::engine {
 /// the first frame. Throws BadInput for a body without legs.
 ETUDE_API std::vector<PoseFeatures> ComputeFeatures(const BodyMotion& motion);
 
-/// Returns the fuzzy distance of two frames, from 0: the weighted Euclidean distance of their 24 grades of membership.
-/// Throws BadInput for features that are not finite.
+/// Returns the fuzzy distance of two frames, 0 or more: the weighted Euclidean distance of their 24 grades of
+/// membership. Throws BadInput for features that are not finite.
 ETUDE_API double FuzzyDistance(const PoseFeatures& a, const PoseFeatures& b);
 
 /// A pair of matching frames: a transition leaves the playing clip at `from` and enters the wanted clip at `to`.
@@ -27,7 +27,7 @@ struct TransitionPoint {
 };
 
 struct BridgeOptions {
-  int min_clips = 2;  ///< the minimum number of clips in which a bridge frame's ten terms occur together
+  int min_clips = 2;  ///< the ten terms of a bridge frame must occur together in at least this many clips
   /// Frames match below this fuzzy distance; a larger threshold finds more transitions, but worse ones.
   double threshold = 0.4;
 };

@@ -13,10 +13,10 @@ namespace etude::engine {
 using Pose = BodyPose;
 using Motion = BodyMotion;
 
-/// What the user states about a motion file.
+/// The user's statements about a motion file.
 struct ReadingOptions {
   bool keep_floor = false;  ///< keep the body at its height in the file
-  /// 'y' or 'z' overrules all other evidence; 0: decided by the file, its format and the body's posture.
+  /// 'y' or 'z' overrules all other evidence; with 0, the file, its format and the body's posture decide.
   char up = 0;
   double metres_per_unit = 0;   ///< 0: the file's own unit, or one derived from the body's height
   std::string marker_set = "";  ///< for marker files: the marker set, such as "opencap"; "": the best one

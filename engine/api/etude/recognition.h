@@ -15,7 +15,7 @@ namespace etude::engine {
 
 struct RecogniserOptions {
   std::string kind = "whole-body";  ///< or "dtw", "nearest"
-  bool smooths = true;              ///< the stream goes through Kinect's own filter first
+  bool smooths = true;              ///< filters the stream by Kinect's own smoothing filter first
 };
 
 /// The evidence for moves in one frame, from this frame and those before it; all in 0…1.
@@ -30,7 +30,7 @@ class RecogniserStream;
 class ETUDE_API Recogniser {
  public:
   /// Throws BadInput for no moves, two moves with one name, a move without examples, examples without frames or with
-  /// positions that are not finite, and an unknown kind. `StreamOf` makes an example of a motion.
+  /// positions that are not finite, and an unknown kind. `StreamOf` converts a motion to an example.
   explicit Recogniser(std::span<const TaughtMove> moves, const RecogniserOptions& options = {});
   Recogniser(Recogniser&&) noexcept;
   Recogniser& operator=(Recogniser&&) noexcept;

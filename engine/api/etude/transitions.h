@@ -22,9 +22,9 @@ struct TransitionOptions {
   std::map<std::string, double> choice_settings = {}, join_settings = {};
 };
 
-/// The names of all choices: "fuzzy-bridge" (paper A's), "played", "motion-matching", …
+/// Returns the names of all choices: "fuzzy-bridge" (paper A's), "played", "motion-matching", …
 ETUDE_API std::vector<std::string> TransitionChoices();
-/// The names of all joins: "cut" (paper A's), "crossfade", "planted-feet", …
+/// Returns the names of all joins: "cut" (paper A's), "crossfade", "planted-feet", …
 ETUDE_API std::vector<std::string> TransitionJoins();
 /// Lists the settings of a choice or a join. Throws BadInput for an unknown name.
 ETUDE_API std::vector<NumberSetting> TransitionChoiceSettings(const std::string& choice);
@@ -33,7 +33,7 @@ ETUDE_API std::vector<NumberSetting> TransitionJoinSettings(const std::string& j
 /// A transition from one clip to another, as it is shown.
 struct Transition {
   /// The playing clip from its first frame, the frames in between, and the wanted clip to its end, placed on the floor
-  /// where the first clip was left. No frames if the choice finds no transition.
+  /// where the first clip was left. The motion has no frames if the choice finds no transition.
   BodyMotion motion;
   std::vector<int> points;  ///< the last frames of `motion` before another clip plays, ascending
   double wait_s = 0;        ///< seconds from the request until the wanted clip plays
@@ -41,7 +41,8 @@ struct Transition {
   std::string why;          ///< one sentence: why this transition was chosen, or why there is none
 };
 
-/// The proportions of one person: those of a pose, scaled so that the hips stand at this height, metres.
+/// The proportions of one person: those of `pose`, scaled so that the hips of the standing body are `hip_height` metres
+/// high.
 struct BodyProportions {
   BodyPose pose;
   double hip_height = 0;
