@@ -33,7 +33,7 @@ std::array<double, 10> ListOf(const LimbLengths& lengths);
 struct AdjustTakeInputs {
   MeasureInputs pictures;  ///< `known` is ignored
   LimbLengths lengths;     ///< lengths of the person, metres; the start of the search if lengths are adjusted
-  /// The joints of each frame at which the search starts (`BridgeJoints`).
+  /// The joint positions of each frame at which the search starts (`BridgeJoints`).
   std::span<const OptionalJoints> start;
 };
 

@@ -27,7 +27,8 @@ struct Bridged {
   int distance = 0;  ///< number of frames to the nearest measurement; 0 if the frame itself was measured
 };
 
-// Returns the value at `frame`, interpolated with `mix` between the nearest frames for which `value_at` has one.
+// Returns the value at `frame`, interpolated with `mix` between the nearest frames that have a value (`value_at`).
+// Returns nullopt if no such frame is within `max_gap` frames.
 template <typename ValueAt, typename Mix>
 std::optional<Bridged> Bridge(int frame, int frames, int max_gap, ValueAt value_at, Mix mix) {
   int before = frame, after = frame;
@@ -54,8 +55,7 @@ std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> plan
   return sum / length;
 }
 
-// Returns the direction d that minimises the sum of squares given at `BridgeGaps`, normalised after an unconstrained
-// solution.
+// Minimises the sum of squares given at `BridgeGaps` over vectors d of any length, and returns d normalised.
 glm::dvec3 FuseDirection(std::span<const StrokePlane> planes, const Bridged& bridged, const BridgeOptions& options) {
   const double turn = options.turn_per_frame * bridged.distance;
   glm::dmat3 squares(1 / (turn * turn));

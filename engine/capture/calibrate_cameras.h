@@ -14,8 +14,8 @@ namespace etude {
 
 struct CalibrationOptions {
   /// The method, by default paper B's. Use `kDltNormalised` if there are few or noisy point pairs or if they are far
-  /// from the world's origin: it scales the equations, so that pairs with larger numbers do not get more weight.
-  /// `kRefined` stands for `RefineCameras`.
+  /// from the world's origin: it scales the equations, so that pairs with larger numbers do not get more weight. For
+  /// `kRefined`, call `RefineCameras` instead.
   Calibration method = Calibration::kDlt;
 };
 

@@ -27,7 +27,7 @@ struct PoseFit {
 };
 
 /// Finds poses of one body from the positions of its joints. *(Ours.)* In the first step, from the root outwards, every
-/// limb points to the next known joints; elbows and knees determine the twist of their upper limbs
+/// limb points to the next known joints; the planes in which elbows and knees bend determine the twist of limbs
 /// (`CaptureBody::Twist`). Then Gauss–Newton steps minimise the distances of all roles to their targets together;
 /// angles that no target determines keep their values of the first step. If the targets are a pose of the body, that
 /// pose is found exactly, as far as positions determine it.

@@ -31,26 +31,26 @@ using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 struct FrameMeasurement {
   RoleVectors ends;        ///< p_WE, metres: position of each end effector in the world, at its role
   RoleVectors directions;  ///< unit vectors in the world: direction of each limb, at the role of its lower joint
-  /// For each limb without a direction: the planes in which it lies, one per picture that shows it.
+  /// The planes in which each limb without a direction lies, one per picture that shows the limb.
   std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
-  /// For each end that only one picture shows: its sight line.
+  /// The sight line of each end that only one picture shows.
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
-/// Measurements of one frame that do not come from marks, for example from another sensor, or true values for measuring
-/// the cost of a stage. Each member that is present replaces all measurements of its kind.
+/// Measurements of one frame that do not come from marks, for example from another sensor, or true values by which the
+/// error of a stage is measured. Each member that is present replaces all measurements of its kind.
 struct KnownMeasurement {
   std::optional<RoleVectors> ends;
   std::optional<RoleVectors> directions;
 };
 
 struct MeasureInputs {
-  /// H of each camera: world (metres) to pixels. At least two cameras.
+  /// The matrix H of each camera, from the world (metres) to pixels. There must be at least two cameras.
   std::span<const ProjectionMatrix> cameras;
   /// `marks[camera][frame]`, pixels. All cameras have the same number of frames, taken at the same times; an unmarked
   /// picture has an empty `Marks{}`.
   std::span<const std::vector<Marks>> marks;
-  /// Empty, or one per frame.
+  /// Empty, or one known measurement per frame.
   std::span<const KnownMeasurement> known = {};
 };
 
@@ -61,8 +61,8 @@ struct MeasureOptions {
   /// accurate or the cameras are close together.
   double min_plane_angle = Radians(8);
   /// Strokes shorter than this, in pixels, give no direction: for a limb that is seen almost end on, mark errors hide
-  /// the direction. The default is three times the usual mark error in pictures of 640 × 480, 2 pixels; scale it with
-  /// that error.
+  /// the direction. The default is three times the usual mark error, which is 2 pixels in pictures of 640 × 480; scale
+  /// it with that error.
   double min_stroke_px = 6;
 };
 

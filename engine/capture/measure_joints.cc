@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// Returns the information of a stroke's end: accurate across the stroke, less so along it.
+// Returns the information (inverse covariance) of a stroke's end. It is higher across the stroke than along it.
 glm::dmat2 InformationOfEnd(const PixelSegment& stroke, const MarkErrors& errors) {
   const glm::dvec2 limb = stroke.b - stroke.a;
   const double length = glm::length(limb);
@@ -56,7 +56,7 @@ namespace {
 
 using enum Role;
 
-// For each role, one sighting per picture that shows it, fused from all its marks.
+// The sightings of each role in one frame: one per picture that shows the role, fused from all its marks there.
 using FrameSightings = std::array<std::vector<InformedSighting>, kRoleCount>;
 
 FrameSightings SightingsOf(const MeasureInputs& inputs, std::size_t frame, const MarkErrors& errors) {
@@ -107,7 +107,8 @@ std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const 
   const glm::dvec3 position = NearestOn(*line, near_W);
   const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
-  // Metres *(ours)*: the depth taken from neighbouring frames is not more accurate than this.
+  // The error of the depth of a joint that one picture shows, metres *(ours)*: neighbouring frames do not give it
+  // better.
   constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
   return PointMeasurement{position, sum->information + depth};

@@ -63,7 +63,7 @@ std::vector<OptionalJoints> SmoothJoints(std::span<const JointMeasurements> meas
 /// joint has a position.
 std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyPose& like);
 
-/// Smooths the poses of a motion as `SmoothJoints` does and fills frames without a pose. Each joint is assumed to have
+/// Smooths the poses of a motion like `SmoothJoints`, and fills frames without a pose. Each joint is assumed to have
 /// the median error of its measurements.
 std::vector<BodyPose> SmoothPoses(std::span<const std::optional<BodyPose>> poses,
                                   std::span<const JointMeasurements> measured, double rate_hz);

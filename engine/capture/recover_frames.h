@@ -26,7 +26,7 @@ struct RecoverInputs {
   /// angles that the pictures show, in any other frame at the angles of the last frame.
   std::vector<bool> marked = {};
   /// Empty, or one per frame: true start angles or true poses. They replace the result of the start stage or of the
-  /// solver, to measure the cost of that stage.
+  /// solver, so that the error of that stage can be measured.
   std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 
@@ -56,13 +56,13 @@ struct RecoveredFrame {
 /// earlier frame.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
-/// The true start or true pose of one frame, if known. It replaces the result of the start stage or of the solver, to
-/// measure the cost of that stage.
+/// The true start or true pose of one frame, if known. It replaces the result of the start stage or of the solver, so
+/// that the error of that stage can be measured.
 struct KnownAngles {
   std::optional<TreeState> start, pose;
 };
 
-/// Recovers the frames one by one, with the results of `RecoverFrames`, for callers that need each frame at once.
+/// Recovers the frames one by one, with the results of `RecoverFrames`, for callers that need each frame immediately.
 class FrameRecovery {
  public:
   /// `body` must outlive this object.

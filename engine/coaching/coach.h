@@ -51,8 +51,8 @@ struct CoachOptions {
   double right_from = 0.5;
   /// The delay of windows after the coach's repetition, because learners follow with a lag.
   double reaction_s = 0.3;
-  /// True if the player dances as in a mirror, with the left side as the coach's right. The caller must then mirror the
-  /// input before it is judged (CoachSession does so); here it only affects the words.
+  /// True if the player dances as in a mirror: the player's left side follows the coach's right side. The caller must
+  /// then mirror the input before it is judged (CoachSession does so); here it only affects the words.
   bool player_mirrors = false;
   /// After this number of consecutive mistakes the coach acts puzzled instead of shaking its head.
   int puzzled_after = 3;
@@ -115,7 +115,7 @@ struct CoachState {
   std::string_view say;
   std::int64_t say_until = 0;  ///< frame at which `say` ends
 
-  // What the coach remembers of this song.
+  // The coach's memory of this song.
   std::vector<MoveMemory> moves;  ///< one per move of the dance
   MoveMemory song;                ///< all moves together
 };

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Returns an error if the dance violates a rule that its fields state.
+/// Returns an error if the dance violates a rule that is stated at its fields.
 Result<void> CheckDance(const Dance& dance);
 
 /// A dance prepared for transitions, once for all sessions: a library of its acts, its slow demonstrations, and

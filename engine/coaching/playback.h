@@ -20,8 +20,8 @@ struct ShownPath {
   std::shared_ptr<const TransitionRecord> record;  ///< null if no clip was left
 };
 
-/// Plans the transitions within a dance by one method. Each is planned on first use and cached, so a result does not
-/// depend on earlier calls. It is not thread-safe.
+/// Plans the transitions within a dance by one method. Each transition is planned on its first use and cached, so a
+/// result does not depend on earlier calls. The class is not thread-safe.
 class DanceTransitions {
  public:
   /// Plans for `library`, which must outlive this object.
@@ -78,9 +78,10 @@ bool IsSettled(const Playback& playback);
 
 /// Advances by one frame, in the dance by `rate` frames. A path back to the dance ends in the dance.
 void Advance(Playback& playback, const DanceLibrary& library, double rate);
-/// Leaves what is playing, which must be settled, for a clip, from the next frame on.
+/// Starts the transition from the playing dance or clip, which must be settled, to the clip `clip`, from the next frame
+/// on.
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions);
-/// Leaves what is playing, like LeaveFor, for a clip that is shown at the place where it was authored.
+/// Starts a transition like LeaveFor, to a clip that is shown at the place where it was authored.
 void LeaveForHome(int clip, Playback& playback, const DanceTransitions& transitions);
 
 }  // namespace etude

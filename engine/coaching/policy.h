@@ -16,7 +16,7 @@ enum class WindowVerdict {
   kUnknown,  ///< the player was not seen, or the oracle's truth is missing
 };
 
-/// What the coach remembers of one move, or of all moves.
+/// The coach's memory of one move, or of all moves.
 struct MoveMemory {
   int judged = 0;           ///< windows with a verdict of right or wrong
   int mistakes = 0;         ///< of these, wrong ones
@@ -44,7 +44,7 @@ struct Policy {
   bool asks_truth = false;     ///< true if the verdict comes from CoachInput::told_right instead of the recogniser
   bool takes_moments = false;  ///< true if it corrects only at CoachInput::moment
   std::vector<NumberSetting> settings = {};
-  /// Decides after a closed window. `values` holds one value per setting, in order; empty means the defaults.
+  /// Decides after a window has closed. `values` holds one value per setting, in order; empty means the defaults.
   PolicyDecision (*decide)(const PolicyInput& input, std::span<const double> values) = nullptr;
 };
 

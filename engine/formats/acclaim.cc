@@ -69,7 +69,8 @@ glm::dquat TurnAbout(int axis, double angle) {
   return glm::angleAxis(angle, direction);
 }
 
-/// Returns the rotation by three angles about the axes that `order` names ("XYZ"); the first one is applied first.
+/// Returns the rotation by three angles about the axes that `order` names ("XYZ"); the rotation about the first axis is
+/// applied first.
 Result<glm::dquat> TurnInOrder(const glm::dvec3& angles, std::string_view order, const Place& place) {
   glm::dquat turn(1, 0, 0, 0);
   bool is_order = order.size() == 3;

@@ -40,7 +40,7 @@ class C3dParameters {
   C3dParameters(const C3dBytes& bytes, std::size_t at);
 
   std::optional<double> Number(const std::string& name, std::size_t index = 0) const;
-  /// Returns the first texts of a list, at most `most`, and none that begins beyond the file's end. A single text
+  /// Returns at most the first `most` texts of a list, without those that begin beyond the file's end. A single text
   /// counts as a list of one.
   std::vector<std::string> Texts(const std::string& name, std::size_t most = 1) const;
 

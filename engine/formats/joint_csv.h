@@ -17,11 +17,11 @@ namespace etude {
 /// `hip_centre_x_m`, `hip_centre_y_m`, … for every role. Values are in metres, Y up, with all digits.
 std::string WriteJointCsv(const BodyMotion& motion);
 
-/// The columns of a joint CSV file, as its headings name them.
+/// The columns of a joint CSV file, found by their headings.
 struct JointCsvColumns {
   std::size_t count = 0;
   std::optional<std::size_t> time = {}, number = {};
-  /// X, y, z; empty if the file lacks the joint.
+  /// The columns of x, y and z for each joint; empty if the file lacks the joint.
   std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount> joints = {};
 };
 

@@ -43,7 +43,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
 /// / rate_hz. Otherwise returns an empty list.
 std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_hz);
 
-/// Markers as rows of a file, before they are laid on its clock.
+/// Markers in the rows of a file, before they are placed on frames.
 struct MarkerRows {
   MarkerMotion markers;
   std::vector<double> times_s;  ///< one per row; NaN if the row gives none

@@ -13,8 +13,8 @@ using PerFeature = std::array<double, kFeatureCount>;
 using FeatureWeights = PerFeature;
 constexpr double kWeightSum = 8;
 
-/// Returns paper A's weights, as in scenarios/fuzzy/paper.yaml: hands and body 1, feet 0.5 (A only states hands = body
-/// > feet; the values are ours).
+/// Returns paper A's weights, as in scenarios/fuzzy/paper.yaml: hands and body 1, feet 0.5 (the paper only states hands
+/// = body > feet; the values are ours).
 FeatureWeights PaperWeights();
 
 /// Two frames with a smaller distance may form a transition point (paper A).

@@ -51,8 +51,8 @@ constexpr std::size_t kTermCount = 24;
 
 /// Returns paper A's terms, grouped by feature in the order of `AllFeatures`.
 std::span<const Term, kTermCount> AllTerms();
-/// TermsOf returns the terms of one feature in the paper's order; FirstTermOf returns the index of the first in
-/// `AllTerms`.
+/// TermsOf returns the terms of one feature in the paper's order; FirstTermOf returns the index of a feature's first
+/// term in `AllTerms`.
 std::span<const Term> TermsOf(Feature feature);
 std::size_t FirstTermOf(Feature feature);
 

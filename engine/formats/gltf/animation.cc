@@ -39,7 +39,8 @@ class GltfCurve {
   GltfInterpolation interpolation() const { return interpolation_; }
   /// Returns true if any key differs from the first by more than the rounding to floats.
   bool Moves() const;
-  /// Returns the value at a time, which is constant before the first key and after the last. Rotations have length 1.
+  /// Returns the value at a time. Before the first key and after the last, the value is constant. Rotations have length
+  /// 1.
   Value At(double time) const;
 
  private:

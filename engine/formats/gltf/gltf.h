@@ -18,7 +18,7 @@ namespace etude {
 struct GltfContent {
   Character character;
   std::vector<Clip> clips;  ///< names as in the file, in one line; unnamed and duplicate ones are numbered
-  /// The joints that a VRM file (0.x, 1.0) or VRM animation declares as bones, by their names there, for example
+  /// The joints that a VRM file (0.x, 1.0) or VRM animation declares as bones, by VRM's bone names, for example
   /// "leftUpperArm".
   std::map<std::string, int> bones = {};
   std::vector<std::string> remarks = {};  ///< messages for the user about what was left out

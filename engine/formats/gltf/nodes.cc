@@ -124,7 +124,7 @@ class NodeReader {
       for (std::size_t k = 0; k < model_.animations[i].channels.size(); ++k) {
         const tinygltf::AnimationChannel& channel = model_.animations[i].channels[k];
         const int target = channel.target_node;
-        // A target without a node is to be ignored: tinygltf 2.7 leaves its channel out, 2.9 keeps it.
+        // Ignore a target without a node: tinygltf 2.7 leaves its channel out, 2.9 keeps it.
         if (target == kNoIndex && !channel.target_path.empty()) continue;
         const std::string where = fmt::format("animations[{}].channels[{}].target.node", i, k);
         RETURN_IF_ERROR(file_.CheckIndex(target, count_, where));
@@ -151,7 +151,7 @@ class NodeReader {
     nodes_.joint_of.assign(count_, kNoIndex);
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       if (!is_joint_[node]) continue;
-      // If the file lists its ancestors later, make them first, from the root down.
+      // If the file lists a node's ancestors after the node, make them first, from the root down.
       std::vector<int> chain;
       for (int above = node; above != kNoIndex && nodes_.joint_of[above] == kNoIndex; above = parents_[above]) {
         chain.push_back(above);
