@@ -98,8 +98,7 @@ class Adjuster {
     return start;
   }
 
-  /// Returns the mean square of a joint's second differences over `lag` frames, along one axis, without the largest 5
-  /// %.
+  /// Returns the mean square, per axis, of a joint's second differences over `lag` frames, without the largest 5 %.
   std::optional<double> SquareOver(Role role, std::size_t lag) const {
     std::vector<double> squares;
     for (std::size_t k = lag; k + lag < joints_.size(); ++k) {
@@ -139,7 +138,7 @@ class Adjuster {
       points_[Index(role)] = static_cast<int>(measurable_.points.size());
       measurable_.points.push_back({person_.body.roles[Index(role)].joint, person_.body.roles[Index(role)].p_LQ});
     }
-    // Lengthen one bone by a metre; the changes of all offsets are their derivatives.
+    // Lengthen one bone by a metre; the changes of all offsets are their derivatives with respect to the bone's length.
     for (const Bone& bone : AllBones()) {
       using enum Role;
       if (bone.child == kShoulderCentre || bone.child == kRightShoulder || bone.child == kRightHip) continue;

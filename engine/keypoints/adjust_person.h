@@ -11,8 +11,8 @@ struct AdjustPersonOptions {
   double rate_hz = 30;
   double min_confidence = 0.1;  ///< keypoints of lower confidence are ignored
   double acceleration = 8;        ///< lower bound of a joint's acceleration scale along each axis, m/s²
-  /// The motion recovered from silhouettes in the same frames; null: none. Each of its joints is weighted by its usual
-  /// distance from the motion from keypoints alone.
+  /// The motion recovered from silhouettes in the same frames; null: none. A joint has less weight if it is usually far
+  /// from its position in the motion from keypoints alone.
   const BodyMotion* outlines = nullptr;
 };
 

@@ -21,7 +21,7 @@ std::vector<LandmarkPositions> ToLandmarks(const MarkerMotion& markers);
 MarkerMotion JointMarkers(std::span<const LandmarkPositions> frames, double rate_hz);
 MarkerMotion JointMarkers(const BodyMotion& motion);
 
-/// Two frame rates are treated as equal if their relative difference is at most this: 29.97 and 30 frames a second.
+/// Two frame rates are treated as equal if their relative difference is at most this, for example 29.97 and 30 Hz.
 constexpr double kSameRateTolerance = 0.002;
 
 /// Resamples markers by linear interpolation: frame k is at k / rate_hz seconds. A marker is nullopt where a

@@ -16,7 +16,7 @@ namespace {
 
 using enum Landmark;
 
-// Student's t with four degrees of freedom: the cost of a residual, and its weight in the next step.
+// The degrees of freedom of Student's t, which defines the cost of a residual and its weight in the next step.
 constexpr double kFreedom = 4;
 double Cost(double r) { return 0.5 * (kFreedom + 1) * std::log1p(r * r / kFreedom); }
 double Weight(double r) { return 1 / (1 + r * r / kFreedom); }
@@ -42,7 +42,8 @@ Picture TurnedPicture(const Camera& camera, int quarters) {
   return picture;
 }
 
-/// The sum of weighted squared residuals near a direction, as a quadratic in the plane normal to it.
+/// The sum of weighted squared residuals near a direction, as a quadratic function in the plane normal to the
+/// direction.
 class Sum {
  public:
   explicit Sum(const glm::dvec3& up) {
@@ -169,7 +170,7 @@ std::optional<glm::dvec3> Flight(std::span<const LandmarkPositions> points, doub
     }
     slope /= t4;
     curve /= norm;
-    // It is a flight if the parabola fits and its acceleration is near gravity's.
+    // The frames show a flight if the parabola fits and its acceleration is near gravity's.
     double worst = 0;
     for (std::size_t i = 0; i < window; ++i) {
       const double t = static_cast<double>(i) - middle;
@@ -260,7 +261,7 @@ class Cues {
   void AddFeet(const glm::dvec3& up, Sum& sum) const {
     if (stays_.empty()) return;
     constexpr double kSameHeight = 0.008, kFlatFoot = 0.015, kShare = 0.5, kMaxCost = 2, kUnder = 3;
-    // Compare landmarks of one kind: the height of each with a robust mean height of its kind.
+    // Compare the height of each landmark with a robust mean height of the landmarks of its kind.
     std::vector<std::pair<glm::dvec3, double>> kinds;  // middle of a kind's stays; its height above the sole
     for (std::size_t kind = 0; kind < kFootKinds; ++kind) {
       std::vector<double> heights;

@@ -18,14 +18,15 @@ struct FoundUp {
 };
 
 /// Finds the up direction from several cues *(ours)*. It minimises a sum of robust squared residuals (Student's t,
-/// ν = 4) by Gauss–Newton steps from many start directions:
-/// - **Cameras** are mounted level: a picture's rows are horizontal to 3° (as in nerfstudio's `vertical` orientation of
+/// ν = 4) by Gauss–Newton steps from many start directions. The figures with ± are standard deviations.
+/// - **Cameras** are mounted level: a picture's rows are horizontal ± 3° (as in nerfstudio's `vertical` orientation of
 ///   camera poses); cameras look down by 10° ± 20°. A picture rotated by quarter turns adds a fixed cost.
-/// - **Resting feet** stand on one level floor: equal landmarks have one height, to 0.8 % of the stature; ankles, heels
-///   and toes differ by the heights of a flat foot, to 1.5 %. Outliers (a foot on a chair, or on its toes) are ignored.
-/// - **A straight person** (the distance from ankles to shoulders is the length of legs and trunk) stands upright, to
+/// - **Resting feet** stand on one level floor: landmarks of one kind have the same height, ± 0.8 % of the stature;
+///   ankles, heels and toes differ by the heights of a flat foot, ± 1.5 %. Outliers (a foot on a chair, or on its toes)
+///   are ignored.
+/// - **A straight person** (the distance from ankles to shoulders is the length of legs and trunk) stands upright, ±
 ///   6°; a lying person adds a fixed cost.
-/// - **In a flight** the body's centre of mass is accelerated by gravity, to 3°: a flight is at least 0.2 s in which a
+/// - **In a flight** gravity accelerates the body's centre of mass, ± 3°: a flight is at least 0.2 s in which a
 ///   parabola fits with an acceleration within 15 % of 9.81 m/s².
 /// The deviation is that of the solution, enlarged if the cues disagree by more than their standard deviations. If
 /// another direction explains the cues nearly as well, `within` extends to it. Other postures are not used as cues.

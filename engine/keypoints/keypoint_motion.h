@@ -25,7 +25,7 @@ struct TriangulateOptions {
 struct TriangulationReport {
   std::vector<double> rejected;  ///< for each camera, the share of its keypoints that were outliers
   double residual_px = 0;        ///< median over all points
-  double found = 0;              ///< share of the frames × landmarks seen at least once that were triangulated
+  double found = 0;              ///< triangulated share of frames × landmarks; a landmark counts if it is ever seen
 };
 
 /// A landmark in one frame.

@@ -23,14 +23,14 @@ struct KeypointNoise {
   double Of(Role role) const;
 };
 
-/// Estimates the variance of keypoints along each axis, px², from the residuals of one point. A point that n cameras
-/// agree on leaves a sum of squared reprojection errors of σ²χ² with 2n − 3 degrees of freedom; the result is that sum
-/// divided by the median of its χ² (Wilson and Hilferty 1931), so its median over points is σ².
+/// Estimates the variance of keypoints along each axis, px², from the residuals of one point. If n cameras agree on a
+/// point, its sum of squared reprojection errors is distributed as σ²χ² with 2n − 3 degrees of freedom. The result is
+/// this sum divided by the median of that χ² (Wilson and Hilferty 1931), so its median over points is σ².
 double KeypointVarianceOf(const RobustPoint& point);
 
 /// Measures the random error of keypoints by how well the cameras agree: σ² is the median of KeypointVarianceOf over
-/// all points, triangulated with equal weights. Errors that all cameras share, and a wrong calibration, are not
-/// separated. Returns nullopt without a point. *(Ours.)*
+/// all points, triangulated with equal weights. Errors that all cameras share do not show; those of a wrong calibration
+/// are included. Returns nullopt without a point. *(Ours.)*
 /// @param cameras of the rig without distortion; the pixels are undistorted, too
 /// @param outlier_px keypoints farther off are left out (`RobustOptions`)
 std::optional<KeypointNoise> MeasureKeypointNoise(std::span<const ProjectionMatrix> cameras,

@@ -18,8 +18,8 @@ SeenPerson WithSidesSwapped(const SeenPerson& person);
 struct Mend {
   enum class Kind {
     kSwappedSides,  ///< left and right exchanged on the whole body
-    kSwappedArms,   ///< … on face, shoulders and arms only
-    kSwappedLegs,   ///< … on hips, legs and feet only
+    kSwappedArms,   ///< left and right exchanged on face, shoulders and arms only
+    kSwappedLegs,   ///< left and right exchanged on hips, legs and feet only
     kOtherPerson,   ///< another person's keypoints; replaced by the person's own
     kNobody,        ///< another person's keypoints; the person's own are missing, and the frame is left out
   };

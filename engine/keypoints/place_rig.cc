@@ -78,7 +78,8 @@ std::string CameraOfTheWorld(const RigFile& rig) {
   return {};
 }
 
-/// Returns twice the median leg (hip to knee to ankle) in the rig's lengths; nullopt if no frame shows one.
+/// Returns the stature in the rig's lengths, estimated as twice the median leg (hip to knee to ankle); nullopt if no
+/// frame shows a leg.
 std::optional<double> StatureOf(std::span<const LandmarkPositions> points) {
   std::vector<double> thighs, shanks;
   for (const LandmarkPositions& at : points) {

@@ -22,16 +22,16 @@ struct FootStay {
 };
 
 /// Returns the stays of all feet, the longest first, at most 200. A landmark rests while its speed is below a fifth of
-/// the stature per second; a stay ends when the landmark is farther than 1/40 of the stature from the stay's mean. It
-/// is used only if the means of its two halves are at most 0.6 % of the stature apart, because a sliding foot does not
-/// rest.
+/// the stature per second; a stay ends when the landmark is farther than 1/40 of the stature from the stay's mean. A
+/// stay is used only if the means of its two halves are at most 0.6 % of the stature apart, because a sliding foot does
+/// not rest.
 /// @param stature in the points' unit
 std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, double rate_hz, double stature);
 
 /// Returns the height along `up` of the floor under the feet. Each kind of landmark gives one height: the mean of its
 /// low stays (at most 1/20 of the stature above its 10th percentile), minus the landmark's height above the sole. The
 /// result is the median of these heights, or the lowest if they differ by more than 1/40 of the stature (then the feet
-/// do not stand flat). 0 if there is no stay.
+/// do not stand flat). Returns 0 if there is no stay.
 double FloorUnder(std::span<const FootStay> stays, const glm::dvec3& up, double stature);
 
 }  // namespace etude

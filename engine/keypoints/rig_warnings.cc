@@ -20,7 +20,7 @@ constexpr int kGains = 15;
 constexpr double kGainStep = 0.02;
 double GainAt(int i) { return 1 + kGainStep * (i - kGains / 2); }
 
-/// The costs at all gains.
+/// The costs at all gains of the focal length that are tested.
 using Costs = std::array<double, kGains>;
 
 /// Returns the gain of minimal cost, refined by a parabola through its neighbours; nullopt if the minimum is at an end
@@ -54,7 +54,7 @@ std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> pa
   return std::sqrt((count - 1) / count * squares);
 }
 
-/// A factor on the focal length of one film; if `film` is nullopt, of all films.
+/// A factor on the focal length of one film, or of all films if `film` is nullopt.
 struct FocalGain {
   std::optional<std::size_t> film;
   double gain = 1, error = 0;
@@ -144,7 +144,7 @@ class RigChecker {
     Costs whole{};
     std::array<Costs, kLandmarkCount> by_landmark{};
     std::array<Costs, kTimes> by_time{};
-    // Sum the loss at every gain, in all, by landmark and by tenth of the time.
+    // At every gain, sum the loss: in total, by landmark, and by tenth of the time.
     const double far = 9 * usual_px * usual_px;
     for (int i = 0; i < kGains; ++i) {
       ForEachDistance(Gains(film, GainAt(i)), AsDeclared, [&](std::size_t k, std::size_t landmark, double d) {

@@ -31,7 +31,7 @@ struct Part {
   bool is_left_out = false;
 };
 
-/// The rest body as rigid parts. Part 0 need not be the pelvis; `pelvis()` names it.
+/// The rest body as rigid parts. Part 0 need not be the pelvis; `pelvis()` returns the pelvis.
 class Parts {
  public:
   explicit Parts(const RestBody& rest) : pelvis_(rest.roles[Index(kHipCentre)].joint) {

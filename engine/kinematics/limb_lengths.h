@@ -55,8 +55,9 @@ LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
 ///   direction in `like` is used unchanged.
 /// - A missing end follows from the rest of the body: hips and shoulders have their orientation in `like`, and the
 ///   limbs extend from there with their lengths and directions. If no foot was seen, the hips are placed below the
-///   shoulders by the trunk of `like`; if no hand was seen, the shoulders are placed above the hips in the same way; if
-///   no end was seen at all, the hips are where `like` has them.
+///   shoulders, along the trunk of `like`; if no hand was seen, the shoulders are placed above the hips in the same
+///   way. If neither was seen, the hips follow from the head; if no end was seen at all, the hips are where `like` has
+///   them.
 /// A complete observation is returned unchanged.
 /// @param like a pose near the observed one: the last one recovered, or a standing body
 /// @param is_placed true if `like` stands at the right position in the world

@@ -76,8 +76,8 @@ std::optional<glm::dvec3> FindTwist(int limb, const Directions& directions, cons
   return x;
 }
 
-// Returns the angles that point the limb along `direction_W`; with three angles, its X axis is as near as possible to
-// `x_W`.
+// Returns the angles that point the limb along `direction_W`. If the joint has three angles, they also turn the limb's
+// X axis as near as possible to `x_W`.
 glm::dvec3 AnglesTowards(const glm::dmat3& R_WJ, int dof_count, const glm::dvec3& direction_W,
                          const std::optional<glm::dvec3>& x_W) {
   const glm::dvec3 z_J = glm::transpose(R_WJ) * direction_W;

@@ -303,8 +303,8 @@ class Accelerated {
   std::vector<double> now_, swept_, mixed_;
 };
 
-// A difference is skipped if less than this share of it is independent of newer ones, because so small a part is mostly
-// rounding.
+// Skip a difference if less than this share of it is linearly independent of newer differences: so small a part is
+// mostly rounding.
 constexpr double kNewPart = 1e-10;
 
 double Dot(std::span<const double> a, std::span<const double> b) {

@@ -38,8 +38,9 @@ struct HingeGain {
   /// Returns the φ in (−π, π] that maximises g; 0 if g is constant.
   double Optimum() const;
 
-  /// Returns the best φ within `range`, which must contain 0 (no turn is always allowed). The optimum is taken modulo
-  /// 2π. If it is outside, returns the end of the range with the larger g, or the lower end if both are equal.
+  /// Returns the best φ within `range`, which must contain 0, so that keeping the angle is always allowed. The optimum
+  /// is taken modulo 2π. If it is outside, returns the end of the range with the larger g, or the lower end if both are
+  /// equal.
   double OptimumWithin(const AngleRange& range) const;
 };
 
@@ -116,10 +117,11 @@ IkSolution SolveCcdAnderson(const KinematicTree& tree, const IkProblem& problem,
 /// Anderson's extrapolation of a fixed-point iteration x ← g(x) (Anderson 1965; "type II" of Walker and Ni 2011). With
 /// f = g(x) − x and Δ the differences of consecutive pairs, it returns
 ///     g − Σ γ_i Δg_i,   γ = argmin |f − Σ γ_i Δf_i|.
-/// If g is linear, this is the point of the pairs' span with the shortest f. The constructor allocates all memory.
+/// If g is linear, this is the point in the affine span of the pairs at which f is shortest. The constructor allocates
+/// all memory.
 class AndersonMixing {
  public:
-  /// For vectors of `size` numbers; uses the last `memory` ≥ 0 pairs.
+  /// Makes an extrapolation for vectors of `size` numbers that uses the last `memory` ≥ 0 pairs.
   AndersonMixing(int size, int memory);
 
   /// Records the pair x, g = g(x) and writes the extrapolation to `out`. After the first pair, `out` is g.

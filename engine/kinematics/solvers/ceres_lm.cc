@@ -29,9 +29,9 @@ glm::dquat MissingTurn(const glm::dmat3& R_WE, const glm::dmat3& R_WD) {
   return turn.w < 0 ? -turn : turn;
 }
 
-// The residuals of all effectors as functions of the angles that can move. A position has three. Three axes of equal
-// weight w have three together, 2 √(2w) · (vector part of the quaternion between E and D), whose squares sum to Σ w
-// |u_d − u_c|²; otherwise every axis with weight has three of its own.
+// The residuals of all effectors as functions of the angles that can move. A position has three residuals. Three axes
+// of equal weight w have three residuals together, 2 √(2w) · (vector part of the quaternion between E and D), whose
+// squares sum to Σ w |u_d − u_c|²; otherwise every axis with weight has three residuals of its own.
 class Residuals final : public ceres::CostFunction {
  public:
   Residuals(const KinematicTree& tree, const IkProblem& problem, const std::vector<double>& start_angles,
@@ -143,7 +143,7 @@ class Recorder final : public ceres::IterationCallback {
 
  private:
   // Ceres 2.2 reports length 0 for the first successful step. That step leads from the start to the point of the last
-  // evaluation. (x does not help: Ceres stores the best point so far there.)
+  // evaluation. (`x` cannot be used instead, because Ceres stores the best point so far in it.)
   double StepLength(const ceres::IterationSummary& step) {
     if (std::exchange(has_stepped_, true)) return step.step_norm;
     double squares = 0;

@@ -12,8 +12,8 @@ struct CeresLmOptions {
   double first_radius = 10;
 };
 
-/// Solves by the Levenberg–Marquardt method of Ceres Solver, tuned for speed (bench/peers/README.md lists what was
-/// tried): the general-purpose solver with which ours are compared. It minimises the same sum as
+/// Solves by the Levenberg–Marquardt method of Ceres Solver, the general-purpose solver with which ours are compared.
+/// Its options are tuned for speed (bench/peers/README.md lists what was tried). It minimises the same sum as
 /// `damped-least-squares`,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
 /// by steps (JᵀJ + I / radius) dq = −Jᵀr with an analytic Jacobian; the sum may rise for some steps. Limits are Ceres's

@@ -1,5 +1,5 @@
-// Solves many problems of one tree, each in one lane of the CPU's vectors. Compiled once per instruction set; the best
-// one is selected at run time (README.md).
+// Solves many problems of one tree, each in one lane of the CPU's vectors. This file is compiled once per instruction
+// set; the best one is selected at run time (README.md).
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -63,7 +63,7 @@ class GaussNewtonLanes {
   /// Variables with one number per lane.
   enum Register {
     kDamping,
-    kToStart,    // 1 or 0, as the following flags
+    kToStart,    // 1 or 0, like the following flags
     kKeepsLast,  // the present pose is stored as the last one
     kKeepsBest,  // the present pose is stored as the best one
     kCounts,     // takes part in this active-set pass
@@ -213,7 +213,7 @@ class GaussNewtonLanes {
   void Eliminate() {
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
       const GaussNewtonTree::Effector& effector = tree_.effectors[e];
-      // The quadratics of the effectors start those of their limbs.
+      // Initialise the quadratics of limbs with those of their effectors.
       QuadraticLanes<V>& limb = quadratics_[tree_.joints[effector.joint].quadratic];
       if (effector.is_first) {
         Gather<true>(poses_.AskedOf(e), limb);
@@ -221,7 +221,7 @@ class GaussNewtonLanes {
         Gather<false>(poses_.AskedOf(e), limb);
       }
     }
-    // Limbs without targets beyond start at zero.
+    // Set the quadratics of limbs that move no target to zero.
     for (const int n : tree_.unasked) {
       std::memset(static_cast<void*>(&quadratics_[tree_.joints[n].quadratic]), 0, sizeof(QuadraticLanes<V>));
     }
@@ -271,7 +271,8 @@ class GaussNewtonLanes {
     return has_changed;
   }
 
-  /// Adds the changes to the angles, scaled down where one is too large; lanes with an infinite change do not move.
+  /// Adds the changes to the angles. In a lane in which a change is too large, all changes are scaled down together;
+  /// lanes with an infinite change do not move.
   void Move() {
     V largest(0.0);
     M is_finite = AtLeast(V(0.0), V(0.0));

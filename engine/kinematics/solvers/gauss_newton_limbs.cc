@@ -1,6 +1,6 @@
-// Solves one problem after the other, four limbs in the lanes of a vector and the trunk by rows. Compiled once per
-// instruction set; the best one is selected at run time (README.md). Whatever the width of the vectors, numbers are
-// added in the order of gauss_newton_plain.cc.
+// Solves one problem after the other, four limbs in the lanes of a vector and the trunk by rows. This file is compiled
+// once per instruction set; the best one is selected at run time (README.md). Whatever the width of the vectors,
+// numbers are added in the order of gauss_newton_plain.cc.
 #include <algorithm>
 #include <limits>
 
@@ -231,8 +231,8 @@ class LimbLanes final : public GaussNewtonLimbs {
     return Any(has_changed);
   }
 
-  /// Adds the changes to the angles, scaled down if one is too large; an infinite change moves none. Returns the
-  /// largest.
+  /// Adds the changes to the angles. If one is too large, all are scaled down together; if one is infinite, no angle
+  /// moves. Returns the largest change.
   double Move(double max_change) {
     RowVector largest(0.0);
     auto is_finite = AtLeast(RowVector(0.0), RowVector(0.0));

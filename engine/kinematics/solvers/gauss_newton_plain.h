@@ -101,10 +101,11 @@ std::vector<int> JointsInwards(const KinematicTree& tree);
 /// Returns the options for the sweeps of `gauss-newton`. The problem's limits must already be the allowed ranges.
 IkOptions GaussNewtonSweepOptions(const IkOptions& options);
 
-/// Returns the names of the instruction sets that this CPU supports, widest vectors first. For tests and benchmarks.
+/// Returns the names of the instruction sets that this CPU supports, widest vectors first. Tests and benchmarks use
+/// them.
 std::vector<std::string> BatchTargets();
-/// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. For
-/// tests and benchmarks: results are the same.
+/// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. Only
+/// tests and benchmarks need this, because the results are the same.
 void SetBatchTarget(std::string_view name);
 
 }  // namespace etude

@@ -1,7 +1,7 @@
 #pragma once
 
-// Kinematic trees as plain arrays, stored in the order in which the solver reads them. Without GLM, because files that
-// are compiled once per instruction set include this header.
+// Kinematic trees as plain arrays, stored in the order in which the solver reads them. They do not use GLM, because
+// files that are compiled once per instruction set include this header.
 #include <cstddef>
 #include <span>
 #include <vector>

@@ -147,7 +147,7 @@ std::span<const IkSolver> AllIkSolvers() {
            .step = "steps"},
           SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquaresActiveSet), &SolverSettings::damping,
           &DampedLeastSquaresOptions::first_damping, Between("damping", 1e-9, 1e6, "The damping of the first step.")),
-      // Joints as points.
+      // Methods that move joints as points.
       {.name = "fabrik",
        .description = "forward and backward reaching of joints as points, positions only",
        .uses_axes = false,

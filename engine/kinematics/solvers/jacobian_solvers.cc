@@ -40,7 +40,7 @@ bool DampedInverse::Step(double damping, std::span<const double> preferred, std:
   const Eigen::Map<const Eigen::MatrixXd> jacobian(jacobian_.data(), rows_, columns_);
   const Eigen::Map<const Eigen::VectorXd> residuals(residuals_.data(), rows_);
   Eigen::Map<Eigen::VectorXd> out(step.data(), columns_);
-  // J⁺e + (I − J⁺J) z = z + J⁺ (e − J z)
+  // Compute J⁺e + (I − J⁺J) z as z + J⁺ (e − J z).
   const Eigen::VectorXd multipliers = factor.solve(residuals - jacobian * out);
   out.noalias() += jacobian.transpose() * multipliers;
   return true;
@@ -133,7 +133,8 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
 constexpr double kMinDamping = 1e-9;
 constexpr double kMaxDamping = 1e6;
 constexpr double kDampingStep = 5;
-// The solver stalls if a step lowers the sum by less than this share: a million such steps would be needed to matter.
+// The solver stalls if a step lowers the sum by less than this share: only about a million such steps would change the
+// sum noticeably.
 constexpr double kMinGain = 1e-6;
 
 }  // namespace

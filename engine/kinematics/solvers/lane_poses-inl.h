@@ -68,7 +68,7 @@ class LanePoses {
   /// Returns the residuals of all lanes.
   const ResidualLanes<V>& miss() const { return miss_[0]; }
   const TargetQuadraticLanes<V>& AskedOf(std::size_t effector) const { return asked_[effector]; }
-  /// Returns the hinges. Their screws belong to the placed poses, the rest to the step.
+  /// Returns the hinges. Their screws are those of the placed poses; their other members belong to the step.
   AlignedList<HingeLanes<V>>& hinges() { return hinges_; }
 
  private:

@@ -46,7 +46,7 @@ class LimbPoses {
   /// Returns the residual of the pose.
   const ResidualLanes<double>& miss() const { return miss_; }
   const TargetQuadraticLanes<Four>& AskedAt(int ends) const { return ends_[ends].asked; }
-  /// Returns the hinges. Their screws belong to the placed pose, the rest to the step.
+  /// Returns the hinges. Their screws are those of the placed pose; their other members belong to the step.
   AlignedList<HingeLanes<Four>>& hinges() { return hinges_; }
   AlignedList<TrunkHinge>& trunk_hinges() { return trunk_hinges_; }
 

@@ -104,7 +104,7 @@ HWY_INLINE V Larger(const V& a, const V& b) {
   return Select(Below(a, b), b, a);
 }
 
-// A vector in memory is the array of its lanes.
+// A vector in memory is an array of its lanes.
 template <class T, class D>
 HWY_INLINE void SetLane(Lanes<T, D>& a, int lane, double x) {
   reinterpret_cast<T*>(&a)[lane] = static_cast<T>(x);
@@ -124,7 +124,7 @@ HWY_INLINE double GetLane(const Lanes<T, D>& a, int lane) {
 using Four = Lanes<double, hn::FixedTag<double, 4>>;
 using FourMask = LaneMask<double, Four::Tag>;
 
-/// Load and store with alignment for four doubles.
+/// LoadFour and StoreFour need memory that is aligned for four doubles.
 HWY_INLINE Four LoadFour(const double* from) { return Four(hn::Load(Four::Tag(), from)); }
 HWY_INLINE void StoreFour(const Four& a, double* to) { hn::Store(a.v, Four::Tag(), to); }
 /// Stores four doubles without alignment.
