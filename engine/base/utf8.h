@@ -28,7 +28,7 @@ Result<void> CheckUtf8(std::string_view text, const std::string& file);
 /// or control a terminal (U+0080 to U+009F). ASCII control characters are not included.
 bool IsHidden(char32_t code);
 
-/// Returns the number of a character, "[U+202E]", to be shown instead of it.
+/// Returns the text that is shown instead of a hidden character: its number, "[U+202E]".
 std::string NumberOf(char32_t code);
 
 /// Makes text safe to show: a hidden character becomes its number, a control character becomes a space unless it is in

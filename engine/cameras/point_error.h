@@ -13,7 +13,7 @@ namespace etude {
 struct CalibrationDeviation {
   double place_m = 0;  ///< of a camera's centre, along each axis
   double turn = 0;     ///< of a camera's direction, about each of its axes, radians
-  double focal = 0;    ///< of its focal length, as a share of it
+  double focal = 0;    ///< of a camera's focal length, as a share of the focal length
 
   friend bool operator==(const CalibrationDeviation&, const CalibrationDeviation&) = default;
 };

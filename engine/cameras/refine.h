@@ -36,8 +36,8 @@ struct RefineOptions {
   LensModel lens = LensModel::kRadial2;
   /// Estimates the skew. Modern sensors have none, so set it only to get paper B's eleven degrees of freedom.
   bool skew = false;
-  /// Holds focal lengths, principal points and lenses fixed at the start: for rigs whose cameras were calibrated one by
-  /// one and then set up.
+  /// Holds focal lengths, principal points and lenses fixed at their start values: for rigs whose cameras were
+  /// calibrated one by one and then set up.
   bool hold_intrinsics = false;
   /// Holds the cameras fixed and frees the first target instead: this measures how well known cameras explain the
   /// views.
@@ -82,7 +82,7 @@ Result<RefinedRig> RefineCamera(std::span<const PointPair> pairs, int width, int
                                 const RefineOptions& options = {});
 
 /// Returns the root mean square distance between the pairs' pixels and the pixels at which the camera with its lens
-/// shows their points; infinity if it does not show some point.
+/// shows their points; infinity if the camera cannot show one of the points.
 double ReprojectionRms(const Camera& camera, const CalibrationTargetPose& target, std::span<const PointPair> pairs);
 
 }  // namespace etude

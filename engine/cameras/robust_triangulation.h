@@ -47,7 +47,7 @@ std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSight
 std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
                                        std::span<const double> weights = {});
 
-/// Finds the sightings of a limb that agree about both ends of its strokes at once.
+/// Finds the sightings of a limb whose strokes agree at both ends.
 std::vector<std::size_t> AgreeingViews(std::span<const LimbSighting> sightings, double tolerance_px);
 
 struct WeightedSighting {

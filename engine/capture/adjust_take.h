@@ -58,7 +58,7 @@ AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions&
 BundleSmoothness SmoothnessOf(const TakeBody& body, double rate_hz);
 
 struct MeasureLengthsOptions {
-  /// The number of frames used, spread evenly over those that show the most joints. More frames help little: mark
+  /// The number of frames used, spread evenly over the frames that show the most joints. More frames help little: mark
   /// errors persist over neighbouring frames, so only distant frames average them out.
   int frames = 12;
   MarkErrors marks;

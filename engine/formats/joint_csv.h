@@ -45,7 +45,7 @@ struct JointCsvRow {
   std::array<std::optional<glm::dvec3>, kRoleCount> places = {};
 };
 /// Reads one more row of a file with known columns. Returns an error for anything that `ReadNumberRows` refuses, or if
-/// the number of values differs from that of the columns.
+/// the number of values differs from the number of columns.
 Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file);
 
 }  // namespace etude

@@ -77,7 +77,7 @@ Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std
   return rows;
 }
 
-/// Describes what is uneven: frames without a row, frames between rows, and rows that are not used.
+/// Describes the irregularities of a grid: frames without a row, frames between rows, and rows that are not used.
 std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   std::size_t holes = 0, places = 0, longest = 0, run = 0, between = 0;
   for (const GridFrame& frame : grid.frames) {

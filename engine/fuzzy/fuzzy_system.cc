@@ -35,7 +35,7 @@ std::vector<std::string> TermNames(Feature feature) {
   return names;
 }
 
-/// Returns the features that a key such as "RH, LH" names; they share the settings under it.
+/// Returns the features in a key such as "RH, LH". They share the settings under the key.
 Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
   std::vector<Feature> group;
   for (const std::string_view word : SplitAt(entry.key, ',')) {

@@ -17,7 +17,8 @@ MarkerMotion ToMarkers(std::span<const LandmarkPositions> frames, double rate_hz
 /// Turns markers into positions of landmarks; markers of other names are ignored.
 std::vector<LandmarkPositions> ToLandmarks(const MarkerMotion& markers);
 
-/// Returns the joints that landmarks determine (`JointsOf`), or those of a motion, as markers named after their roles.
+/// Returns the joints that landmarks determine (`JointsOf`), or the joints of a motion, as markers named after their
+/// roles.
 MarkerMotion JointMarkers(std::span<const LandmarkPositions> frames, double rate_hz);
 MarkerMotion JointMarkers(const BodyMotion& motion);
 
@@ -56,9 +57,9 @@ struct MarkerAgreement {
   std::size_t frames = 0;  ///< number of frames in which both have the marker
 };
 
-/// Compares the markers that both recordings contain, in the reference's order, over the frames of the shorter one.
-/// Distances are between equal markers in equal frames, without alignment. If the reference was made from the same
-/// keypoints, the distance measures agreement, not error.
+/// Compares the markers that both recordings contain, in the reference's order, over the frames of the shorter
+/// recording. Distances are between markers of the same name in frames of the same number, without alignment. If the
+/// reference was made from the same keypoints, the distance measures agreement, not error.
 std::vector<MarkerAgreement> CompareMarkers(const MarkerMotion& motion, const MarkerMotion& reference);
 
 /// Compares all markers and frames at once.

@@ -153,7 +153,7 @@ class PersonMatcher {
       const auto found = other.entries.find(frame);
       if (found != other.entries.end()) shared.push_back({frame, entry, found->second});
     }
-    // Compute the median error over at most about kMaxFrames of these frames.
+    // Compute the median error over about kMaxFrames of these frames.
     constexpr std::size_t kMaxFrames = 60;
     const std::size_t stride = std::max<std::size_t>(1, shared.size() / kMaxFrames);
     const auto error_of = [&](bool is_swapped) {

@@ -133,7 +133,7 @@ class Mender {
           ++seeing;
           const auto misfit = MisfitOf(c, frame, *person_.seen[c][frame]);
           if (!misfit || *misfit <= kOff) continue;
-          // Look for the person in the same picture that fits best, and much better.
+          // Look for the person in the same picture who fits best, and much better than the person chosen so far.
           const SeenPerson* best = nullptr;
           double least = kBetter * *misfit;
           for (const SeenPerson& candidate : people_[c][frame]) {
@@ -142,7 +142,7 @@ class Mender {
             least = *other;
             best = &candidate;
           }
-          // A camera that shows a better person has priority over one that shows none.
+          // Prefer a camera whose picture shows a better person over a camera whose picture shows none.
           if (has_better ? best == nullptr || *misfit <= most : best == nullptr && *misfit <= most) continue;
           worst = c;
           most = *misfit;

@@ -108,7 +108,8 @@ std::optional<glm::dvec3> PersonsUp(std::span<const LandmarkPositions> points) {
   return sum / length;
 }
 
-/// Returns the unit that gives an adult's stature, or else a plausible one; null if there is none.
+/// Returns the unit that gives an adult's stature, or else a unit that gives a plausible stature; null if there is
+/// none.
 const LengthUnit* LikelyUnit(double file_units) {
   for (const LengthUnit& unit : kUnits) {
     const double stature = unit.metres * file_units;
@@ -194,7 +195,7 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   const double within = Degrees(found.within);
   constexpr double kTold = 3, kTilted = 8, kSure = 3;
   // If the format defines an up axis, feet that are not level (on a beam) are no reason to tilt the world. Caliscope's
-  // axes are those of a calibration board, so they define none.
+  // axes are those of a calibration board, so they do not define an up axis.
   const bool is_level = rig.format != "Caliscope" || tilt < std::max(kSure * accuracy, kTilted);
   if (options.up == "auto" && camera.empty() && rig.has_unit && tilt < std::max(kFar, within) && is_level) {
     std::string told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), lean_from(usual));

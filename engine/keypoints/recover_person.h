@@ -44,8 +44,8 @@ struct RecoverPersonOptions {
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
 
-/// Returns the options for pictures with this longer side, pixels: keypoints that are off by more than 3 % of it are
-/// outliers, and somebody who was not seen for half a second is a new person.
+/// Returns the options for pictures whose longer side is `longer_side_px`: keypoints that are off by more than 3 % of
+/// that side are outliers, and somebody who was not seen for half a second is a new person.
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 
 /// A person recovered from several cameras' keypoints.

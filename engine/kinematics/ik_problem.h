@@ -167,8 +167,8 @@ inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 /// exceed `kMaxIkValue`; limbs of zero length (a joint may coincide with the root); limits with lower > upper; axes
 /// that are not orthonormal; negative weights; an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
-/// These make parts of the same checks: of tree and options, of the tree, of the options, and of one problem of a tree
-/// without faults.
+/// These make only some of the checks above: those of tree and options, of the tree, of the options, and of one problem
+/// whose tree has no faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
 std::string_view FindTreeFault(const KinematicTree& tree);
 std::string_view FindFault(const IkOptions& options);

@@ -54,7 +54,7 @@ constexpr Movement kTrunkExtension{25, kNotGiven, kNotGiven, 25};
 constexpr Movement kTrunkSide{35, kNotGiven, kNotGiven, 25};
 constexpr Movement kTrunkRotation{45, kNotGiven, kNotGiven, 30};
 
-// One degree of freedom: the movement that decreases its angle and the one that increases it.
+// One degree of freedom: the movement that decreases its angle and the movement that increases it.
 struct DofRow {
   BodyTreeJoint joint;
   int axis;

@@ -41,7 +41,7 @@ std::optional<Directions> FindDirections(const BodyPose& joints) {
   return directions;
 }
 
-// Returns R_WL of the left foot. Its X axis is that of the hinges at ankle and knee.
+// Returns R_WL of the left foot. Its X axis is the common axis of the hinges at ankle and knee.
 std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
   // Both hinges turn about +X by positive angles from foot to thigh. Each cross product is proportional to the sine of
   // its angle, which weights the normals by their accuracy.

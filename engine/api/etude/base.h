@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string_view>
 
-/// Marks the public symbols of this folder's headers. Of the engine's own headers (`engine/…`), everything is public.
+/// Marks the public symbols of this folder's headers. All symbols of the engine's own headers (`engine/…`) are public.
 #define ETUDE_API __attribute__((visibility("default")))
 
 namespace etude {}

@@ -29,8 +29,8 @@ struct GltfContent {
 /// material has no texture.
 using FetchFile = std::function<Result<std::string>(const std::string& uri)>;
 
-/// Decodes a PNG or JPEG file with at most `max_pixels` pixels. The error describes what is wrong with the picture,
-/// without its place in the file.
+/// Decodes a PNG or JPEG file with at most `max_pixels` pixels. The error describes what is wrong with the picture, not
+/// where the picture is in the file.
 using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, std::size_t max_pixels)>;
 
 /// Reads glTF 2.0 as text (.gltf) or binary (.glb), in metres with Y up, as the format defines. Without `fetch`, the

@@ -347,7 +347,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   return model;
 }
 
-/// Returns the nodes that a VRM file's own table of bones names; malformed entries are ignored.
+/// Returns the node of each bone in a VRM file's table of bones, by bone name; malformed entries are ignored.
 std::map<std::string, int> BoneTable(const tinygltf::Model& model) {
   std::map<std::string, int> nodes;
   const auto add = [&](const std::string& bone, const tinygltf::Value& value) {

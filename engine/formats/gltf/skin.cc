@@ -50,7 +50,7 @@ Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int no
     rigid.joint = nodes.joint_of[node];
     return Bindings{rigid};
   }
-  // A skin binds to its joints.
+  // A node with a skin is bound to the skin's joints.
   RETURN_IF_ERROR(file.CheckIndex(index, model.skins.size(), fmt::format("nodes[{}].skin", node)));
   const tinygltf::Skin& skin = model.skins[static_cast<std::size_t>(index)];
   const std::string name = fmt::format("skins[{}]", index);

@@ -24,8 +24,8 @@ IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, c
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 
-  /// Adds one pair of vectors, current and desired: positions of the effector relative to the joint, or one of its
-  /// axes. All vectors are in the same frame; `axis` is the hinge's unit axis.
+  /// Adds one pair of vectors, current and desired: either positions of the effector relative to the joint, or one of
+  /// the effector's axes. All vectors are in the same frame; `axis` is the hinge's unit axis.
   void Add(double weight, const glm::dvec3& current, const glm::dvec3& desired, const glm::dvec3& axis) {
     k1 += weight * (glm::dot(desired, axis) * glm::dot(current, axis));
     k2 += weight * glm::dot(desired, current);
@@ -39,8 +39,8 @@ struct HingeGain {
   double Optimum() const;
 
   /// Returns the best φ within `range`, which must contain 0, so that keeping the angle is always allowed. The optimum
-  /// is taken modulo 2π. If it is outside, returns the end of the range with the larger g, or the lower end if both are
-  /// equal.
+  /// is taken modulo 2π. If the optimum is outside `range`, returns the end of the range with the larger g, or the
+  /// lower end if both are equal.
   double OptimumWithin(const AngleRange& range) const;
 };
 

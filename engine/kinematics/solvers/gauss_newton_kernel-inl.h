@@ -22,8 +22,8 @@ inline constexpr double kSquaredPositionScale = 0.30 * 0.30;
 
 // ---- Sine and cosine ------------------------------------------------------------------------------------------------
 
-/// Computes sine and cosine of an angle from those of its remainder, `s` and `c`. The last bits of `shifted` count
-/// quarter turns: an odd count swaps sine and cosine, and the second bit decides the signs.
+/// Computes sine and cosine of an angle from the sine `s` and cosine `c` of its remainder. The last bits of `shifted`
+/// count quarter turns: an odd count swaps sine and cosine, and the second bit decides the signs.
 template <class T>
 HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const Lanes<T>& c, Lanes<T>& sine,
                             Lanes<T>& cosine) {
@@ -318,7 +318,7 @@ HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes
 
 // ---- The step for one limb, by rows --------------------------------------------------------------------------------
 
-// The rows have six numbers. Every sum is taken in the same order as above.
+// The rows have six numbers. Every sum is taken in the same order as in the code for `Lanes` above.
 
 /// Six numbers and two zeros.
 struct SixRow {

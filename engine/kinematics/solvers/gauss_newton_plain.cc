@@ -57,7 +57,7 @@ class PlainSolver {
   }
 
  private:
-  // Computes the residual of the pose, and asks the course what comes next.
+  // Computes the residual of the pose, and asks the course for the next action.
   GaussNewtonCourse::Next LinearisePose() {
     const bool is_met = run_.HasConverged();
     return course_.Arrive(is_met ? 0 : step_.Build(frames_), is_met, [&] { return IsOutOfReach(tree_, problem_); });
@@ -229,7 +229,7 @@ double GaussNewtonStep::LineariseTarget(const EffectorTarget& target, const Limb
     squares += 2 * u[k] * (1 - glm::dot(R_WE[k], R_WD[k]));
   }
   // Λ: the weighted square of the effector's translation, and of each axis's movement, which is the component of the
-  // rotation normal to it.
+  // rotation normal to the axis.
   const double straight = w * glm::dot(p_RE_W, p_RE_W) + u.x + u.y + u.z;
   const glm::dvec3 lever = w * p_RE_W;
   std::array<double, 36>& m = out.matrix;

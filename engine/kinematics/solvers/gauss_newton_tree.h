@@ -37,7 +37,7 @@ struct GaussNewtonTree {
 
   std::vector<Joint> joints;
   std::vector<Effector> effectors;
-  std::vector<int> inwards;  ///< joints sorted by height, so each comes after all beyond it (`JointsInwards`)
+  std::vector<int> inwards;  ///< joints sorted by height, each after all joints beyond it (`JointsInwards`)
   std::vector<Step> steps;   ///< in that order; joints of one height alternate, so that a CPU can overlap them
   std::vector<int> unasked;  ///< joints that move no effector
   int quadratic_count = 0;
@@ -93,7 +93,7 @@ struct LimbPacks {
   std::vector<Ends> ends;
   std::vector<TrunkJoint> trunk;  ///< parents before children, the root first
   std::vector<Branch> branches;   ///< joint after joint, in the order in which `GaussNewtonStep` adds them
-  std::vector<int> inwards;       ///< trunk joints without the root, each after all beyond it
+  std::vector<int> inwards;       ///< trunk joints without the root, each after all joints beyond it
   std::vector<int> places;        ///< the angle index of each degree of freedom
   std::vector<int> end_places;    ///< of each effector: 4 times its index in `ends`, plus its lane
   int slot_count = 0;

@@ -68,7 +68,7 @@ class GaussNewtonLimbs {
   /// per square of `kPositionScale`.
   virtual double* TargetOf(int effector) = 0;
 
-  /// X_WE at the pose placed last, which is the solution if the course has converged.
+  /// The pose X_WE of an effector at the pose placed last, which is the solution if the course has converged.
   struct End {
     double position[3], axes[3][3];
   };

@@ -59,10 +59,10 @@ class DampedInverse {
 };
 
 struct JacobianTransposeOptions {
-  /// Multiplies the step length that is optimal to first order; below 2 the error still falls to first order. The
-  /// default 1 is the usual method. Its steps zigzag like those of steepest descent with exact line search; shorter
-  /// steps avoid that (Raydan and Svaiter 2002). Set it to 0.5 to see the method at its best (README.md has the
-  /// figures).
+  /// A factor on the step length that is optimal to first order. With every factor between 0 and 2 the error falls, to
+  /// first order. The default 1 is the usual method. Its steps zigzag like those of steepest descent with exact line
+  /// search; shorter steps avoid that (Raydan and Svaiter 2002). Set it to 0.5 to see the method at its best (README.md
+  /// has the figures).
   double gain = 1;
 };
 
@@ -101,8 +101,8 @@ struct DampedLeastSquaresOptions {
   /// so the number of solved problems hardly depends on this value. A larger value keeps hidden angles nearer to the
   /// start: raise it if the answer should stay there (README.md has the figures).
   double first_damping = 1e-2;
-  /// How a step keeps the limits. Clamping is the default because most implementations of this method do it. It is slow
-  /// along limits, because other angles compensate for a clamped angle only in later steps.
+  /// The way in which a step keeps the limits. Clamping is the default because most implementations of this method do
+  /// it. It is slow along limits, because other angles compensate for a clamped angle only in later steps.
   /// `damped-least-squares-active-set` uses the active set.
   Bounds bounds = Bounds::kClamped;
 };

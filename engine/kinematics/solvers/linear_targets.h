@@ -49,7 +49,7 @@ class LinearTargets {
   /// The residuals e, rows() numbers.
   std::span<const double> residuals() const { return residuals_; }
 
-  /// Returns the sum in the description of this class at `frames`, computed exactly, without linearisation.
+  /// Returns the sum that |e|² approximates (see the description of this class), computed exactly at `frames`.
   double Cost(const TreeFrames& frames) const;
 
  private:

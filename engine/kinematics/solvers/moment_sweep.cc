@@ -29,7 +29,8 @@ namespace {
 
 struct HingeState {
   double c, s;  // cosine and sine of the angle
-  // Cosine and sine of the middle of its range and of half its width; `cos_half` is −2 if the angle is unlimited.
+  // Cosine and sine of the middle of the angle's range and of half its width; `cos_half` is −2 if the angle is
+  // unlimited.
   double cos_middle, sin_middle, cos_half, sin_half;
 };
 

@@ -129,8 +129,8 @@ void SweepTree::PlaceAxes() {
   }
 }
 
-// Assigns memory to moments: a limb shares the memory of its parent, unless the parent already has moments, to which
-// those of the limb are added.
+// Assigns memory to moments. A limb shares its parent's memory, unless the parent already has moments to which the
+// limb's moments are added.
 void SweepTree::PlaceMoments() {
   for (Effector& effector : effectors) {
     Joint& joint = joints[effector.joint];
