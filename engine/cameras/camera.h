@@ -15,9 +15,11 @@ namespace [[gnu::visibility("default")]] etude {
 ///     y' = y g + p1 (r² + 2 y²) + 2 p2 x y + s3 r² + s4 r⁴
 ///
 /// If the sensor is tilted about its axes by tau_x, then tau_y, the ray is shown where it meets the tilted sensor. A
-/// fisheye (Kannala and Brandt 2006) instead shows a ray at the angle θ from the axis at the distance θ (1 + k1 θ² + k2
-/// θ⁴ + k3 θ⁶ + k4 θ⁸) from the centre. The intrinsics then map the result to a pixel. With all coefficients zero and
-/// no fisheye, the camera is a pinhole.
+/// fisheye (Kannala and Brandt 2006) instead shows a ray at the angle θ from the axis at this distance from the centre:
+///
+///     θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)
+///
+/// The intrinsics then map the result to a pixel. With all coefficients zero and no fisheye, the camera is a pinhole.
 struct Distortion {
   double k1 = 0, k2 = 0;                  ///< radial; k1 < 0 is barrel distortion
   double p1 = 0, p2 = 0;                  ///< tangential: the lens is not parallel to the sensor

@@ -62,7 +62,8 @@ struct KnownAngles {
   std::optional<TreeState> start, pose;
 };
 
-/// Recovers the frames one by one, with the results of `RecoverFrames`, for callers that need each frame immediately.
+/// Recovers the frames one by one, for callers that need each frame immediately. The results equal those of
+/// `RecoverFrames`.
 class FrameRecovery {
  public:
   /// `body` must outlive this object.

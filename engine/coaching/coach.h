@@ -81,7 +81,7 @@ struct CoachInput {
   /// The evidence from the follower that was asked for the move of the open window.
   Evidence evidence = {};
   std::optional<double> other_side = {};  ///< Evidence::asked for the mirror image, if it is computed
-  std::optional<double> music_s = {};     ///< position of the music heard now, in seconds of the song; empty without music
+  std::optional<double> music_s = {};     ///< position of the music heard now, seconds of the song; empty: no music
   /// For policy `oracle`: true if the requested performance was right. It is read in the last frame of the performance.
   std::optional<bool> told_right = {};
   bool moment = false;  ///< for policy `yoked`: correct now, or as soon as the dance can be interrupted

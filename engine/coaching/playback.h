@@ -76,7 +76,8 @@ bool IsOver(const Playback& playback, const DanceLibrary& library, double before
 /// Returns true if the playing clip may be left: no join is in progress, and the frames of the clip itself are shown.
 bool IsSettled(const Playback& playback);
 
-/// Advances by one frame, in the dance by `rate` frames. A path back to the dance ends in the dance.
+/// Advances by one frame; while the dance plays, by `rate` frames of the dance. After a path back to the dance, the
+/// dance plays.
 void Advance(Playback& playback, const DanceLibrary& library, double rate);
 /// Starts the transition from the playing dance or clip, which must be settled, to the clip `clip`, from the next frame
 /// on.

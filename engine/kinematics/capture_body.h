@@ -25,8 +25,8 @@ struct CaptureBody {
     bool has_direction = true;
     double sense = 1;  ///< −1 if the tree's limb points towards the trunk; strokes point away from it
   };
-  /// The twist of a limb, given by two neighbouring limbs: the limb's X axis points along `bends` · (middle − upper) ×
-  /// (lower − middle).
+  /// The twist of a limb, given by two neighbouring limbs: the limb's X axis points along
+  /// `bends` · (middle − upper) × (lower − middle).
   struct Twist {
     int joint;
     Role upper, middle, lower;

@@ -123,7 +123,7 @@ glm::dmat3 BestTurn(std::span<const glm::dvec3> from, std::span<const glm::dvec3
     return glm::length(best) < kTiny * glm::length(longest) ? glm::dmat3(1)
                                                             : SmallestRotation(line, glm::normalize(best));
   }
-  // General vectors (Kabsch 1976): the proper rotation nearest to Σ to · fromᵀ.
+  // For general vectors, return the proper rotation nearest to Σ to · fromᵀ (Kabsch 1976).
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) sum += ToEigen(to[i]) * ToEigen(from[i]).transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);

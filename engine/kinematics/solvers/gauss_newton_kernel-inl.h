@@ -372,7 +372,7 @@ struct alignas(64) TrunkHinge {
   double scale, best, side;
 };
 
-/// Returns a × b of vectors x, y, z, 0.
+/// Returns the cross product a × b of vectors that are stored as x, y, z, 0.
 HWY_INLINE Four CrossAxes(const Four& a, const Four& b) {
   return NextAxes(a) * NextAxes(NextAxes(b)) - NextAxes(b) * NextAxes(NextAxes(a));
 }

@@ -51,8 +51,8 @@ class GaussNewtonHelp {
 
 // ---- One problem, four limbs in lanes (gauss_newton_limbs.cc) ------------------------------------------------------
 
-/// Solves one problem after the other of one tree, four limbs in the lanes of the CPU's vectors, the trunk by rows. The
-/// constructor allocates all memory.
+/// Solves problems of one tree one after the other, with four limbs in the lanes of the CPU's vectors and the trunk by
+/// rows. The constructor allocates all memory.
 class GaussNewtonLimbs {
  public:
   /// Makes a solver for the vectors that `SetBatchTarget` selects. `packs` must outlive it.
