@@ -30,8 +30,8 @@ constexpr double kSameRateTolerance = 0.002;
 /// unchanged.
 MarkerMotion AtRate(MarkerMotion markers, double rate_hz);
 
-/// The time of a reference recording relative to a motion: frame k of the motion corresponds to frame at + (1 +
-/// stretch) · k of the reference.
+/// The time of a reference recording relative to a motion: frame k of the motion corresponds to frame
+/// at + (1 + stretch) · k of the reference.
 struct ReferenceClock {
   double at = 0, stretch = 0;
   /// The mean loss d² / (d² + s²) of the distances d between the two recordings, with s = 3 cm: `before` with equal

@@ -18,7 +18,7 @@ struct FoundUp {
 };
 
 /// Finds the up direction from several cues *(ours)*. It minimises a sum of robust squared residuals (Student's t,
-/// ν = 4) by Gauss–Newton steps from many start directions. The figures with ± are standard deviations.
+/// ν = 4) by Gauss–Newton steps from many start directions. The figures with ± are the scales of the residuals.
 /// - **Cameras** are mounted level: a picture's rows are horizontal ± 3° (as in nerfstudio's `vertical` orientation of
 ///   camera poses); cameras look down by 10° ± 20°. A picture rotated by quarter turns adds a fixed cost.
 /// - **Resting feet** stand on one level floor: landmarks of one kind have the same height, ± 0.8 % of the stature;
@@ -28,7 +28,7 @@ struct FoundUp {
 ///   6°; a lying person adds a fixed cost.
 /// - **In a flight** gravity accelerates the body's centre of mass, ± 3°: a flight is at least 0.2 s in which a
 ///   parabola fits with an acceleration within 15 % of 9.81 m/s².
-/// The deviation is that of the solution, enlarged if the cues disagree by more than their standard deviations. If
+/// The deviation is that of the solution, enlarged if the cues disagree by more than these scales. If
 /// another direction explains the cues nearly as well, `within` extends to it. Other postures are not used as cues.
 /// @param metre length of a metre in the points' unit
 FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPositions> points, double rate_hz,
