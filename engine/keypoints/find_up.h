@@ -24,8 +24,8 @@ struct FoundUp {
 /// - **Resting feet** stand on one level floor: landmarks of one kind have the same height, ± 0.8 % of the stature;
 ///   ankles, heels and toes differ by the heights of a flat foot, ± 1.5 %. Outliers (a foot on a chair, or on its toes)
 ///   are ignored.
-/// - **A straight person** (the distance from ankles to shoulders is the length of legs and trunk) stands upright, ±
-///   6°; a lying person adds a fixed cost.
+/// - **A straight person** (the distance from ankles to shoulders is the length of legs and trunk) stands upright,
+///   ± 6°; a lying person adds a fixed cost.
 /// - **In a flight** gravity accelerates the body's centre of mass, ± 3°: a flight is at least 0.2 s in which a
 ///   parabola fits with an acceleration within 15 % of 9.81 m/s².
 /// The deviation is that of the solution, enlarged if the cues disagree by more than these scales. If
