@@ -45,11 +45,11 @@ struct ExportOutcome {
 /// machine. `on_progress` counts three steps per world: problem made, problem written, truth written.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
 
-/// The version of the layout of a data set, the key `data_set` of its manifest. Without that key it is 1, whose
-/// pictures are PNG files.
+/// The layout version of a data set, stored as the key `data_set` of its manifest. A manifest without this key has
+/// version 1, in which pictures are PNG files.
 constexpr int kDataSetVersion = 2;
 
-/// Deletes the temporary folder of a killed export to this folder.
+/// Deletes the temporary folder that a killed export to `output` left.
 void RemoveUnfinishedExport(const std::filesystem::path& output);
 
 }  // namespace etude

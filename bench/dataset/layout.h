@@ -22,7 +22,7 @@ std::vector<std::string> ConditionFolders(const Scenario& scenario);
 /// instead, from which the trial cannot be found without the key.
 std::string WorldName(const PreparedScenario& scenario, int condition, int trial);
 
-/// The faults of a folder of predictions; each entry names a file or a world.
+/// The faults found in a folder of predictions. Each entry names a file or a world.
 struct PredictionFaults {
   std::vector<std::string> missing;    ///< worlds without an answer
   std::vector<std::string> extra;      ///< files that answer no world
@@ -32,12 +32,13 @@ struct PredictionFaults {
   bool empty() const { return missing.empty() && extra.empty() && duplicate.empty() && broken.empty(); }
 };
 
-/// The file with the answer to each world of a plan; nullopt if there is none.
+/// The file that answers each world of a plan, by the world's index; nullopt if no file answers it.
 using PredictionFiles = std::vector<std::optional<FilePath>>;
 
-/// Finds SCENARIO/CONDITION/TRIAL.json in `folder`. TRIAL is a number, with or without leading zeros, or the name of a
-/// secret world. `faults` lists all other files as extra, except names that begin with a dot, and links (which could
-/// lead to the truth) and pipes as broken. Fails if the folder cannot be read.
+/// Finds SCENARIO/CONDITION/TRIAL.json in `folder` for every world of the plan. TRIAL is a number, with or without
+/// leading zeros, or the name of a secret world. In `faults`, links (which could lead to the truth) and pipes are
+/// listed as broken, all other files as extra. Names that begin with a dot are ignored. Fails if the folder cannot be
+/// read.
 Result<PredictionFiles> FindPredictions(const std::filesystem::path& folder, const Plan& plan,
                                         PredictionFaults& faults);
 

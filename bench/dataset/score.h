@@ -12,7 +12,8 @@
 namespace etude {
 
 struct ScoreOptions {
-  /// A data set (or any folder with a run's manifest), a scenario file, or a folder of *.yaml.
+  /// The path of a data set (or of any folder with a run's manifest), of a scenario file, or of a folder of *.yaml
+  /// files.
   std::string target;
   std::string predictions;            ///< the folder of answers
   std::string output;                 ///< the result folder
@@ -37,10 +38,10 @@ struct ScoreOutcome {
   PredictionFaults faults;  ///< if there are any, nothing was written
 };
 
-/// Scores answers from files and writes an ordinary result folder. In it they are the last method of each scenario,
-/// compared with the first one. Workers run the scenarios' own methods as in a run; with `alone` these are not run,
-/// nothing is compared, and no expectation is judged. The process must be in the pinned environment, because it judges
-/// the answers itself.
+/// Scores answers from files and writes an ordinary result folder. The scored method is the last method of each
+/// scenario and is compared with the scenario's first method. Workers run the scenarios' own methods as in a run. With
+/// `alone`, these methods are not run, nothing is compared, and no expectation is judged. The process must be in the
+/// pinned environment, because it judges the answers itself.
 Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                       const std::function<void(const Progress&)>& on_progress);
 
