@@ -83,7 +83,7 @@ def all_metrics(a, b):
     found["accel_error_mm@human_dynamics"] = 1000 / RATE ** 2 * found["accel_error_mps2"]
     found["accel_error_mps2@wham"] = RATE ** 2 * np.sqrt((np.diff(x - y, 2, axis=0) ** 2).sum(-1))[1:-1].mean()
     found["jitter@wham"] = RATE ** 3 / 10 * np.sqrt((np.diff(a, 3, axis=0) ** 2).sum(-1)).mean()
-    # Feet, on the floor at height 0.
+    # Measure the feet with respect to the floor at height 0.
     feet = a[:, FEET]
     steps = np.sqrt((np.diff(feet, axis=0)[:, :, [0, 2]] ** 2).sum(-1))
     toes, speed = feet[:, [1, 3]], RATE * steps[:, [1, 3]]

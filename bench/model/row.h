@@ -15,14 +15,14 @@ namespace etude {
 struct CellUsage {
   double wall_s = 0;
   double cpu_s = 0;  ///< of the worker and of the outside method
-  /// The largest resident size of the worker or of the outside method while the cell ran. It is sampled, so cells
-  /// shorter than the sampling interval may share one sample.
+  /// The largest resident memory of the worker or of the outside method while the cell ran, MB. It is sampled, so cells
+  /// that are shorter than the sampling interval may share one sample.
   double peak_mb = 0;
-  /// The time to build the world; only the first cell that ran in the world holds it.
+  /// The time to build the world, seconds. Only the first cell that ran in the world contains it.
   double world_wall_s = 0, world_cpu_s = 0;
 };
 
-/// How a cell (world × method) ended. Every cell becomes a row with one of these.
+/// The way in which a cell (world × method) ended. Every cell becomes a row with one of these statuses.
 enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kOutOfMemory, kBadOutput, kSkipped };
 inline constexpr std::array<Named<Status>, 8> kStatuses = {{{"ok", Status::kOk},
                                                             {"unsolved", Status::kUnsolved},
@@ -34,13 +34,13 @@ inline constexpr std::array<Named<Status>, 8> kStatuses = {{{"ok", Status::kOk},
                                                             {"skipped", Status::kSkipped}}};
 
 std::string_view StatusName(Status status);
-/// Returns true if the status depends on the limits of the machine (timeout, crashed, out of memory), so another run
-/// need not repeat it.
+/// Returns true if the status depends on the limits of the machine (timeout, crashed, out of memory). Another run may
+/// then end with another status.
 bool DependsOnMachine(Status status);
-/// Returns the status of that name; nothing if there is none.
+/// Returns the status with this name; nothing if there is none.
 std::optional<Status> FindStatus(std::string_view name);
 
-/// One measured value of a cell. A missing value has a reason, and never counts as zero.
+/// One measured value of a cell. A missing value has a reason and never counts as zero.
 struct MetricValue {
   std::string id;  ///< an id of bench/metrics, unit in the name
   std::optional<double> value;
@@ -57,7 +57,7 @@ struct Series {
 
 struct Track;  // bench/model/recording.h, which brings motions along
 
-/// All data needed to show a cell again without running it: what a film draws.
+/// All data needed to show a cell again, e.g. in a film, without running it.
 struct Recording {
   Recording();
   Recording(std::vector<Track> motions, std::string extras);
@@ -68,7 +68,7 @@ struct Recording {
   ~Recording();
 
   std::vector<Track> tracks;
-  /// Facts for the viewer, as JSON text written by the task (cameras, masks, captions).
+  /// Data for the viewer, written by the task as JSON text (cameras, masks, captions).
   std::string extras_json;
 };
 
@@ -77,7 +77,8 @@ struct CellResult {
   Status status = Status::kFailed;
   std::string reason = "the task did not fill this cell";
   std::vector<MetricValue> metrics;
-  /// The digest of each stage's output, in order: the first one that differs between two runs shows where they part.
+  /// The digest of each stage's output, in the order of the stages. The first digest that differs between two runs
+  /// shows the stage at which the runs diverge.
   std::vector<std::pair<std::string, std::string>> digests;
   std::vector<Series> series;
   std::optional<Recording> recording;
@@ -118,12 +119,12 @@ struct Row {
   std::string Id() const;
 };
 
-/// Returns a row's value of a metric; nothing if it is missing or was not measured.
+/// Returns a row's value of a metric; nothing if the value is missing or the metric was not measured.
 std::optional<double> ValueOf(const Row& row, std::string_view metric);
 
-/// Returns the condition for display: "key=value, key=value", or "" if nothing is swept.
+/// Returns a condition as text for display: "key=value, key=value", or "" if nothing is swept.
 std::string ConditionLabel(const std::vector<SweptValue>& condition);
-/// Returns the condition as identities contain it: "key=value,key=value", or "-".
+/// Returns a condition as text in a cell's identity: "key=value,key=value", or "-" if nothing is swept.
 std::string CompactLabel(const std::vector<SweptValue>& condition);
 
 }  // namespace etude

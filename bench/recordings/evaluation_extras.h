@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// The extras of task `evaluation`, whose recordings have no tracks of the twenty joints: both motions on the joints
-/// judged, at the truth's rate.
+/// The extras of task `evaluation`: the truth and the answer with the judged joints only, at the truth's rate.
+/// Recordings of this task have no tracks of the twenty joints.
 ///
 /// As JSON (the content of `Recording::extras_json`):
 ///
@@ -20,7 +20,7 @@ struct EvaluationExtras {
 };
 
 std::string WriteEvaluationExtras(const EvaluationExtras& extras);
-/// Reads what WriteEvaluationExtras writes. Fails, naming what is wrong, if `json` is anything else.
+/// Reads the text that WriteEvaluationExtras returns. Fails on any other text, naming what is wrong.
 Result<EvaluationExtras> ReadEvaluationExtras(std::string_view json);
 
 }  // namespace etude
