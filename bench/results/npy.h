@@ -55,13 +55,13 @@ void EndWhenMappedFilesAreCut();
 /// An .npy file mapped into memory: the system reads the parts that are used (EndWhenMappedFilesAreCut).
 class NpyFile {
  public:
-  /// Fails, naming the path, unless NpyWriter wrote the file with numbers of this type.
+  /// Opens a file that NpyWriter wrote with numbers of this type. Fails, naming the path, on any other file.
   static Result<NpyFile> Open(const FilePath& path, std::string_view type);
   NpyFile(NpyFile&& other) noexcept;
   NpyFile& operator=(NpyFile&& other) noexcept;
   ~NpyFile();
 
-  /// Returns true if the head of the file declares this type and shape.
+  /// Returns true if the header of the file declares this type and shape.
   bool HasShape(std::string_view type, std::span<const std::size_t> shape) const;
 
   template <typename Number>

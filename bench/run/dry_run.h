@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A scenario as it would be run: its size, its time, and the number of units and comparisons.
+/// The forecast of a scenario: its size, its time, and its numbers of units and comparisons.
 struct ScenarioForecast {
   std::string name, task;
   std::size_t worlds = 0;  ///< per condition
@@ -22,9 +22,9 @@ struct ScenarioForecast {
   SamplingUnit unit = SamplingUnit::kWorld;
   int units = 0;            ///< number of units in the first condition; that of worlds if each is a unit
   std::string metric = {};  ///< the metric whose differences answers compare (ValueMetricOf), or success
-  /// The standard deviation over worlds of that metric's differences between the method in question (the first one that
-  /// is compared with another) and its baseline, in its unit: the median over conditions. Kept, or of the worlds that
-  /// were run to measure the time; 0 = fewer than kMinSample pairs.
+  /// The standard deviation over worlds of the differences in `metric` between two methods, in the metric's unit: the
+  /// first method that is compared with another, and its baseline. It is the median over conditions. It is stored, or
+  /// comes from the worlds that were run to measure the time. 0 = there are fewer than kMinSample pairs.
   double spread = 0;
 };
 
@@ -36,9 +36,9 @@ struct Forecast {
   Pace pace;
 };
 
-/// Checks all input as Run does, writes nothing, and estimates the time. For a shipped scenario with its own clips and
-/// recordings, the kept cost is scaled by this machine's speed; its clips are not read and its recognisers not taught.
-/// For any other, the first worlds are run until `sample_seconds` have passed, at least one per scenario.
+/// Checks all input like Run, estimates the time, and writes nothing. For a shipped scenario with its own clips and
+/// recordings, the stored cost is scaled by this machine's speed; clips are not read and recognisers are not trained.
+/// For any other scenario, the first worlds are run until `sample_seconds` have passed, at least one per scenario.
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds);
 
 }  // namespace etude

@@ -45,7 +45,8 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// The progress of a run, reported before the first cell, whenever more cells are safe on the disk, and each second.
+/// The progress of a run. It is reported before the first cell, whenever more cells are safe on the disk, and once a
+/// second.
 struct Progress {
   std::size_t cells = 0;  ///< all cells of this run or shard
   std::size_t cells_done = 0;
@@ -53,14 +54,14 @@ struct Progress {
   std::size_t cells_answered = 0;  ///< answered, but not yet measured by programs
   double work_before = 0;          ///< Work() of the interrupted run that this one resumes
   double seconds = 0;
-  /// When all cells have ended: the share of the results that is summarised and written.
+  /// The share of the results that is summarised and written; nullopt until all cells have ended.
   std::optional<double> written = {};
 
-  /// Counts the finished cells; an answered cell that is not yet measured counts half.
+  /// Returns the number of finished cells. An answered cell that is not yet measured counts half.
   double Work() const { return static_cast<double>(cells_done) + 0.5 * static_cast<double>(cells_answered); }
 };
 
-/// A sentence for users: what was found in a clip's file, or a change that was made to its content.
+/// A sentence for users about a clip's file: an observation, or a change that reading made to the file's content.
 struct LoadedChange {
   std::string clip, change;
 };
@@ -76,14 +77,14 @@ struct RunOutcome {
   std::vector<RefusedClip> refused = {};  ///< clips and recordings left out of any scenario, each listed once
   std::vector<LoadedChange> changes = {};  ///< what was changed of the content of clip files, each once
   std::string why_unlocked = {};          ///< why the folder could not be locked against other runs; "" = it was locked
-  /// The line numbers of damaged lines in a resumed journal; their cells were run again.
+  /// The line numbers of damaged lines in the journal of a resumed run. The cells of these lines were run again.
   std::vector<int> damaged_lines = {};
 };
 
-/// Runs scenarios and writes a result folder. All input is checked before anything is written. Then each finished cell
-/// is written to journal.jsonl at once, and synchronised in groups. A run that was ended at any moment, by a kill or a
-/// power cut, can be resumed to the same bytes. A shard keeps its journal for Merge. If no cell is finished, no new
-/// folder is left.
+/// Runs scenarios and writes a result folder. All input is checked before anything is written. Each finished cell is
+/// written to journal.jsonl at once; the journal is synchronised to the disk in groups of cells. A run that was ended
+/// at any moment, by a kill or a power cut, can be resumed, and the result has the same bytes. A shard keeps its
+/// journal for Merge. If no cell is finished, a new folder is removed again.
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress);
 
 struct MergeOptions {
@@ -97,10 +98,10 @@ struct MergeOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Merges the shards of a run; the result has the same bytes as a run in one piece. Fails, with a list, if shards have
-/// different builds, suites or seeds, if they overlap, or if cells are missing. If stopped, it leaves nothing.
-/// `on_progress` gets the share of rows that are read and written. The merge has succeeded only when this function
-/// returns.
+/// Merges the shards of a run. The result has the same bytes as a run in one piece. Fails, with a list, if shards have
+/// different builds, suites or seeds, if shards overlap, or if cells are missing. If the user stops the merge, it
+/// leaves no files. `on_progress` receives the share of rows that are read and written; even at 1, the merge has
+/// succeeded only when this function returns.
 Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress);
 
 }  // namespace etude
