@@ -28,7 +28,7 @@ struct ShownEffect {
 std::vector<ShownEffect> ShownEffects() {
   using E = CameraEffects;
   return {
-      // Each: caption, effect, three strengths, unit, the part of the picture that is shown.
+      // Each entry has a caption, an effect, three strengths, a unit, and the part of the picture that is shown.
       {"Sync offset (all cameras but the first); true skeleton over it",
        &E::sync_offset_ms,
        {20, 60, 150},
