@@ -65,8 +65,8 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   return {};
 }
 
-/// Finds the shards in the folders and lists the missing ones. Fails if shards belong to different runs or builds, or if
-/// a shard occurs twice.
+/// Finds the shards in the folders and lists the missing ones. Fails if shards belong to different runs or builds, or
+/// if a shard occurs twice.
 Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_libraries) {
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
   Shards shards;

@@ -41,9 +41,9 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 
 /// Returns the verdict, which follows from the interval, `p_holm`, the metric's practical threshold and alpha =
 /// 1 − confidence:
-///   no difference    if the intervals of the metric's own aggregate and of the mean both lie within ± threshold (a test
-///                    of equivalence; at 95 % it is stricter than two one-sided 5 % tests). The mean is tested too,
-///                    because a median does not show differences in fewer than half of the worlds. If the mean's
+///   no difference    if the intervals of the metric's own aggregate and of the mean both lie within ± threshold (a
+///                    test of equivalence; at 95 % it is stricter than two one-sided 5 % tests). The mean is tested
+///                    too, because a median does not show differences in fewer than half of the worlds. If the mean's
 ///                    interval is bootstrapped, at least kMinSample pairs must differ, because a bootstrap cannot see
 ///                    rare differences
 ///   better / worse   if p_holm ≤ alpha, the interval lies on one side of zero, and |difference| ≥ threshold

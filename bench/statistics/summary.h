@@ -41,9 +41,9 @@ ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::u
 /// - If every subset of the stages is among the methods, and there are at most kMaxShapleyStages stages, a stage's
 ///   share is its Shapley value (Shapley 1953): the reduction of the error when the truth replaces the stage, averaged
 ///   over all orders of replacement. Stages that interact share their common reduction equally.
-/// - Otherwise the methods form a chain, in which each method has more stages replaced by the truth than the one before.
-///   A share is the reduction of the error in one step of the chain, and depends on the order. Methods outside the chain
-///   are left out.
+/// - Otherwise the methods form a chain, in which each method has more stages replaced by the truth than the one
+///   before. A share is the reduction of the error in one step of the chain, and depends on the order. Methods outside
+///   the chain are left out.
 std::vector<ErrorBudget> ComputeErrorBudgets(const Study& study, const ConditionTable& table, const std::string& metric,
                                              std::uint64_t seed);
 

@@ -22,7 +22,8 @@ MeasureInputs PicturesOf(const CaptureRun& run) {
   return {.cameras = run.cameras.matrices, .marks = run.measured.marks};
 }
 
-/// Returns the joints of every frame, smoothed, or with gaps bridged. Joints may be missing before the first observation.
+/// Returns the joints of every frame, smoothed, or with gaps bridged. Joints may be missing before the first
+/// observation.
 std::vector<OptionalJoints> JointsOf(const CaptureRun& run) {
   if (run.method.smoothing == Smoothing::kRts) return SmoothJoints(run.measured.joints, kJudgedRateHz);
   return BridgeJoints(run.measured.joints);
