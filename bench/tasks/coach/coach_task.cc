@@ -24,14 +24,14 @@ struct Rehearsal {
   std::vector<CoachMethod> methods;
 };
 
-/// Keeps a rehearsal's coaches by scenario and seed. They are made at the first request. If there is an operating
-/// point, their thresholds are set on other people than the judged ones.
+/// Keeps the prepared coaches of a rehearsal, by scenario and seed. They are made at the first request. If there is an
+/// operating point, their thresholds are set on sessions with people who are not judged.
 class ReadyCoaches {
  public:
-  /// `rehearsal` must outlive this.
+  /// `rehearsal` must outlive this object.
   explicit ReadyCoaches(const Rehearsal& rehearsal) : rehearsal_(rehearsal) {}
 
-  /// Fails if a method's recogniser cannot be taught.
+  /// Returns the coaches for worlds of this scenario and seed. Fails if a method's recogniser cannot be taught.
   Result<std::vector<ReadyCoach>*> For(const WorldKey& key) {
     const auto [known, is_new] = known_.try_emplace({key.suite_seed, std::string(key.scenario)});
     if (is_new) {
@@ -83,7 +83,7 @@ class CoachTaskWorld final : public TaskWorld {
     return result;
   }
 
-  /// Returns the coaches. Making them cannot fail here, because the task has made them before.
+  /// Returns the coaches. This cannot fail, because the task has already made them.
   const std::vector<ReadyCoach>& Coaches() const { return **coaches_.For(world_.key); }
 
   const Rehearsal& shared_;
@@ -107,7 +107,7 @@ class CoachTask final : public Task {
   mutable ReadyCoaches coaches_{shared_};  // a cache; its content depends on keys alone
 };
 
-/// Returns the stage of a song, which all conditions with this song share.
+/// Returns the stage of a song. All conditions with this song share it.
 Result<std::shared_ptr<const CoachStage>> SharedStage(const std::string& song) {
   static std::map<std::string, std::weak_ptr<const CoachStage>> stages;
   if (auto known = stages[song].lock()) return known;

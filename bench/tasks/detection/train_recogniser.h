@@ -17,13 +17,13 @@ struct RecogniserTraining {
   OnProgress progress = {};  ///< called with the number of sessions
 };
 
-/// Trains the model of recogniser `learnt`: simulated people perform the repertoire's moves in front of both sensors,
-/// with various noises, turns and distances. Performances are measured as the recogniser does in use, and the model is
-/// fitted to the truth. Grey performances are left out. The worlds have other dice than those of every scenario, so no
-/// judged person is among them.
+/// Trains the model of recogniser `learnt`. Simulated people perform the repertoire's moves in front of both sensors,
+/// with various noises, turns and distances. Performances are measured like in use, and the model is fitted to the
+/// truth. Grey performances are left out. The worlds have other dice than those of every scenario, so no judged person
+/// is among them.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
 
-/// Keeps the nearest performances of a bag, nearest first; the others cannot influence the fit.
+/// Keeps only the nearest performances of a bag, nearest first. Others cannot influence the fit.
 void KeepNearest(std::vector<PerformanceMeasures>& performances);
 
 }  // namespace etude

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// A set of joints: a layout of arrays with so many joints.
+/// A set of joints, given by a layout of arrays with this number of joints.
 struct JointSetOfLayout {
   std::string_view name, layout;
   std::size_t joints;
@@ -18,7 +18,7 @@ constexpr JointSetOfLayout kSets[] = {{"roles-20", "etude", 20},
                                       {"coco-17", "coco", 17},
                                       {"smpl-22", "smpl", 22},
                                       {"smpl-24", "smpl", 24}};
-// Leeds Sports Pose: its neck is the base of the neck, its head the top.
+// In Leeds Sports Pose, the joint "neck" is the base of the neck, and the joint "head" is the top of the head.
 constexpr std::string_view kLsp = "lsp-14";
 constexpr std::string_view kLspJoints[] = {
     "right_ankle", "right_knee",     "right_hip",     "left_hip",   "left_knee",  "left_ankle",      "right_wrist",
@@ -85,7 +85,7 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
 
 namespace {
 
-/// Complains about keys without effect: `answers` of a control, `spoiler` keys of any other method.
+/// Adds an error for keys without effect: `answers` of a control, and keys of the spoiler of any other method.
 void CheckControl(Fields& fields, EvaluationMethod& method) {
   if (method.is_control && !method.answers.empty()) fields.Complain(fields.node().place, "a control has no 'answers'");
   if (!method.is_control && method.spoiler != Spoiler{})

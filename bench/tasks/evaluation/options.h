@@ -23,10 +23,10 @@ struct EvaluationOptions {
 
 const FieldTable<EvaluationOptions>& EvaluationConditionFields();
 
-/// Fails unless the condition names its files in one way, and no trials.
+/// Fails unless the condition names its files in exactly one way. Fails also if it states a number of trials.
 Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options);
 
-/// A method of task evaluation: answers that something outside gave, or a control of the metrics.
+/// A method of task evaluation: answers from elsewhere, or a control that tests the metrics.
 struct EvaluationMethod {
   std::string name;
   std::vector<std::string> answers;  ///< files, patterns, folders; empty where `pairs` names them
@@ -39,7 +39,8 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields();
 /// Returns the names of the sets of joints: "roles", "same", "roles-20", "h36m-17", "lsp-14", "coco-17", "smpl-22",
 /// "smpl-24".
 std::vector<std::string> JointSetNames();
-/// Returns the joints of a set by name, roles where there are such; empty for "roles" and "same".
+/// Returns the joints of a set, by its name. A joint that has a role is given as its role. Empty for "roles" and
+/// "same".
 std::vector<std::string> JointsOfSet(std::string_view set);
 
 }  // namespace etude

@@ -4,8 +4,8 @@
 
 namespace etude {
 
-/// The faults that are added to a truth, in this order, to test metrics on an answer whose faults are known. A fault of
-/// 0 changes nothing.
+/// The faults that are added to a truth, in this order. They test metrics on an answer whose faults are known. A fault
+/// of 0 changes nothing.
 struct Spoiler {
   double noisy_mm = 0;        ///< standard deviation of white noise, each axis, each joint for itself
   double smoothed_ms = 0;     ///< length of a centred moving mean
@@ -23,8 +23,8 @@ struct Spoiler {
   bool operator==(const Spoiler&) const = default;
 };
 
-/// Returns a truth spoilt. The noise depends on `seed_name` alone. Rotations stay as far as the spoilt motion has any:
-/// what changes single joints leaves them out.
+/// Returns a copy of a truth with these faults. The noise depends on `seed_name` alone. Rotations are kept only if the
+/// faults leave them valid: faults that move single joints remove the rotations.
 RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::string& seed_name);
 
 }  // namespace etude

@@ -37,7 +37,8 @@ struct IkTrialOptions {
   bool asks_axes = true;
 };
 
-/// The series and the recording that a cell keeps, beside its metrics and the curves of the largest errors.
+/// The optional series and the recording that a cell keeps. Metrics and the curves of the largest errors are always
+/// kept.
 struct IkRecords {
   bool effector_errors = false;
   bool angle_changes = false;
@@ -63,7 +64,7 @@ struct IkMethod {
 const FieldTable<IkCondition>& IkConditionFields();
 const FieldTable<IkMethod>& IkMethodFields();
 
-/// Reads the methods, on top of the options that the condition sets for all.
+/// Reads the methods. Each begins with the options that the condition sets for all methods.
 Result<std::vector<IkMethod>> ReadIkMethods(TaskInput& input, const IkCondition& condition);
 
 }  // namespace etude

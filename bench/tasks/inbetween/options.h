@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A condition of task inbetween. The defaults are LAFAN1's protocol.
+/// A condition of task inbetween. The defaults are those of LAFAN1's protocol.
 struct InbetweenOptions {
   std::vector<std::string> truth;     ///< files whose windows are judged
   std::vector<std::string> training;  ///< files that give L2P's deviations, offsets, and the fillers' library
