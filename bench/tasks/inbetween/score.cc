@@ -157,7 +157,7 @@ bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Glob
                   .possible = IsPossible(MeasureBody(view, support))});
 }
 
-/// Measures whether a body could move like this: support, foot slide, jitter, and all of `clean_share`.
+/// Measures if a body could move like this: support, foot slide, jitter, and all parts of `clean_share`.
 void MeasureMovement(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
   using enum Role;
   const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, hidden.file->floor_m);
@@ -189,7 +189,7 @@ Recording RecordingOf(const HiddenWindow& hidden, const Globals& found, const Gl
   EvaluationExtras extras;
   extras.truth.rate_hz = hidden.motion.rate_hz;
   extras.truth.joints = hidden.motion.tree.names;
-  // Name the joints after their roles, because readers of clips find them by these names.
+  // Name the joints by their roles, because readers of clips look for these names.
   for (const Role role : AllRoles()) {
     if (hidden.roles[Index(role)] >= 0)
       extras.truth.joints[static_cast<std::size_t>(hidden.roles[Index(role)])] = RoleName(role);
@@ -211,7 +211,7 @@ std::vector<std::string> InbetweenMetrics() {
 std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole) {
   auto file = std::make_shared<JudgedFile>();
   const Globals globals = GlobalsOf(whole.motion.tree, whole.motion.poses);
-  // The floor.
+  // Estimate the height of the floor.
   std::vector<double> lowest;
   for (const BodyPose& body : BodiesOf(globals, whole.roles, 0)) {
     double& height = lowest.emplace_back(body[Role::kHead].y);
@@ -222,7 +222,7 @@ std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole) {
   constexpr double kShare = 0.05;
   file->floor_m = LowerPercentile(std::move(lowest), kShare);
   if (!WhyNotClean(whole).empty()) return file;
-  // The body at the judged size.
+  // Scale the body to the size at which transitions are judged.
   BodyMotion motion{whole.motion.rate_hz, BodiesOf(globals, whole.roles, file->floor_m)};
   file->scale = JudgedProportions().standing_hip_height / StandingHipHeight(motion.poses.front());
   for (BodyPose& pose : motion.poses) {
@@ -239,7 +239,7 @@ CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> fi
   for (std::size_t f = 0; f < filled.size(); ++f) {
     const std::size_t at = static_cast<std::size_t>(hidden.first) + f;
     shown[at] = filled[f];
-    // Choose the sign of each quaternion that is nearer to the frame before.
+    // Choose the sign of each quaternion that is nearer to the previous frame.
     for (std::size_t j = 0; j < filled[f].turns.size(); ++j) {
       glm::dquat& turn = shown[at].turns[j];
       if (glm::dot(turn, shown[at - 1].turns[j]) < 0) turn = -turn;

@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-// Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
+// Grades are in [0, 1] and the weights S have sum 8, so no distance exceeds sqrt(8 · 4).
 constexpr Range kThresholds{0, 6};
 constexpr Range kWaits_s{0, 60};
 

@@ -20,8 +20,8 @@ struct StageRules {
   bool asks_for_acts = false;  ///< true: the coach's acts are requested while other clips play, if there are both
 };
 
-/// A library of clips prepared for transitions: all performed by one body (`JudgedProportions`), tagged, and each with
-/// its own natural jumps for comparison.
+/// A library of clips prepared for transitions. All clips are performed by one body (`JudgedProportions`) and tagged.
+/// The natural jumps of each clip are measured, because transitions are compared with them.
 struct Stage {
   MotionLibrary library;                ///< its clip names are those that rows and videos show
   std::vector<std::string> identities;  ///< the source of each clip; equal for equal clips
@@ -33,13 +33,14 @@ struct Stage {
   std::vector<int> wanted;                  ///< clips that may be requested
 };
 
-/// Clips with fewer frames have no unbroken window of eleven frames with second differences.
+/// The smallest number of frames of a usable clip. A shorter clip has no unbroken window of eleven frames with second
+/// differences.
 constexpr int kMinClipFrames = 13;
 
-/// Returns the natural jumps with which a transition between these two clips is compared, centimetres
-/// (docs/reference/metrics.md). A clip played in between does not influence them.
+/// Returns the natural jumps, centimetres, with which a transition from clip `from` to clip `to` is compared
+/// (docs/reference/metrics.md). A clip that plays in between has no influence.
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
-/// Returns the smaller of both clips' natural limits.
+/// Returns the smaller of the natural limits of two clips, centimetres.
 double CalmerLimitCm(const Stage& stage, int from, int to);
 
 /// Prepares the clips of a library.
