@@ -12,9 +12,9 @@
 namespace etude {
 
 struct ExportOptions {
-  std::vector<std::string> scenarios;  ///< files, or folders of *.yaml
+  std::vector<std::string> scenarios;  ///< paths of files, or of folders with *.yaml files
   std::optional<std::uint64_t> seed;   ///< default: each scenario's own, else 1
-  std::optional<SecretKey> key = {};   ///< of secret worlds, instead of a seed
+  std::optional<SecretKey> key = {};   ///< the key of secret worlds, instead of a seed
   bool reuse_key = false;              ///< allows a key that was used before (used_keys.h)
   std::optional<int> trials;           ///< default: each scenario's own
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips

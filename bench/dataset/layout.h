@@ -26,7 +26,7 @@ std::string WorldName(const PreparedScenario& scenario, int condition, int trial
 struct PredictionFaults {
   std::vector<std::string> missing;    ///< worlds without an answer
   std::vector<std::string> extra;      ///< files that answer no world
-  std::vector<std::string> duplicate;  ///< files that answer a world that another file answers already
+  std::vector<std::string> duplicate;  ///< files for a world that already has an answer
   std::vector<std::string> broken;     ///< answers that cannot be read or have the wrong form, with the reason
 
   bool empty() const { return missing.empty() && extra.empty() && duplicate.empty() && broken.empty(); }

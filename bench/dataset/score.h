@@ -18,11 +18,11 @@ struct ScoreOptions {
   std::string predictions;            ///< the folder of answers
   std::string output;                 ///< the result folder
   std::string name = "predictions";   ///< the name of the method that gave the answers
-  bool alone = false;                 ///< does not run the scenarios' own methods
-  bool allow_missing = false;         ///< a world without an answer becomes a failed cell instead of an error
+  bool alone = false;                 ///< true: the scenarios' own methods are not run
+  bool allow_missing = false;         ///< true: a world without an answer is a failed cell, not an error
   int jobs = 0;                       ///< worker processes for the scenarios' own methods; 0 = one per processor
   std::optional<std::uint64_t> seed;  ///< for scenario files; a manifest has its own
-  std::optional<SecretKey> key = {};  ///< of secret worlds
+  std::optional<SecretKey> key = {};  ///< the key of secret worlds
   std::optional<int> trials;
   std::vector<std::string> clips;
   std::string joint_map;

@@ -16,7 +16,7 @@ constexpr int kUnsealedSchema = 1;
 /// What to do if a baseline does not match its seal.
 enum class BaselineSeal {
   kMustHold,  ///< fail
-  kMayBreak,  ///< read it, and set Snapshot::unsealed
+  kMayBreak,  ///< read the baseline, and set Snapshot::unsealed
 };
 
 /// Returns a snapshot as JSON, in the order of the run. Each scenario and each method × metric has a line of its own,

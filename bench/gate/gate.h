@@ -14,7 +14,7 @@ struct RatioResult {
   std::string scenario;
   TimeRatio rule;
   int pairs = 0;  ///< worlds of all conditions in which neither method was ended by the machine
-  std::optional<double> median, ci_low, ci_high;  ///< of the ratios of processor times
+  std::optional<double> median, ci_low, ci_high;  ///< median of the ratios of processor times, and its interval
   /// Unmet if the whole confidence interval lies above the limit. Undecided if only the median lies above it (times
   /// vary on a busy machine), or if too few worlds have both times. Otherwise met.
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
@@ -40,16 +40,16 @@ struct GateReport {
   std::string suite;
   std::string run_folder;        ///< as the caller names it, for `etude replay`; "" = unknown
   std::string baseline_file;     ///< "" = no baseline: only the scenarios' own expectations were judged
-  std::string baseline_version;  ///< of the program that made the baseline
-  std::string program_version;   ///< of the program that made the run
+  std::string baseline_version;  ///< the version of the program that made the baseline
+  std::string program_version;   ///< the version of the program that made the run
   std::vector<GateExpectation> expectations;
-  std::vector<GateAnswer> answers;  ///< against baselines; only those that fell decide anything (`fallen`)
+  std::vector<GateAnswer> answers;  ///< comparisons with baselines; only fallen ones (`fallen`) decide anything
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
   std::vector<FallenAnswer> fallen;     ///< answers with a worse verdict than before; one that flips fails the gate
   std::vector<std::string> silent;      ///< a sentence per method without any answer: each fails the gate
   std::vector<std::string> incomplete;  ///< why there is no verdict
-  bool runs_programs = false;           ///< some methods are programs, so `etude replay` needs permission
+  bool runs_programs = false;           ///< true: some methods are programs, so `etude replay` needs permission
 };
 
 /// Judges a finished run by its scenarios' expectations and time rules, and by comparison with a baseline if there is

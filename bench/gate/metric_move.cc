@@ -109,7 +109,7 @@ const MetricInfo* FindGateMetric(std::string_view id) {
     metric.direction = Direction::kHigherIsBetter;
     metric.aggregate = Aggregate::kMean;
     metric.reading = Reading::kYesNo;
-    metric.practical = 0.02;  // as for the catalogue's shares of solved problems
+    metric.practical = 0.02;  // the value of the catalogue's shares of solved problems
     return metric;
   }();
   return id == kOkShare ? &ok : FindMetric(id);

@@ -21,12 +21,12 @@ constexpr const char* kOkShare = "ok_share";
 const MetricInfo* FindGateMetric(std::string_view id);
 
 enum class Movement {
-  kSame,      ///< no digit differs
-  kBetter,    ///< clearly, and by at least the practical threshold
-  kWorse,     ///< clearly, and by at least the practical threshold
-  kNoMatter,  ///< clearly by less than the practical threshold
-  kUnclear,   ///< it differs, but neither clearly by the threshold nor clearly by less; or the metric has no direction
-  kChanged,   ///< it differs in a scenario whose rule is `exact`
+  kSame,      ///< all values are equal
+  kBetter,    ///< clearly better, by at least the practical threshold
+  kWorse,     ///< clearly worse, by at least the practical threshold
+  kNoMatter,  ///< the difference is clearly below the practical threshold
+  kUnclear,   ///< values differ, but no other verdict is clear; or the metric has no direction
+  kChanged,   ///< values differ in a scenario whose rule is `exact`
 };
 /// Returns "same", "better", "worse", "too small to matter", "unclear" or "changed".
 std::string_view MovementWords(Movement movement);
@@ -40,7 +40,7 @@ struct TailWorld {
   int trial = 0;
   std::optional<double> before, after;         ///< nullopt = the cell has no value
   char ended_before = 'o', ended_after = 'o';  ///< StatusLetter
-  bool lost = false;                           ///< it had a value or an answer before, and has none now
+  bool lost = false;                           ///< true: the cell had a value or an answer before, and has none now
 };
 
 /// The change of one metric of one method under one condition, between two snapshots.
@@ -52,12 +52,12 @@ struct MetricMove {
   int lost = 0;                         ///< values that the second snapshot does not have
   int gained = 0;                       ///< values that the first snapshot does not have
   std::optional<double> before, after;  ///< the metric's aggregate over the present values
-  Comparison comparison;                ///< over worlds with both values; later − earlier
+  Comparison comparison;                ///< the comparison over worlds with both values; later − earlier
   /// True if the verdict comes from the difference of means; false if it comes from the metric's own aggregate.
   bool by_mean = false;
   std::optional<Comparison> presence;  ///< if values were lost or gained: the comparison of "has a value" (1 or 0)
   std::vector<TailWorld> tail;         ///< lost worlds first, then the worst
-  bool by_tail = false;                ///< the tail rule decided; the other rules would have passed
+  bool by_tail = false;                ///< true: the tail rule decided, and the other rules would have passed
 };
 
 /// The values before and after, and whether each trial is compared. All members are indexed by trial and have the same

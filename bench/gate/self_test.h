@@ -36,7 +36,7 @@ struct SelfTestReport {
   /// Returns true if the gate works as specified: reruns never alarm, the interval of false alarms does not lie above
   /// kFalseAlarmLimit, and the tail rule finds exactly what it must find.
   bool Holds() const;
-  bool tails_found = true;  ///< the tail rule alarmed exactly when it had to
+  bool tails_found = true;  ///< true: the tail rule alarmed exactly when it had to
 };
 
 /// The largest allowed share of gates that report a regression although nothing changed: the alpha of Holm's

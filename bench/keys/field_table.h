@@ -205,7 +205,7 @@ struct Field {
 template <typename Options>
 struct FieldTable {
   std::vector<Field<Options>> fields;
-  std::function<void(Fields&, Options&)> check = {};  ///< complains of values that do not fit together
+  std::function<void(Fields&, Options&)> check = {};  ///< adds an error for values that do not fit together
 
   /// Reads the keys. Errors are collected in `mapping`; absent keys leave `options` unchanged. The caller must run
   /// `check` afterwards.

@@ -14,13 +14,13 @@ namespace etude {
 enum class Alignment {
   kNone,
   kRoot,         ///< in each frame, by the translation of root onto root
-  kRootScaled,   ///< as kRoot, with the scale of least squared error in each frame (N-MPJPE)
-  kFirst,        ///< by the best fit of the first frame with three joints seen by both, in all frames
-  kFirstScaled,  ///< as kFirst, by a similarity
+  kRootScaled,   ///< kRoot, with the scale of least squared error in each frame (N-MPJPE)
+  kFirst,        ///< in all frames, by the best fit of the first frame with three joints seen in both
+  kFirstScaled,  ///< kFirst, by a similarity
   kTake,         ///< by the best fit of all frames together
-  kTakeScaled,   ///< as kTake, by a similarity
+  kTakeScaled,   ///< kTake, by a similarity
   kFrame,        ///< in each frame, by its own best fit
-  kFrameScaled,  ///< as kFrame, by a similarity (PA-MPJPE)
+  kFrameScaled,  ///< kFrame, by a similarity (PA-MPJPE)
 };
 
 /// The transformations that align the frames of an answer. A frame has none if it lacks a root, or if fewer than three
@@ -48,7 +48,7 @@ class PairFits {
   FrameFits ByRoot(bool with_scale) const;
 
   const EvaluatedPair& pair_;
-  std::vector<PointMoments> moments_;  // by frame
+  std::vector<PointMoments> moments_;  // one per frame
   std::vector<std::optional<Similarity>> each_frame_;
 };
 

@@ -36,7 +36,7 @@ struct MetricInput {
 
 /// A test vector: an input and the metric's known value for it. Every implementation must agree with it.
 struct MetricVector {
-  std::string_view title;          ///< what it tests: "one joint of twenty jumps"
+  std::string_view title;          ///< the case that it tests: "one joint of twenty jumps"
   std::string_view input_json;     ///< one JSON object, with the keys of MetricInfo::inputs
   std::optional<double> expected;  ///< nullopt: the metric has no value here
   std::string_view null_reason;    ///< why it has no value; "" if it has one
@@ -61,8 +61,8 @@ struct MetricInfo {
 
   std::string practical_reason;     ///< why a smaller difference than `practical` does not matter
   std::string formula;              ///< the exact definition: frames, denominators, edge cases
-  std::string null_rule;            ///< when it has no value although the method answered
-  std::string source;               ///< where the definition comes from
+  std::string null_rule;            ///< the cases in which it has no value although the method answered
+  std::string source;               ///< the origin of the definition
   std::vector<MetricInput> inputs;  ///< the inputs of its test vectors
   std::span<const MetricVector> vectors = {};
   std::string domain = {};  ///< its heading on the page: "Inverse kinematics", …

@@ -20,7 +20,7 @@ std::optional<double> GreyCalledRight(const std::vector<bool>& called);
 /// A performance of a move, and the move that a recogniser spotted most often during it.
 struct NamedMove {
   std::string danced;
-  std::string named;  ///< empty: no move was spotted
+  std::string named;  ///< the move that was spotted; empty if none was
 };
 
 /// Returns the share of performances whose move was named correctly. Empty without performances.

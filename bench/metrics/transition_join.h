@@ -20,7 +20,7 @@ struct JoinView {
                                      ///< k]
   int request = 0;                   ///< the frame shown when the wanted clip was requested
   int first = 0;                     ///< the frame of the first transition point
-  int last = 0;                      ///< of the last one
+  int last = 0;                      ///< the frame of the last transition point
   double rate_hz = kJudgedRateHz;
   std::vector<SupportingClip> between = {};  ///< the clips in between, placed where they are shown
 };

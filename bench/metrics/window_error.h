@@ -36,8 +36,8 @@ std::optional<double> MeanChannelDistance(const ChannelTracks& found, const Chan
 
 /// The definition of the power of a Fourier coefficient for NPSS.
 enum class PowerOf {
-  kMagnitude,  ///< its squared magnitude, as Gopalakrishnan et al. 2019 define it
-  kRealPart,   ///< its squared real part, as LAFAN1's code computes it
+  kMagnitude,  ///< the squared magnitude, as Gopalakrishnan et al. 2019 define it
+  kRealPart,   ///< the squared real part, as LAFAN1's code computes it
 };
 
 /// The NPSS of some windows, and its weight in the average with other windows: the truth's total power.

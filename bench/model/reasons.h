@@ -9,7 +9,7 @@ namespace etude {
 
 /// One kind of reason why cells ended as they did, and the number of these cells.
 struct CountedReason {
-  std::string reason = {};  ///< of the first cell
+  std::string reason = {};  ///< the reason of the first cell
   int cells = 0;
   bool is_one = true;  ///< false: the reasons of other cells have other numbers, or name other files
 

@@ -14,7 +14,7 @@ namespace etude {
 /// The time and memory that one cell took on this machine.
 struct CellUsage {
   double wall_s = 0;
-  double cpu_s = 0;  ///< of the worker and of the outside method
+  double cpu_s = 0;  ///< processor time of the worker and of the outside method
   /// The largest resident memory of the worker or of the outside method while the cell ran, MB. It is sampled, so cells
   /// that are shorter than the sampling interval may share one sample.
   double peak_mb = 0;
@@ -44,18 +44,18 @@ std::optional<Status> FindStatus(std::string_view name);
 struct MetricValue {
   std::string id;  ///< an id of bench/metrics, unit in the name
   std::optional<double> value;
-  std::string null_reason;  ///< only when `value` is empty
+  std::string null_reason;  ///< why `value` is empty; "" if it is not
 };
 
 /// A curve of a cell: one value per frame or iteration, e.g. the error in each frame.
 struct Series {
   std::string name;  ///< e.g. "mpjpe_mm"
-  std::string axis;  ///< what the values are along: "frame", "iteration", "effector", "angle"
+  std::string axis;  ///< the index of the values: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
   std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into them
 };
 
-struct Track;  // bench/model/recording.h, which brings motions along
+struct Track;  // defined in bench/model/recording.h, which also includes motions
 
 /// All data needed to show a cell again, e.g. in a film, without running it.
 struct Recording {
@@ -108,12 +108,12 @@ struct SweptValue {
 struct Row {
   std::string scenario;
   std::string task;
-  std::vector<SweptValue> condition;  ///< empty when nothing is swept
+  std::vector<SweptValue> condition;  ///< empty if nothing is swept
   int trial = 0;
   std::string clip;                ///< "" for tasks without clips
-  std::vector<std::string> units;  ///< that the world was drawn from (Study::unit); empty = the world is its own unit
+  std::vector<std::string> units;  ///< units from which the world was drawn (Study::unit); empty = it is its own unit
   std::string method;
-  CellResult result;  ///< `series` and `recording` live in files of their own
+  CellResult result;  ///< `series` and `recording` are stored in files of their own
 
   /// "scenario/key=value,key=value/trial/method", unique in a run; a condition without sweep is "-".
   std::string Id() const;

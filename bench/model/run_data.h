@@ -45,7 +45,7 @@ struct RunSystem {
   std::string compiler;  ///< "12.2.0"
   std::string glibc;     ///< "2.36"
   std::string ceres;     ///< "2.1.0"
-  std::string renderer;  ///< "4.5 (Core Profile) Mesa 22.3.6, by OSMesa"; "" where nothing was drawn
+  std::string renderer;  ///< "4.5 (Core Profile) Mesa 22.3.6, by OSMesa"; "" = nothing was drawn
   friend bool operator==(const RunSystem&, const RunSystem&) = default;
 };
 
@@ -55,9 +55,9 @@ struct RunData {
   std::string suite;
   std::uint64_t seed = 1;  ///< for secret worlds a number derived from the digest of their key
   std::string key_digest;  ///< for secret worlds; "" otherwise
-  std::string fence;       ///< the sandbox that outside methods ran in; "" = there were no outside methods
+  std::string fence;       ///< the sandbox in which outside methods ran; "" = there were none
   std::string program_version;
-  std::string command_line;  ///< from host.json
+  std::string command_line;  ///< the command line in host.json
   std::string host;          ///< one line about the machine
   RunSystem system;
   double wall_seconds = 0;
@@ -69,7 +69,7 @@ struct RunData {
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;
   std::string seal;      ///< the text of the folder's seal; "" = it has none, or the seal was not loaded
-  std::string unsealed;  ///< why the folder differs from what the run wrote, if it was read nevertheless; "" otherwise
+  std::string unsealed;  ///< why the seal does not match, if the folder was read nevertheless; else ""
   std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty if the folder does not record it
 };
 

@@ -15,9 +15,9 @@ struct Expectation {
   std::string metric;
   std::string of;                           ///< the method judged
   std::string below, above;                 ///< the method it is compared with in the same worlds; at most one is set
-  std::optional<double> at_most, at_least;  ///< or the bound of its statistic
+  std::optional<double> at_most, at_least;  ///< the bound of its statistic, if no method is compared
   std::string statistic = "median";         ///< median, mean or p95; only for bounds
-  double confidence = 0.95;                 ///< of a comparison's interval; the level of its test is 1 − confidence
+  double confidence = 0.95;                 ///< of a comparison's interval; its test has level 1 − confidence
   std::vector<SweptValue> where;            ///< the conditions in which it is judged; empty = all of them
   Place place;
 };
@@ -25,7 +25,7 @@ struct Expectation {
 /// A bound on the ratio of two methods' processor times in one run. Times are judged only by ratios within a run,
 /// because runs on different machines cannot be compared.
 struct TimeRatio {
-  std::string of, over;  ///< methods
+  std::string of, over;  ///< the ratio is the time of method `of` divided by the time of method `over`
   double at_most = 1;    ///< the largest allowed median of the paired ratios
   Place place;
 };
@@ -58,7 +58,7 @@ struct ComparedMethod {
   bool has_oracle = false;  ///< the truth replaces some of its stages; it shows an upper bound and does not compete
   std::vector<std::string> oracle = {};  ///< the stages that the truth replaces
   std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method
-  std::string description = {};  ///< what it is, in a sentence, or its settings
+  std::string description = {};  ///< a sentence about the method, or its settings
 };
 
 /// The comparisons and expectations of a scenario, with everything that is needed to judge its rows. It does not
@@ -67,7 +67,7 @@ struct Study {
   std::string scenario;
   std::string task;
   std::string question;
-  std::string description = {};  ///< what its worlds are, in a sentence; "" = not described
+  std::string description = {};  ///< a sentence about its worlds; "" = not described
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 1;
   std::vector<ComparedMethod> methods;              ///< at least one

@@ -18,9 +18,9 @@ enum class IntervalKind {
   kBca,              ///< bias-corrected and accelerated bootstrap
   kPercentile,       ///< percentile bootstrap, where the BCa correction is undefined, e.g. all values equal
   kWilson,           ///< score interval of a share
-  kAdjustedWald,     ///< Bonett and Price's, of the difference of two shares on the same worlds
-  kStudent,          ///< Student's t: of a mean over units, or over very many worlds
-  kOrderStatistics,  ///< order statistics: of the median of very many worlds
+  kAdjustedWald,     ///< Bonett and Price's interval of the difference of two shares on the same worlds
+  kStudent,          ///< Student's t interval of a mean over units, or over very many worlds
+  kOrderStatistics,  ///< interval of the median of very many worlds, from order statistics
 };
 inline constexpr std::array<Named<IntervalKind>, 7> kIntervalKinds = {
     {{"none", IntervalKind::kNone},
@@ -47,7 +47,7 @@ struct MethodSummary {
   std::vector<std::pair<Status, int>> statuses;  ///< number of cells that ended in each status; zeros are left out
   std::vector<MetricSummary> metrics;
   int ok = 0;                             ///< cells of status ok
-  int attempted = 0;                      ///< all cells but skipped ones; failures stay in the denominator
+  int attempted = 0;                      ///< all cells except skipped ones; failures count as attempts
   std::optional<double> ok_low, ok_high;  ///< 95 % Wilson interval of ok / attempted
 };
 
@@ -77,7 +77,7 @@ struct Beyond {
   int differing = 0;  ///< units whose mean difference is not zero
   /// The pseudo-median of the units' mean differences, and its 95 % interval. The verdict is judged from this interval.
   std::optional<double> difference, low, high;
-  std::optional<double> mean, mean_low, mean_high;  ///< their mean and its 95 % interval
+  std::optional<double> mean, mean_low, mean_high;  ///< the mean of the units' means, and its 95 % interval
   PairedTest test;                                  ///< the test that decides
   std::optional<double> p_holm;                     ///< corrected over the scenario's comparisons (Holm)
   std::optional<Verdict> verdict;                   ///< nothing = too few units for a verdict
@@ -95,12 +95,12 @@ struct Comparison {
   int differing = 0;  ///< pairs whose values differ
   /// Worlds without a pair: only the baseline has a value, only the method has one, or neither has one.
   int only_baseline = 0, only_method = 0, neither = 0;
-  std::optional<double> difference, ci_low, ci_high;  ///< 95 % interval, pairs resampled
+  std::optional<double> difference, ci_low, ci_high;  ///< the aggregate and its 95 % interval
   IntervalKind interval = IntervalKind::kNone;
   /// The mean of the paired differences and its 95 % interval. It is computed for every metric.
   std::optional<double> mean, mean_low, mean_high;
-  PairedTest signed_rank;        ///< Wilcoxon's; decides if the aggregate is the median
-  PairedTest sign_flip;          ///< of the aggregate; decides if it is the mean
+  PairedTest signed_rank;        ///< Wilcoxon's test; it decides if the aggregate is the median
+  PairedTest sign_flip;          ///< the sign-flip test; it decides if the aggregate is the mean
   std::optional<double> p_holm;  ///< the deciding p, corrected over the scenario's comparisons (Holm)
   /// The numbers of pairs in which the method is better, or worse, by at least the practical threshold.
   int better = 0, worse = 0;
@@ -111,7 +111,7 @@ struct Comparison {
   Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
   std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
   std::vector<std::string> notes;            ///< further warnings for readers of the figures
-  Beyond beyond;                             ///< the same comparison for other units like the sampled ones
+  Beyond beyond;                             ///< the comparison for other units like the sampled ones
 };
 
 /// The step that decided an answer. Success is compared first, then the value, then the tail.
@@ -152,7 +152,7 @@ struct ErrorBudget {
   std::string method;       ///< the method with no stage replaced by the truth, or with the fewest
   bool is_shapley = false;  ///< true: shares are means over all orders of the stages; false: `shares` follow one order
   int worlds = 0;
-  double total = 0, rest = 0;  ///< mean error of that method, and of the method with most stages replaced
+  double total = 0, rest = 0;  ///< mean error of `method`, and of the method with the most replaced stages
   std::vector<BudgetShare> shares;
 };
 
@@ -195,7 +195,7 @@ std::string_view ClaimOutcomeName(ClaimOutcome outcome);
 struct ExpectationResult {
   std::string text;  ///< "orientation_error_deg of adaptive below fixed"
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
-  std::string detail;  ///< the figures that decided it
+  std::string detail;  ///< the figures that decided the outcome
 };
 
 struct ScenarioSummary {
@@ -209,8 +209,8 @@ struct ScenarioSummary {
   std::vector<ExpectationResult> expectations;
   int family = 0;  ///< number of comparisons over all conditions and headline metrics that Holm's correction covers
   std::vector<AcrossVerdict> across = {};      ///< empty if no verdict must hold across parameters
-  std::string description = {};                ///< what its worlds are, in a sentence; "" = not described
-  std::vector<std::string> descriptions = {};  ///< what each method is, in a sentence; empty if no method is described
+  std::string description = {};                ///< a sentence about its worlds; "" = not described
+  std::vector<std::string> descriptions = {};  ///< a sentence about each method; empty if no method is described
 };
 
 }  // namespace etude

@@ -11,11 +11,11 @@ namespace etude {
 /// The unit from which the worlds of a scenario were drawn. Worlds that share a unit resemble each other, so claims
 /// that go beyond these worlds must count units, not worlds.
 enum class SamplingUnit {
-  kWorld,     ///< every world is drawn independently
-  kPerson,    ///< every world has a person of its own
+  kWorld,     ///< each world is its own unit
+  kPerson,    ///< the person in a world; each world has another person
   kClip,      ///< the clip that a world shows first
-  kClipPair,  ///< each clip of a world, in either role: clip left × clip entered
-  kLibrary,   ///< the folder that a world's clips come from
+  kClipPair,  ///< both clips of a world: the clip that is left and the clip that is entered
+  kLibrary,   ///< the folder from which a world's clips come
 };
 inline constexpr std::array<Named<SamplingUnit>, 5> kSamplingUnits = {{{"world", SamplingUnit::kWorld},
                                                                        {"person", SamplingUnit::kPerson},

@@ -12,7 +12,7 @@ namespace etude {
 /// A folder that contains attachments. The destructor deletes the folder with its contents.
 class AttachmentFolder {
  public:
-  static constexpr std::size_t kNameLength = 6;  ///< of the folder's name in `attachment_root`
+  static constexpr std::size_t kNameLength = 6;  ///< length of the folder's name in `attachment_root`
 
   AttachmentFolder() = default;
   /// Makes a folder in `attachment_root` and writes the files into it. Makes no folder if there are no files.

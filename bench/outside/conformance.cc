@@ -324,7 +324,7 @@ class ConformanceTest {
   const double time_s_;
   const std::vector<Specimen>& specimens_;
   const std::function<void(const ConformanceCheck&)>& report_;
-  std::vector<Attempt> first_;  ///< of the problems of the first setting
+  std::vector<Attempt> first_;  ///< the first attempts at the problems of the first setting
   double slowest_s_ = 0, peak_mb_ = 0;
   int repeated_ = 0;
   bool all_passed_ = true, solves_nothing_ = false;

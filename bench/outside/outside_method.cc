@@ -22,7 +22,7 @@ template <typename T>
 using Outcome = OutsideOutcome<T>;
 
 constexpr int kMaxFailures = 3;
-constexpr int kEndingMs = 500;       // time to end after its input is closed
+constexpr int kEndingMs = 500;       // the time in which a program must end after its input is closed
 constexpr double kMaxLimit_s = 1e9;  // longer than any run; within the clock's range
 
 /// Returns the error for a reply that came before the program had read the question.

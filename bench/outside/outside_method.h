@@ -19,14 +19,14 @@ struct OutsideOptions {
   std::vector<std::string> command;  ///< program and arguments
   std::string task;                  ///< the kind of task, sent in the handshake
   std::string options_json = {};     ///< an object sent in the handshake; "" = {}
-  double time_s = 300;               ///< per problem, or per step of a session
-  double memory_mb = 4096;           ///< resident, with all processes that the program has started
-  std::string error_file = {};       ///< keeps its standard error, up to 1 MiB; "" = it shares ours
+  double time_s = 300;               ///< time limit per problem, or per step of a session
+  double memory_mb = 4096;           ///< limit of resident memory, with all processes of the program
+  std::string error_file = {};       ///< file for its standard error, up to 1 MiB; "" = it shares ours
   /// The shortest time limit, in seconds, of the handshake and of each setting; `time_s` applies if it is longer.
   /// Programs load libraries and models then.
   double start_s = 30;
-  Fence fence = {};                     ///< the sandbox in which it runs
-  std::vector<std::string> files = {};  ///< files that the sandbox shows it (ProgramView)
+  Fence fence = {};                     ///< the sandbox in which the program runs
+  std::vector<std::string> files = {};  ///< files that the sandbox shows the program (ProgramView)
   /// Keys the random ids that replace the names of settings and problems. With a secret seed the program is restarted
   /// for every setting, so that its memory carries nothing from one condition to the next.
   Seed seed = 1;
@@ -44,8 +44,8 @@ struct OutsideReply {
   /// handshake. `reason` then says why.
   bool was_asked = true;
   JsonPtr answer;         ///< an object with finite numbers
-  double cpu_s = 0;       ///< used by the program since its last reply; 0 if it ended before the first sample
-  double peak_mb = 0;     ///< its largest memory during this problem, sampled 50 times a second
+  double cpu_s = 0;       ///< processor time since the last reply; 0 if the program ended before the first sample
+  double peak_mb = 0;     ///< the program's largest memory during this problem, sampled 50 times a second
   int repeated = 0;       ///< lines ignored before this reply, because they repeat answers to earlier questions
 };
 

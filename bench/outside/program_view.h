@@ -11,8 +11,8 @@ namespace etude {
 /// program in addition to the system's.
 struct ProgramView {
   std::vector<std::string> command;          ///< program and arguments; files are absolute paths
-  std::vector<std::filesystem::path> shown;  ///< absolute paths of files and folders shown to it
-  std::filesystem::path start;               ///< its working folder; "" = a scratch folder
+  std::vector<std::filesystem::path> shown;  ///< absolute paths of the files and folders that the sandbox shows
+  std::filesystem::path start;               ///< the program's working folder; "" = a scratch folder
 };
 
 /// Makes the view of `command`: a program as returned by FindProgram, and its arguments. The sandbox shows `files` and

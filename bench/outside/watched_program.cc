@@ -192,7 +192,7 @@ OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadli
     if (is_due) {
       RETURN_IF_ERROR(Measure());
       next_sample = Clock::now() + kSampleInterval;
-      over = child_->HasEnded();  // its child processes may keep its output open
+      over = child_->HasEnded();  // the program's child processes may keep its output open
     }
     if (over || watched[0].revents != 0 || watched[1].revents != 0) {
       over = !child_->Receive(kMaxReplyBytes) || over;

@@ -110,13 +110,13 @@ class WatchedProgram {
   const OutsideOptions& options_;
   ErrorLog errors_;
   std::optional<TemporaryFolder> attachment_root_;
-  ProgramView view_;    ///< of the child, without attachments and package
-  ControlGroup group_;  ///< of the child; if this machine provides none, `meter_` measures the memory
+  ProgramView view_;    ///< the view of the child, without attachments and package
+  ControlGroup group_;  ///< the child's group; if this machine provides none, `meter_` measures the memory
   std::optional<ChildProcess> child_;
-  std::optional<TreeMeter> meter_;  ///< of the child
+  std::optional<TreeMeter> meter_;  ///< measures the child and its processes
   Clock::time_point last_measured_{};
-  double cpu_s_ = 0;          ///< of the running program, as last measured
-  double cpu_charged_s_ = 0;  ///< the part returned by TakeCpuSeconds before
+  double cpu_s_ = 0;          ///< processor time of the running program at the last sample
+  double cpu_charged_s_ = 0;  ///< the part that TakeCpuSeconds has already returned
   double peak_mb_ = 0;
 };
 

@@ -42,7 +42,7 @@ const char* DensePeerFlags();
 struct KdlSettings {
   double damping = 0.03;       ///< λ of the damped least-squares step (TreeIkSolverVel_wdls)
   double position_weight = 5;  ///< weight of a metre against a radian
-  int restarts = 0;            ///< of the Newton solver, from poses around the start
+  int restarts = 0;            ///< number of restarts of the Newton solver, from poses around the start
   double max_turn = 0.6;       ///< largest change of an angle per step of the online solver, radians
 };
 

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-constexpr double kUnlimitedSpeed = 1e3;  // of effectors; limits on angles alone gave better results
+constexpr double kUnlimitedSpeed = 1e3;  // speed limit of effectors; limits on angles alone gave better results
 
 KDL::Vector ToVector(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 KDL::Rotation ToRotation(const glm::dmat3& m) { return {ToVector(m[0]), ToVector(m[1]), ToVector(m[2])}; }

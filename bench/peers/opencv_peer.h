@@ -15,7 +15,7 @@ class OpenCvPerson {
   enum class Kind {
     kSameHue,      ///< the paper's hue by OpenCV's arithmetic on whole pictures; gives the same masks as ours
     kHsv,          ///< the hue of cvtColor, in 180 steps: faster
-    kHsvContours,  ///< the same, but finds the largest piece by contours instead of labels
+    kHsvContours,  ///< kHsv, but the largest piece is found by contours instead of labels
   };
   OpenCvPerson(const ColourImage& background, double hue_threshold, int max_hole_px, Kind kind);
   ~OpenCvPerson();

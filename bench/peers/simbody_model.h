@@ -7,7 +7,7 @@
 namespace etude {
 
 struct SimbodySettings {
-  double accuracy = 1e-5;      ///< of its optimiser; smaller values change nothing
+  double accuracy = 1e-5;      ///< accuracy of the optimiser; smaller values change nothing
   double position_weight = 3;  ///< weight of a square metre relative to a square radian
 };
 
@@ -21,7 +21,7 @@ class SimbodyModel {
   };
   struct Joint {
     int parent = -1;
-    Frame base;  ///< in the parent limb's frame at angle zero; for the root: in the world
+    Frame base;  ///< the joint's frame in the parent limb's frame at angle zero; for the root, in the world
     int dof_count = 0;
     double lower[3] = {}, upper[3] = {};
   };

@@ -46,22 +46,22 @@ struct CaptureExtras {
 
   struct Mark {
     glm::dvec2 a{0}, b{0};  ///< pixels
-    Rgb8 colour{};          ///< the limb's
+    Rgb8 colour{};          ///< the limb's colour
   };
   /// A frame at which the intermediate results of every stage are recorded.
   struct Moment {
     std::size_t frame = 0;
     BodyPose fixed;                        ///< joints with the known limb lengths, before inverse kinematics
-    std::vector<std::vector<Mark>> marks;  ///< per camera
+    std::vector<std::vector<Mark>> marks;  ///< the marks of each camera
   };
 
   std::uint64_t texture_seed = 1;
   bool casts_shadows = true;
   std::uint64_t stage_seed = 0;    ///< seed of furniture and moving objects (sim/stage), if `scene` > 0
   double scene = 0;                ///< 0 = the studio
-  bool wears_everyday = false;     ///< on that stage, the performer wears everyday clothes
-  bool wears_coded = false;        ///< the performer wears the coded suit
-  std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
+  bool wears_everyday = false;     ///< true: on that stage, the performer wears everyday clothes
+  bool wears_coded = false;        ///< true: the performer wears the coded suit
+  std::array<Rgb8, 16> colours{};  ///< the performer's colours, by Part
   std::vector<double> brightness;  ///< one per frame
   std::vector<View> views;
   std::vector<Moment> moments;

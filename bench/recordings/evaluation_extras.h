@@ -16,7 +16,7 @@ namespace etude {
 ///     {"rate_hz": 30, "joints": [names], "parents": [indices; −1: none],
 ///      "truth": [[x, y, z of each joint; null where it is not seen], …], "answer": the same}
 struct EvaluationExtras {
-  RawMotion truth, answer;  ///< of the same joints, and as long
+  RawMotion truth, answer;  ///< both have the same joints and number of frames
 };
 
 std::string WriteEvaluationExtras(const EvaluationExtras& extras);

@@ -184,9 +184,9 @@ class RecordFields {
 
   Json* written_;               ///< the object, when a record is written
   const Json* read_;            ///< the object, when one is read
-  std::string* page_;           ///< the page, when the format is documented
+  std::string* page_;           ///< the reference page, when the format is documented
   int depth_ = 0;               ///< nesting depth of the page's list
-  std::optional<Error> error_;  ///< the first complaint
+  std::optional<Error> error_;  ///< the first error
 };
 
 }  // namespace etude

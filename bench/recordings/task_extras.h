@@ -21,7 +21,7 @@ namespace etude {
 struct IkExtras {
   std::vector<int> iterations;
   std::vector<double> position_error_max_cm, orientation_error_max_deg;
-  std::vector<double> axis_error_max_deg;  ///< of the worst single axis, by which "solved" is judged
+  std::vector<double> axis_error_max_deg;  ///< the error of the worst single axis, by which "solved" is judged
   std::vector<std::optional<glm::dvec3>> targets_m;
 };
 
@@ -41,7 +41,7 @@ struct TransitionExtras {
     int from_frame = 0, to_frame = 0;
     double distance = 0;
     std::optional<PerFeature> partials;
-    std::optional<double> cost;  ///< by which the choice ranks, if not by the distance
+    std::optional<double> cost;  ///< the cost by which the choice ranks, if not by the distance
     std::string outcome;         ///< "taken", "too far", "later", "worse"
 
     bool operator==(const Candidate&) const = default;
@@ -54,7 +54,7 @@ struct TransitionExtras {
   std::string why;                      ///< one sentence
   std::optional<int> request_frame;     ///< negative: before the start of the recording
   std::optional<double> wait_s, threshold, natural_limit_cm;
-  std::optional<double> distance;  ///< as `partials`: of the worst transition point
+  std::optional<double> distance;  ///< the distance at the worst transition point, whose terms are in `partials`
   std::optional<PerFeature> weights, partials;
   std::optional<std::int64_t> pairs_seen, pairs_matched;
   std::vector<Point> points;
@@ -88,7 +88,7 @@ struct DetectionExtras {
     int frame = 0;
   };
 
-  std::optional<double> threshold;  ///< of the judgement; absent for an outside method
+  std::optional<double> threshold;  ///< the threshold of judging; absent for an outside method
   std::vector<Move> moves;
   std::vector<Event> events;
   std::vector<Alarm> alarms;

@@ -19,17 +19,17 @@ struct ReplayOptions;
 struct MethodRows {
   std::string scenario, method;
   std::size_t rows = 0;
-  std::string why_not;       ///< why none of their cells can be run again; "" = they can
+  std::string why_not;       ///< why none of the method's cells can be run again; "" = they can
   std::size_t drawable = 0;  ///< rows that a sample may contain
   /// The number of rows whose status depends on the machine that ran them (DependsOnMachine), by status.
   std::map<std::string, std::size_t> by_machine;
 };
 
 struct CellChoice {
-  std::set<std::size_t> places;  ///< indices of their rows
+  std::set<std::size_t> places;  ///< indices of the chosen cells' rows
   std::uint64_t dice = 0;        ///< the seed of the sample
   std::size_t drawn = 0, drawable = 0;
-  std::size_t recorded = 0;  ///< number of cells chosen in addition to the sample because they left a recording
+  std::size_t recorded = 0;  ///< number of cells chosen in addition to the sample, because they have a recording
   std::vector<MethodRows> methods;
 };
 

@@ -12,7 +12,7 @@ namespace etude {
 
 /// A packed cell: everything that is needed to run the cell again, and its result.
 struct Pack {
-  SuiteSetup suite;  ///< of one scenario
+  SuiteSetup suite;  ///< the set-up of one scenario
   Row row;
   JsonPtr motions;  ///< the clips and recordings with their content
 };

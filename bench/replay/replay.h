@@ -42,14 +42,14 @@ struct ReplayOptions {
   /// The seed of the sample; nullopt = the seed of the suite. The maker of the run knows the suite's seed and thus its
   /// sample.
   std::optional<std::uint64_t> dice = {};
-  bool recorded_too = false;      ///< in addition to the sample, all cells with a recording
-  bool without_programs = false;  ///< leave out cells that need outside programs
-  int jobs = 0;                   ///< 0 = one per processor
+  bool recorded_too = false;      ///< true: in addition to the sample, all cells with a recording
+  bool without_programs = false;  ///< true: cells that need outside programs are left out
+  int jobs = 0;                   ///< worker processes; 0 = one per processor
   OutsideRules outside;
-  std::optional<SecretKey> key = {};  ///< of secret worlds
+  std::optional<SecretKey> key = {};  ///< the key of secret worlds
   Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
-  OnProgress on_progress = {};  ///< counts cells
+  OnProgress on_progress = {};  ///< receives the number of finished cells
 };
 
 struct ReplayOutcome {

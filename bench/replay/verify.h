@@ -11,7 +11,7 @@ namespace etude {
 /// One check of a result folder, and the differences that it found.
 struct Verified {
   std::string what;                      ///< "summary.json: computed again from 480 rows"
-  std::vector<std::string> differences;  ///< empty if all agrees
+  std::vector<std::string> differences;  ///< the differences found; empty if there are none
 };
 
 struct VerifyOutcome {

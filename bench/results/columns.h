@@ -30,13 +30,13 @@ constexpr const char* kCurveEnds = ".ends";
 
 /// Everything about the rows of one scenario that is not a number. It is stored in columns/SCENARIO/index.json.
 struct ColumnIndex {
-  static constexpr int kOwnReason = -1;  ///< the value is missing for the cell's own reason
+  static constexpr int kOwnReason = -1;  ///< the value is missing for the reason of the row itself
   /// The data that several rows share: their metrics, stages and curves, in order, and the reasons of missing values.
   struct Kind {
     std::vector<std::string> metrics;
     std::vector<std::optional<int>> why;  ///< one per metric: why it has no value; an index in `texts`, or kOwnReason
     std::vector<std::string> stages;
-    std::vector<Series> series;  ///< without values
+    std::vector<Series> series;  ///< the curves, without their values
   };
 
   std::string scenario, task;

@@ -56,8 +56,8 @@ class ResultWriter {
   Result<void> AddAsText(const Row& row, const CellUsage& usage);
 
   std::filesystem::path folder_;
-  std::optional<AtomicFile> cells_, timings_;  ///< if rows are text
-  std::vector<Study> studies_;                 ///< if rows are columns
+  std::optional<AtomicFile> cells_, timings_;  ///< used if rows are stored as text
+  std::vector<Study> studies_;                 ///< used if rows are stored as columns
   std::string scenario_;                       ///< the scenario of the current rows
   std::optional<AtomicFile> series_;
   std::optional<ColumnWriter> columns_;
@@ -65,8 +65,8 @@ class ResultWriter {
 
 /// The action of a reader if a folder's seal is broken (seal.h).
 enum class Sealing {
-  kRequired,  ///< fails
-  kIgnored,   ///< reads it, and sets `RunData::unsealed`
+  kRequired,  ///< fail
+  kIgnored,   ///< read the folder, and set `RunData::unsealed`
 };
 
 /// Reads a result folder. Fails, with file and line if possible, if a file is missing, incomplete or of another schema,
@@ -97,7 +97,7 @@ class FolderBegun {
   tl::unexpected<Error> WasReplaced() const;
 
   std::filesystem::path folder_;
-  std::pair<std::uint64_t, std::uint64_t> number_;  ///< device and inode
+  std::pair<std::uint64_t, std::uint64_t> number_;  ///< device and inode of the folder
 };
 
 /// Returns the path of the recording of a cell (Row::Id), whether or not it exists.

@@ -80,11 +80,11 @@ class CellRunner {
   int condition_ = 0, trial_ = 0;
   std::unique_ptr<TaskWorld> world_;
   CellResult why_no_world_;
-  std::string why_not_run_;        ///< of the current cell
-  std::string why_world_not_run_;  ///< of all cells, if the world could not be built
+  std::string why_not_run_;        ///< why the current cell could not be run
+  std::string why_world_not_run_;  ///< why no cell could be run, if the world could not be built
   CellUsage world_usage_;
   PeakMemory peak_memory_;
-  std::unique_ptr<Payload> setting_, problem_;  ///< of the open world; null until needed
+  std::unique_ptr<Payload> setting_, problem_;  ///< setting and problem of the open world; null until needed
   int condition_of_setting_ = -1, trial_of_setting_ = -1;
 };
 

@@ -17,8 +17,8 @@ std::string WorkOf(const Scenario& scenario);
 
 /// The measured processor time of a scenario, in yardsticks. A yardstick is a fixed amount of arithmetic (MeasurePace).
 struct KeptCost {
-  double once = 0;    ///< for start-up, preparation of conditions, and statistics
-  double trial = 0;   ///< for one world of every condition, with all methods
+  double once = 0;    ///< cost of start-up, preparation of conditions, and statistics
+  double trial = 0;   ///< cost of one world of every condition, with all methods
   double spread = 0;  ///< ScenarioForecast::spread; 0 = not measured
   /// ScenarioForecast::units for this number of trials and this seed; 0 = not stored, because each world is a unit.
   int units = 0;
@@ -36,7 +36,7 @@ Result<std::map<std::string, KeptCost>> ReadKeptCosts();
 
 /// The speed of this machine under its present load.
 struct Pace {
-  double yardsticks_per_s = 0;  ///< wall clock, all workers together
+  double yardsticks_per_s = 0;  ///< yardsticks per second of wall time, all workers together
   double yardstick_ms = 0;      ///< processor time of one yardstick; 0.5 ms on an AMD EPYC
 };
 

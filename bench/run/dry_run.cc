@@ -122,7 +122,7 @@ void ThrowOtherDice(SuiteSetup& suite) {
 
 /// Returns the number of worlds in the shard, among the `count` worlds of the plan that begin with number `first`.
 std::size_t CountIn(const Shard& shard, std::size_t first, std::size_t count) {
-  const auto before = [&](std::size_t end) {  // of all worlds before `end`
+  const auto before = [&](std::size_t end) {  // counts the worlds of the shard before `end`
     const auto step = static_cast<std::size_t>(shard.count), offset = static_cast<std::size_t>(shard.index - 1);
     return end <= offset ? 0 : (end - offset - 1) / step + 1;
   };
@@ -139,7 +139,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   std::vector<ScenarioForecast> told;
   std::vector<Study> studies;
   std::vector<const KeptCost*> costs;
-  std::vector<std::optional<std::size_t>> prepared_at;  // of each scenario that is prepared
+  std::vector<std::optional<std::size_t>> prepared_at;  // the index of each scenario that is prepared
   std::vector<ScenarioSetup> unknown;
   for (ParsedSuite parsed(suite); const ScenarioSetup& setup : suite.scenarios) {
     ASSIGN_OR_RETURN(const Scenario scenario, parsed.Find(setup));

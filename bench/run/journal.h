@@ -38,7 +38,7 @@ class CellTable {
 
  private:
   struct LinePlace {
-    std::uint64_t offset = 0;  ///< in the file, or the index in `lines_`
+    std::uint64_t offset = 0;  ///< the offset in the file, or the index in `lines_`
     std::uint32_t length = 0;  ///< 0 = no line
     std::uint32_t file = 0;
   };
@@ -96,7 +96,7 @@ class Journal {
   FilePath path_;
   Descriptor file_;
   JournalLag sync_;
-  std::uint64_t end_ = 0;  ///< of the file
+  std::uint64_t end_ = 0;  ///< the offset of the file's end
   std::size_t unsynced_bytes_ = 0;
   Clock::time_point synced_at_ = Clock::now();
 };
@@ -128,7 +128,7 @@ class TemporaryLines {
  private:
   CellTable cells_;
   std::optional<TemporaryFolder> folder_;
-  std::optional<Journal> journal_;  ///< in the folder; file 0 of `cells_`
+  std::optional<Journal> journal_;  ///< the journal in `folder_`; it is file 0 of `cells_`
 };
 
 }  // namespace etude

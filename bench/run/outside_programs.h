@@ -14,8 +14,8 @@ namespace etude {
 
 /// The rules for running the outside programs of a run.
 struct OutsideRules {
-  bool is_fenced = true;    ///< use the sandbox, if the kernel allows it
-  bool allow_exec = false;  ///< also run programs that a manifest or a pack names, which may come from a stranger
+  bool is_fenced = true;    ///< true: the sandbox is used, if the kernel allows it
+  bool allow_exec = false;  ///< true: also run programs named by a manifest or a pack, which may come from a stranger
 };
 
 /// Lists every method and every metric that is a program, e.g. "python3 my_solver.py (ik-weights/mine)".

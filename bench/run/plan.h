@@ -62,7 +62,7 @@ class Plan {
  private:
   std::span<const PreparedScenario> scenarios_;
   std::vector<World> worlds_;
-  std::vector<std::size_t> first_cells_;  ///< one per world; at the end the number of all cells
+  std::vector<std::size_t> first_cells_;  ///< the first cell of each world, and finally the number of all cells
 };
 
 /// The orders that no worker has taken yet, by condition. The worlds of a condition share data (thresholds, tuned

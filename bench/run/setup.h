@@ -32,15 +32,15 @@ struct ScenarioSetup {
   std::string name;  ///< a file may hold several scenarios
   Seed seed = 1;
   int trials = 1;
-  std::vector<std::string> clips;          ///< references: the scenario's own, or those of --clips
+  std::vector<std::string> clips;          ///< references: the scenario's own, or those in --clips
   std::string joint_map;                   ///< a key of SuiteSetup::sources; "" = none
   std::string digest;                      ///< digest of the scenario's texts
-  std::vector<NamedClips> libraries = {};  ///< the scenario's own and those of --library
-  std::vector<std::string> streams = {};   ///< recordings: the scenario's own, or those of --streams
+  std::vector<NamedClips> libraries = {};  ///< the scenario's own libraries, and those in --library
+  std::vector<std::string> streams = {};   ///< recordings: the scenario's own, or those in --streams
   std::vector<std::string> labels = {};    ///< keys of SuiteSetup::sources
   std::vector<RefusedClip> refused = {};   ///< left out of `clips`, `libraries` and `streams`
-  std::vector<JudgedFiles> files = {};     ///< the worlds of a task that judges files, one a trial
-  bool keeps_motions = false;              ///< record every cell (--keep motions), not only those that `video` names
+  std::vector<JudgedFiles> files = {};     ///< the worlds of a task that judges files, one per trial
+  bool keeps_motions = false;              ///< true: record every cell (--keep motions), not only those of `video`
 };
 
 /// A method whose answers are read from files and scored; it is not run (etude score).

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::uint64_t kComplaint = ~std::uint64_t{0};
 
-/// A forked copy of this process, and the part of its output that is not yet parsed. The output repeats the number of a
-/// result, its length and its text.
+/// A forked copy of this process, and the part of its output that is not yet parsed. The output is a sequence of
+/// results, each written as its number, its length and its text.
 struct Copy {
   ForkedCopy process;
   std::string said = {};

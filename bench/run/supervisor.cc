@@ -28,9 +28,9 @@ constexpr int kPollMilliseconds = 20;      // a measured memory size or time is 
 constexpr double kAheadS = 0.05;           // seconds of work given to a worker at a time, estimated from earlier worlds
 constexpr double kLongWorldS = 1;          // a longer one at the end delays the run more than preparing twice
 constexpr int kGatherMicroseconds = 2000;  // if all workers have further orders, their answers are collected together
-constexpr int kMaxDeathsInSetup = 3;       // one may be chance (a shortage of memory, a stray kill); a series is not
+constexpr int kMaxDeathsInSetup = 3;       // a single death may be chance (a shortage of memory, a stray kill)
 constexpr double kMaxSetupS = 600;         // clips are loaded during it
-constexpr double kClockPerLimit = 20;      // the maximum wall time per second of processor time that the limit allows
+constexpr double kClockPerLimit = 20;      // the maximum wall time, per second of the limit on processor time
 constexpr double kGraceS = 10;             // time for a worker to end an outside method and report it
 constexpr int kShutdownGraceMs = 3000;     // time for a worker to end all its outside methods
 
@@ -45,13 +45,13 @@ struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;       ///< of the current work; if it passes, this machine was too slow
+  Clock::time_point deadline;       ///< deadline of the current work; if it is missed, this machine was too slow
   double cpu_s = 0;                 ///< processor time at the last measurement …
   double cpu_began = 0;             ///< … and at the beginning of the current work
-  bool ready = false;               ///< its set-up is done
+  bool ready = false;               ///< true: its set-up is done
   std::deque<Order> orders;         ///< the current one, with the methods not yet answered, then further ones
-  bool built = false;               ///< its current world is built
-  bool dismissed = false;           ///< it has ended and is not replaced
+  bool built = false;               ///< true: its current world is built
+  bool dismissed = false;           ///< true: it has ended and is not replaced
   Clock::time_point began = {};     ///< start of its current world
   Clock::time_point measured = {};  ///< time of the last measurement
   std::size_t condition = OrderQueue::kNowhere;
@@ -370,8 +370,8 @@ class Supervisor {
   std::vector<Worker> workers_;
   std::vector<Pace> paces_;  ///< one per scenario
   int deaths_in_setup_ = 0;  ///< since the last worker became ready
-  std::size_t not_run_ = 0;  ///< cells
-  std::string why_not_run_;  ///< the first reason
+  std::size_t not_run_ = 0;  ///< number of cells that were not run
+  std::string why_not_run_;  ///< the reason of the first of them
 };
 
 /// Returns those parts of the orders whose cells are answered, or those whose cells are not.

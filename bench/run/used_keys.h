@@ -13,11 +13,11 @@ namespace etude {
 struct KeyUse {
   std::string command;  ///< "run", "export", "score", "replay"
   std::string suite;
-  std::string manifest;  ///< DigestOfRun
+  std::string manifest;  ///< the result of DigestOfRun
   Shard shard = {};
   std::filesystem::path folder;  ///< the folder that the command wrote
-  bool continues = false;        ///< it resumes a run (`--resume`), which the list must name
-  bool repeats = false;          ///< it repeats a run (`--from`): runs with the same manifest may have used the key
+  bool continues = false;        ///< true: it resumes a run (`--resume`), which the list must contain
+  bool repeats = false;          ///< true: it repeats a run (`--from`) whose earlier runs may have used the key
 };
 
 /// Returns a digest of a manifest. It is the same for all shards of a run, and does not depend on the libraries.

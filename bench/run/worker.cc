@@ -122,7 +122,7 @@ int RunWorker(std::istream& in, std::ostream& out) {
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
   std::signal(SIGBUS, SIG_DFL);     // a method's fault is a crash
-  in.exceptions(std::ios::badbit);  // else a shortage of memory for a line would look like the end of input
+  in.exceptions(std::ios::badbit);  // otherwise, a shortage of memory would look like the end of input
   try {
     const auto done = Work(in, out);
     return done ? 0 : GiveUp(done.error());

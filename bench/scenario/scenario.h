@@ -25,7 +25,7 @@ struct NamedClips {
 /// Recordings of people. Worlds are made from them instead of from simulated people.
 struct StreamSource {
   std::vector<std::string> files;  ///< references as written
-  std::string labels;              ///< file, or folder of tag streams, with what was performed in the streams or clips
+  std::string labels;              ///< file, or folder of tag streams, that labels the streams' or clips' performances
   StreamReading reading;
   StreamOptions making;
 };
@@ -64,7 +64,7 @@ struct MethodEntry {
   std::string seat = {};          ///< an outside method's seat in the task's loop; "" = it is asked once per world
   std::vector<std::string> files = {};  ///< files that the sandbox shows an outside method; empty = its program's own
                                         ///< folder
-  std::string description = {};         ///< what it is, in a sentence, for readers of the results; "" = not described
+  std::string description = {};         ///< a sentence about the method, for readers of the results; "" = not described
 
   /// Returns true if the task runs the method: a built-in method as a whole, or, for a program with a seat, the other
   /// stages.
@@ -90,7 +90,7 @@ struct OutsideMetric {
 /// The time and memory that one cell, or the building of one world, may use. If it uses more, it is ended.
 struct Limits {
   double time_s = 300;
-  double memory_mb = 4096;  ///< resident; for the worker and for each outside method that it has started
+  double memory_mb = 4096;  ///< resident memory, for the worker and for each outside method that it has started
 };
 
 /// A scenario as its file states it: a question that several methods answer in the same worlds (docs/scenarios.md). The
@@ -99,7 +99,7 @@ struct Scenario {
   std::string file;
   std::string name;
   std::string question;
-  std::string description;  ///< what its worlds are, in a sentence; "" = not described
+  std::string description;  ///< a sentence about its worlds; "" = not described
   std::string task;
   std::vector<std::string> clips;     ///< references as written
   std::vector<NamedClips> libraries;  ///< instead of `clips`: every condition is repeated for each library
@@ -110,12 +110,12 @@ struct Scenario {
   std::optional<std::uint64_t> seed;
   std::vector<Condition> conditions;                ///< at least one
   std::vector<MethodEntry> methods;                 ///< at least one
-  std::vector<std::string> metrics;                 ///< headline metrics; the task's if the file names none
-  std::string success = {};                         ///< the task's if the file names none
+  std::vector<std::string> metrics;                 ///< headline metrics; the task's default if the file names none
+  std::string success = {};                         ///< metric of success; the task's default if the file names none
   double success_matters = 0.05;                    ///< the smallest difference of success that matters, as a share
-  std::vector<OutsideMetric> outside_metrics = {};  ///< those that other programs measure; also in `metrics`
+  std::vector<OutsideMetric> outside_metrics = {};  ///< metrics that outside programs measure; also in `metrics`
   std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
-  std::string rival;                ///< "" = the best method is found
+  std::string rival;                ///< the method that others must beat; "" = the best method is found
   std::vector<Expectation> expectations;
   RecordingSelection recordings;
   Limits limits;

@@ -20,7 +20,7 @@ struct AgreementFigure {
 
 /// The agreement of two measurements of one quantity over several pairs of curves, in the quantity's unit.
 struct CurveAgreement {
-  int units = 0;  ///< people, or pairs
+  int units = 0;  ///< number of people, or of pairs
   AgreementFigure rmse, bias;
   AgreementFigure low, high;  ///< 95 % limits of agreement; they need two units
   AgreementFigure icc;        ///< ICC(A,1)

@@ -12,7 +12,7 @@ struct UnitSample {
   std::vector<double> differences;      ///< method − baseline, one per world
   std::vector<std::vector<int>> units;  ///< per world: the indices in `names` of its units, one or more
   std::vector<std::string> names;
-  bool yes_or_no = false;  ///< differences of a metric that is yes or no: −1, 0 or 1, also where no world differs
+  bool yes_or_no = false;  ///< true: the metric is yes or no, so differences are −1, 0 or 1
 
   /// Returns true if each world was drawn from one unit.
   bool IsOneWay() const;

@@ -75,11 +75,12 @@ int HalfOf(const ConditionTable& table, int trial);
 /// The values of one metric for two methods in the worlds of a condition. Worlds that both methods skipped are not
 /// counted.
 struct PairedWorlds {
-  std::vector<Pair> pairs;  ///< of the worlds in which both have a value
+  std::vector<Pair> pairs;  ///< one for each world in which both have a value
   std::vector<int> trials;  ///< the trial of each pair
   int only_baseline = 0, only_method = 0, neither = 0;
-  /// Of the trials counted in only_method, those in which the baseline's cell failed; of those counted in
-  /// only_baseline, those in which the method's cell failed. In the other trials, the cell only lacks this metric.
+  /// baseline_failed lists the trials counted in only_method in which the baseline's cell failed; method_failed lists
+  /// the trials counted in only_baseline in which the method's cell failed. In other trials, the cell only lacks this
+  /// metric.
   std::vector<int> baseline_failed, method_failed;
 };
 

@@ -13,9 +13,9 @@ namespace etude {
 
 /// The source of the weights S in equation 1.
 enum class WeightSource {
-  kFixed,     ///< the fuzzy system's own, paper A's unless a file sets others
-  kAdaptive,  ///< a logistic regression (engine/fuzzy/weights.h)
-  kGenetic,   ///< a genetic algorithm (genetic_search.h)
+  kFixed,     ///< the fuzzy system's own weights: paper A's, unless a file sets others
+  kAdaptive,  ///< weights learnt by logistic regression (engine/fuzzy/weights.h)
+  kGenetic,   ///< weights learnt by a genetic algorithm (genetic_search.h)
 };
 
 /// Returns the names "fixed", "adaptive", "genetic".

@@ -22,7 +22,7 @@ struct TrainingFrame {
 /// transition.
 struct TrainingClips {
   std::vector<std::string> identities;             ///< equal for equal clips: "builtin:clap", or the file
-  std::vector<std::vector<TrainingFrame>> frames;  ///< of each clip, sampled evenly
+  std::vector<std::vector<TrainingFrame>> frames;  ///< frames of each clip, sampled evenly
 };
 
 /// The number of frames sampled from a clip. They are the middles of equal parts, so a long clip does not count more
@@ -60,7 +60,7 @@ void UpdateGrades(std::span<const std::vector<TrainingFrame>> clips, const Membe
 struct MatchScore {
   int matched = 0;        ///< pairs with d < threshold
   int close = 0;          ///< close pairs
-  int close_matched = 0;  ///< both
+  int close_matched = 0;  ///< close pairs with d < threshold
 
   /// Returns F1, the harmonic mean of precision (the share of matched pairs that are close) and recall (the share of
   /// close pairs that are matched); 0 if no close pair is matched. Accuracy and AUC are not used: there are few close

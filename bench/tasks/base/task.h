@@ -104,7 +104,7 @@ struct JudgedFiles {
   std::string name;   ///< identifies the world; it does not depend on which other files exist
   std::string unit;   ///< the sampling unit to which the world belongs, such as a person; "" = its name
   std::string truth;  ///< a reference to a motion (io/clips/references.h); "" = the task knows no truths
-  std::vector<std::string> answers;  ///< also references, by method; "" = the method has none of this name
+  std::vector<std::string> answers;  ///< also references, by method; "" = the method has no answer of this name
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 
@@ -137,16 +137,16 @@ struct TaskKind {
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
   /// The metric that says how well a cell reached the task's goal (solved, recovered, clean, …).
   std::string success;
-  std::vector<std::string> metrics;          ///< all metrics that its cells report, by a value or a reason
+  std::vector<std::string> metrics;          ///< all metrics that its cells report, by a value or by a reason
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< its keys in a scenario
-  std::vector<KeyInfo> method_keys;     ///< its keys in a method, beside `name`
+  std::vector<KeyInfo> method_keys;     ///< its keys in a method, in addition to `name`
   /// The seats of the task's loop that a program may take; the method's key `seat` names one. The program is then asked
   /// step by step. The task's keys configure everything else of the method.
   std::vector<std::string> seats = {};
-  bool has_problems = true;      ///< whether a program may also be asked one question per world, without a seat
-  bool uses_clips = true;        ///< whether its worlds use a scenario's `clips`
-  bool uses_recordings = false;  ///< … or of its `streams`
+  bool has_problems = true;      ///< true: a program without a seat may be asked one question per world
+  bool uses_clips = true;        ///< true: its worlds use a scenario's `clips`
+  bool uses_recordings = false;  ///< true: its worlds use a scenario's `streams`
   /// The units from which worlds are drawn. The first is the default; a scenario may name one of the others. At least
   /// one.
   std::vector<SamplingUnit> units = {SamplingUnit::kWorld};

@@ -16,20 +16,20 @@
 namespace etude {
 
 enum class Clothes {
-  kStudio,    ///< "studio": colours that differ from the room's, as one would dress for it
+  kStudio,    ///< "studio": clothes in colours that differ from the room's
   kEveryday,  ///< "everyday": a grey shirt and dark blue trousers, in a room with a bluish floor
   kCoded,     ///< "coded": a suit in which every limb has a colour of its own
 };
 
 /// The figure that is drawn as the performer.
 enum class PerformerFigure {
-  kStaged,  ///< "staged": the stage's own people, dressed as `clothes` and `scene` say
+  kStaged,  ///< "staged": the stage's own people; `clothes` and `scene` choose their clothes
   kOwn,     ///< "own": the meshes and textures of the clip's file
 };
 
 /// The target with which the cameras are calibrated.
 enum class CalibrationTargetKind {
-  kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
+  kPoints,  ///< "points": points marked on planes, and clicked in the picture (paper B)
   kMarks,   ///< "marks": discs on planes, pointed at by hand and then found in the picture
   kBoards,  ///< "boards": a cube of calibration boards, found in the picture
 };
@@ -37,14 +37,14 @@ enum class CalibrationTargetKind {
 /// One condition of a capture scenario: the studio and its errors.
 struct StudioOptions {
   double duration_s = 2;
-  RigOptions rig = {};  ///< where the cameras stand
+  RigOptions rig = {};  ///< the places of the cameras
   PerformerFigure figure = PerformerFigure::kStaged;
   Clothes clothes = Clothes::kStudio;
   /// How the room is furnished: 0 = the empty studio; 1 = a furnished room with moving people and things.
   /// sim/stage/README.md describes the values in between.
   double scene = 0;
   double light_drift = 0.06;  ///< largest relative change of the lamp's brightness
-  CameraEffects camera = {};  ///< of every camera
+  CameraEffects camera = {};  ///< the effects of every camera
   CalibrationTargetKind calibration_target = CalibrationTargetKind::kPoints;
   int calibration_pairs = 24;         ///< kPoints: measured points per camera
   double calibration_measure_mm = 0;  ///< standard deviation of the target's measured positions along each axis
@@ -81,8 +81,8 @@ enum class OutlierRule { kKeep, kReject };
 
 /// The way in which the times of pictures are determined.
 enum class Sync {
-  kAssumed,    ///< "assumed": frames of the same number were taken at the same time
-  kEstimated,  ///< "estimated": from the motion of the marks
+  kAssumed,    ///< "assumed": pictures of equal number were taken at the same time
+  kEstimated,  ///< "estimated": times are estimated from the motion of the marks
 };
 
 /// The stages of the pipeline that the truth replaces, to measure their cost in the final error. With `marks`, strokes
@@ -103,7 +103,7 @@ struct Oracle {
 
 /// The way in which poses of a body are recovered from pictures.
 enum class Recovery {
-  kIk,      ///< "ik": limb directions and ends, lengths fixed, inverse kinematics (paper B)
+  kIk,      ///< "ik": limb directions and ends, known lengths, inverse kinematics (paper B)
   kEnds,    ///< "ends": every joint triangulated from the strokes that end there; no body, no inverse kinematics
   kBundle,  ///< "bundle": bundle adjustment of one body in smooth motion to all marks of all frames
   /// "keypoints": the method of `etude capture`. Joints are triangulated robustly, and a body with the median limb
@@ -116,7 +116,7 @@ enum class Recovery {
 /// The smoothing of the joints over a whole take.
 enum class Smoothing {
   kNone,  ///< "none"
-  kRts,   ///< "rts": each joint's track by itself (Rauch, Tung and Striebel)
+  kRts,   ///< "rts": each joint's track separately (Rauch–Tung–Striebel smoother)
 };
 
 /// The source of the limb lengths.
@@ -144,7 +144,7 @@ enum class MarkSource {
 /// The part of a method's work that an outside program does, i.e. its seat.
 enum class CaptureSeat {
   kNone,
-  kSegmenter,  ///< "segmenter": it cuts the person out of the pictures
+  kSegmenter,  ///< "segmenter": the program cuts the person out of the pictures
 };
 const std::vector<std::string>& CaptureSeatNames();
 

@@ -14,7 +14,7 @@ enum class Detail {
   kWhole,     ///< the whole picture
   kDetail,    ///< the head, enlarged: effects at the scale of pixels
   kPerson,    ///< the part around the person
-  kWithTruth  ///< the same, with the true skeleton
+  kWithTruth  ///< the part around the person, with the true skeleton
 };
 
 struct ShownEffect {

@@ -44,7 +44,7 @@ CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& 
 /// The cameras of a world, calibrated by one method.
 struct CalibratedCameras {
   std::vector<ProjectionMatrix> matrices;
-  std::vector<Camera> lenses = {};  ///< with their distortion; empty if the calibration estimates none
+  std::vector<Camera> lenses = {};  ///< cameras with their distortion; empty if the calibration estimates none
   double reprojection_rms_px = 0;
   std::string digest = {};
 };
@@ -55,7 +55,7 @@ struct MeasuredTake {
   /// and marks that disagree with the others are removed. Every method of recovery uses these marks.
   std::vector<std::vector<Marks>> marks;
   std::vector<FrameMeasurement> frames;
-  std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
+  std::vector<std::optional<LimbObservation>> seen;  ///< `frames` with gaps bridged
   std::vector<JointMeasurements> joints;             ///< every joint triangulated from all strokes that end there
   std::string directions_digest, points_digest;
 };

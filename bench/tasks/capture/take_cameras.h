@@ -51,7 +51,7 @@ class TakeCameras {
   /// One picture, and the result of each source for it.
   struct Picture {
     ColourImage colour;
-    Mask person, shadow;  ///< the truth
+    Mask person, shadow;  ///< the true masks
     std::vector<Mask> found;
     std::vector<Marks> marks;  ///< empty for silhouettes without keypoints
   };

@@ -150,7 +150,7 @@ class SeatedLearner final : public Player {
 
   SeatedCoachProgram& program_;
   BodyPose pose_;
-  std::vector<std::optional<PerformanceTruth>> truths_;  ///< by repetition, of the latest performance
+  std::vector<std::optional<PerformanceTruth>> truths_;  ///< the truth of the latest performance, by repetition
   bool given_up_ = false;
 };
 

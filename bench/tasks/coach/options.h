@@ -17,7 +17,7 @@ namespace etude {
 /// condition.
 struct CoachOperatingPoint {
   double needless_per_min = 0.2;
-  int sessions = 24;  ///< number of sessions, each of another person
+  int sessions = 24;  ///< number of sessions, each with another person
 };
 
 /// One condition of a coach scenario: the learner, the song, the quality of the sensor and the steadiness of the music.
@@ -31,7 +31,7 @@ struct CoachCondition {
   std::string song = "groove";
   double session_s = 180;
   LearnerOptions learner;
-  std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that set none
+  std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that do not set their own
   MusicClockOptions music;
   DetectionOptions sight;  ///< the person and the sensor; the session script in it is not used
 };

@@ -21,7 +21,7 @@ struct ReadyCoach {
   std::shared_ptr<const DanceTransitions> transitions;  ///< shared by all methods with this kind of transitions
   std::unique_ptr<Recogniser> recogniser;
   std::unique_ptr<Coach> coach;
-  std::unique_ptr<Coach> partner;  ///< of a yoked method
+  std::unique_ptr<Coach> partner;  ///< the partner coach of a yoked method; else null
 };
 
 /// Prepares the methods. `stage` must outlive the result. Fails if a method's recogniser cannot be taught.

@@ -40,7 +40,7 @@ class Player {
 
 /// A performance that the coach asked for: how it was danced and how it was judged.
 struct LoggedPerformance {
-  int repetition = 0;  ///< of the dance
+  int repetition = 0;  ///< the repetition of the dance
   int move = 0;
   CoachedPerformance judged;
   std::string faults;
@@ -49,7 +49,7 @@ struct LoggedPerformance {
 /// A transition of the coach.
 struct LoggedTransition {
   std::vector<int> points;
-  bool is_bridged = false;  ///< it uses bridge frames, directly or with clips in between
+  bool is_bridged = false;  ///< true: it uses bridge frames, directly or with clips in between
 };
 
 /// The words on the screen. They are shown from `begin_frame` on.
@@ -67,12 +67,12 @@ struct SessionLog {
   std::vector<CoachRecord> records;  ///< frames count from the session's first
   std::vector<LoggedTransition> transitions;
   std::vector<LoggedWords> words;     ///< one entry per change
-  std::vector<double> beat_errors_s;  ///< of the frames danced to music
+  std::vector<double> beat_errors_s;  ///< errors in the frames danced to music
   std::vector<double> beats_s;        ///< times of the music's beats, seconds from the session's start
-  BodyMotion coach;                   ///< as shown
-  BodyMotion learner;                 ///< as danced
-  SkeletonStream sensed;              ///< as the coach sees it, before its filter
-  std::optional<int> given_up_at;     ///< frame
+  BodyMotion coach;                   ///< the coach's motion as shown
+  BodyMotion learner;                 ///< the learner's motion as danced
+  SkeletonStream sensed;              ///< the sensor's stream, before the coach's filter
+  std::optional<int> given_up_at;     ///< the frame in which the learner gave up
   std::vector<double> test;           ///< results of the test without a coach (Player::TakeTest)
 
   int Frames() const { return static_cast<int>(modes.size()); }
@@ -83,8 +83,8 @@ struct SessionParts {
   const Coach& coach;
   const Recogniser& recogniser;
   FilterOptions filter;
-  bool sees_truth = false;     ///< the coach sees the learner as danced, not as sensed
-  CaptureMethod capture = {};  ///< with cameras: the causal method that makes skeletons
+  bool sees_truth = false;     ///< true: the coach receives the learner's true motion, not the sensed one
+  CaptureMethod capture = {};  ///< if the sensor is cameras: the causal method that makes skeletons
 };
 
 /// Decides in each frame if the coach corrects, instead of the coach's own policy.

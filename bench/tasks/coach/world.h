@@ -18,11 +18,11 @@ namespace etude {
 
 /// The data that all worlds of a condition share: a song with its dance and its moves.
 struct CoachStage {
-  std::vector<Move> moves;                   ///< of the dance, in its order, at the song's tempo
+  std::vector<Move> moves;                   ///< the moves of the dance, in its order, at the song's tempo
   std::vector<TaughtMove> taught;            ///< the same moves, as recognisers are taught them
-  std::unique_ptr<ShowableFaults> showable;  ///< the faults that each of them can have; never null
+  std::unique_ptr<ShowableFaults> showable;  ///< the faults that each move can have; never null
   std::unique_ptr<DanceLibrary> library;     ///< never null
-  std::vector<double> natural_jumps_cm;      ///< of the unbroken dance
+  std::vector<double> natural_jumps_cm;      ///< natural jumps of the unbroken dance
 
   const Dance& dance() const { return library->dance(); }
 };
@@ -41,7 +41,7 @@ struct CoachWorld {
   Occluders occluders;
   std::optional<StudioOptions> cameras = {};  ///< if set, used instead of the skeleton sensor
   MusicClockOptions music;
-  int frames = 0;  ///< of the session
+  int frames = 0;  ///< length of the session
   LearnerOptions learner;
   int test_after = 20;  ///< delay of the retention test, as a number of performances that would fill that time
 };

@@ -32,8 +32,8 @@ enum class OccluderKind { kNone, kTable, kChair, kPerson };
 /// because it says yes, or no, more often.
 struct OperatingPoint {
   double false_alarms_per_min = 1;
-  double recall = 0.9;  ///< of judging
-  int sessions = 24;    ///< number of sessions, each of another person
+  double recall = 0.9;  ///< recall of judging
+  int sessions = 24;    ///< number of sessions, each with another person
 };
 
 /// The thresholds of a method for its two decisions. Spotting decides at any time if a move was performed; judging
@@ -63,10 +63,10 @@ struct DetectionOptions {
   std::optional<double> distance_m;  ///< if absent, drawn in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
-  bool has_cameras = false;  ///< `sensor: cameras`: of the members above only the session is read
+  bool has_cameras = false;  ///< `sensor: cameras`; of the members above, only `session` is then used
   CameraSensing cameras;
-  std::optional<double> threshold;                ///< for methods that set none
-  std::optional<OperatingPoint> operating_point;  ///< sets the thresholds of methods that set none
+  std::optional<double> threshold;                ///< threshold of methods that do not set their own
+  std::optional<OperatingPoint> operating_point;  ///< sets the thresholds of methods that do not set their own
 };
 
 /// One method: the stages from the sensor's stream to verdicts.
@@ -79,7 +79,7 @@ struct DetectionMethod {
   /// If the sensor is cameras: the method by which pictures become skeletons; nullopt = the defaults of task capture.
   std::optional<CaptureMethod> capture = {};
   RecogniserOptions recogniser;
-  std::optional<double> threshold;  ///< if absent, the recogniser's own
+  std::optional<double> threshold;  ///< nullopt = the recogniser's default
   double refractory_s = DecisionOptions{}.refractory_s;
 
   CaptureMethod Capture() const { return capture.value_or(CaptureMethod{}); }

@@ -18,7 +18,7 @@ struct SessionVerdict {
   std::vector<std::optional<std::size_t>> named = {};
   std::vector<Detection> alarms;         ///< false alarms, by move (Repertoire::taught), then by time
   std::vector<Detection> spotted = {};   ///< all detections, true and false
-  std::optional<double> threshold = {};  ///< by which events were judged; empty for an outside method
+  std::optional<double> threshold = {};  ///< threshold of judging; empty for an outside method
 };
 
 /// Filters the sensor's stream or, for an oracle, the true motion. Each recording is filtered separately. If cameras

@@ -10,7 +10,7 @@
 namespace etude {
 
 struct RecogniserTraining {
-  int sessions = 800;  ///< each by another person with 16 performances; the first half also teaches spotting
+  int sessions = 800;  ///< each of another person with 16 performances; the first half also teaches spotting
   std::uint64_t seed = 1;
   BoostingOptions asked{.trees = 300, .rate = 0.08, .takes_turns = true};
   BoostingOptions spotted{};
@@ -18,7 +18,7 @@ struct RecogniserTraining {
 };
 
 /// Trains the model of recogniser `learnt`. Simulated people perform the repertoire's moves in front of both sensors,
-/// with various noises, turns and distances. Performances are measured like in use, and the model is fitted to the
+/// with various noises, turns and distances. Performances are measured as in use, and the model is fitted to the
 /// truth. Grey performances are left out. The worlds have other dice than those of every scenario, so no judged person
 /// is among them.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);

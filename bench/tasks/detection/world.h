@@ -24,7 +24,7 @@ Occluders MakeOccluders(OccluderKind kind, const SensorPlacement& sensor, std::s
 struct Repertoire {
   std::vector<Move> moves;         ///< as authored; empty if there are only recordings
   std::vector<TaughtMove> taught;  ///< sorted by name
-  std::vector<std::string> names;  ///< of all moves that may be asked for or taught, sorted
+  std::vector<std::string> names;  ///< names of all moves that may be requested or taught, sorted
 
   /// Returns the index of a move in `names`, which must contain it.
   std::size_t IndexOf(std::string_view move) const;
@@ -39,13 +39,13 @@ class CameraTake;
 
 /// A performance that was requested, with its truth. Times are in seconds from the world's first frame.
 struct DetectionEvent {
-  std::string move;                      ///< asked for
-  std::vector<GradedFault> faults = {};  ///< of simulated people
+  std::string move;                      ///< the requested move
+  std::vector<GradedFault> faults = {};  ///< faults of simulated people
   std::string labelled_fault = {};           ///< of a recording: the fault that its label names
-  std::string danced;                    ///< from the first beat to the last beat
-  double start_s = 0, end_s = 0;         ///< from the first beat to the last
-  FrameInterval performed;               ///< the same in frames
-  FrameInterval window;                  ///< in which it is judged; windows do not overlap
+  std::string danced;                    ///< the move that was performed; "" if none was
+  double start_s = 0, end_s = 0;         ///< time of the performance, from the first beat to the last
+  FrameInterval performed;               ///< time of the performance, frames
+  FrameInterval window;                  ///< the frames in which it is judged; windows do not overlap
   Truth truth = Truth::kRight;
   /// The time at which the performer had truly passed every requested key pose. Only right performances have it.
   std::optional<double> first_right_s = {};
@@ -65,15 +65,15 @@ struct ActionPoint {
 /// One trial: the true performances, and the sensor's stream. For a recorded person it contains all their recordings,
 /// one after another.
 struct DetectionWorld {
-  BodyMotion motion;  ///< as performed; if the truth of a recording is unknown, as sensed
+  BodyMotion motion;  ///< the motion as performed or, if the truth of a recording is unknown, as sensed
   std::vector<DetectionEvent> events;
   /// The output of a skeleton sensor. If the sensor is cameras, it has no bodies, because skeletons depend on the
   /// method.
   SkeletonStream stream;
-  std::string person = {};  ///< of recordings
-  std::vector<ActionPoint> points = {};      ///< of recordings
+  std::string person = {};  ///< the person's name, for recordings
+  std::vector<ActionPoint> points = {};      ///< labelled action points, for recordings
   std::shared_ptr<CameraTake> cameras = {};  ///< null without cameras
-  std::vector<int> starts = {};              ///< the first frames of all recordings but the first
+  std::vector<int> starts = {};              ///< the first frames of all recordings except the first
 
   /// Returns the intervals that recognisers follow without interruption, one per recording.
   std::vector<FrameInterval> Takes() const;

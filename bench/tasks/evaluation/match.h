@@ -17,19 +17,19 @@ namespace etude {
 struct MatchedMotions {
   EvaluatedPair pair;
   std::vector<std::string> joints;                ///< the joints judged
-  std::vector<int> parents;                       ///< of each, the next of them towards the root; −1: none
-  std::vector<std::string> lacking;               ///< joints of the set that one of both has not
-  std::vector<std::array<std::size_t, 3>> bends;  ///< knees and elbows among them: above, middle, below
-  AngleTracks true_angles, found_angles;  ///< the angles that both have, by name; empty: one of both has no rotations
+  std::vector<int> parents;                       ///< for each joint, the next judged joint towards the root; −1: none
+  std::vector<std::string> lacking;               ///< joints of the set that the truth or the answer lacks
+  std::vector<std::array<std::size_t, 3>> bends;  ///< knees and elbows: the joint above, itself, the joint below
+  AngleTracks true_angles, found_angles;  ///< the common angles, by name; empty: one has no rotations
   std::size_t uncovered = 0;              ///< frames of the truth outside the answer
-  std::optional<TimeShift> lag;           ///< that was found and taken out
-  std::string note;                       ///< one line
+  std::optional<TimeShift> lag;           ///< the time shift that was found and removed
+  std::string note;                       ///< a note on the match, in one line
 };
 
 /// The rule that finds the frame of the answer that belongs to the truth's first frame.
 enum class Lag {
-  kNone,  ///< its first
-  kFind,  ///< the one, or the place between two, that FindTimeShift finds
+  kNone,  ///< the answer's first frame
+  kFind,  ///< the time that FindTimeShift finds, which may be between two frames
 };
 
 /// Matches an answer with a truth. `joints` is the name of a set of joints (JointSetNames). The result has the truth's

@@ -14,8 +14,8 @@ struct EvaluationOptions {
   std::vector<std::string> truth;  ///< files, patterns, folders
   std::string pairs;               ///< the name of a CSV file; "" = pairs are made by name
   std::string joints = "roles";    ///< one of JointSetNames()
-  double noise_mm = 0;             ///< of all controls' answers
-  std::string people;              ///< a pattern for names, such as "{person}_*"; "" = each pair counts for itself
+  double noise_mm = 0;             ///< standard deviation of the noise of all controls' answers
+  std::string people;              ///< a pattern for names, such as "{person}_*"; "" = each pair is a unit of its own
   Lag lag = Lag::kNone;
   std::string statistics;   ///< the name of a file that ReadJointStatistics reads; "" = L2P has no value
   std::string music_beats;  ///< the name of a file that ReadMusicBeats reads; "" = beat alignment has no value
@@ -30,8 +30,8 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
 struct EvaluationMethod {
   std::string name;
   std::vector<std::string> answers;  ///< files, patterns, folders; empty where `pairs` names them
-  bool is_control = false;           ///< its answer is the truth, spoilt
-  Spoiler spoiler;                   ///< of a control
+  bool is_control = false;           ///< true: its answer is the truth with the spoiler's faults
+  Spoiler spoiler;                   ///< the faults of a control's answer
 };
 
 const FieldTable<EvaluationMethod>& EvaluationMethodFields();

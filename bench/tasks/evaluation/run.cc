@@ -28,8 +28,8 @@ constexpr AlignedError kErrors[] = {{"mpjpe_unaligned_mm", Alignment::kNone, "no
                                     {"mpjpe_take_scaled_mm", Alignment::kTakeScaled, kNoFit},
                                     {"mpjpe_each_frame_mm", Alignment::kFrame, kNoFit},
                                     {"mpjpe_each_frame_scaled_mm", Alignment::kFrameScaled, kNoFit}};
-constexpr std::size_t kSegmentFrames = 100;  // of W-MPJPE and WA-MPJPE
-constexpr std::size_t kWindowFrames = 30;    // of NPSS: one of LAFAN1's gaps, a second there
+constexpr std::size_t kSegmentFrames = 100;  // length of a segment of W-MPJPE and WA-MPJPE
+constexpr std::size_t kWindowFrames = 30;    // length of a window of NPSS: a gap of LAFAN1, where it lasts a second
 
 std::optional<double> Times(double factor, std::optional<double> value) {
   return value ? std::optional(factor * *value) : std::nullopt;

@@ -59,7 +59,7 @@ struct IkRecordedStep {
   std::vector<double> angles;
   double position_error_max_cm = 0;
   double orientation_error_max_deg = 0;
-  double axis_error_max_deg = 0;  ///< of the worst single axis, by which "solved" is judged
+  double axis_error_max_deg = 0;  ///< error of the worst single axis, by which "solved" is judged
 };
 
 /// Returns the iterations of 0…`last` that a recording shows: all up to 60, then some at growing intervals, and the

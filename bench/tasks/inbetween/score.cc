@@ -75,7 +75,7 @@ std::string DigestOf(std::span<const glm::dvec3> positions) {
   return Digest().Add(std::span(&positions.front().x, 3 * positions.size())).Hex();
 }
 
-/// Returns global rotations as channels. Their signs follow from the signs of the local rotations, like in LAFAN1's
+/// Returns global rotations as channels. Their signs follow from the signs of the local rotations, as in LAFAN1's
 /// code.
 ChannelTracks ChannelsOf(const std::vector<glm::dquat>& turns, std::size_t joints) {
   ChannelTracks tracks{4 * joints, {}};
@@ -239,7 +239,7 @@ CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> fi
   for (std::size_t f = 0; f < filled.size(); ++f) {
     const std::size_t at = static_cast<std::size_t>(hidden.first) + f;
     shown[at] = filled[f];
-    // Choose the sign of each quaternion that is nearer to the previous frame.
+    // For each quaternion, choose the sign that is nearer to the quaternion in the previous frame.
     for (std::size_t j = 0; j < filled[f].turns.size(); ++j) {
       glm::dquat& turn = shown[at].turns[j];
       if (glm::dot(turn, shown[at - 1].turns[j]) < 0) turn = -turn;

@@ -27,7 +27,7 @@ int FirstFrameOf(const std::string& window);
 Result<HiddenWindow> OpenJudged(const std::string& reference, const InbetweenOptions& options,
                                 const OpenOptions& opening);
 
-/// Returns `count` frames from `first` on, moved and turned like in LAFAN1's code: the root's mean position over these
+/// Returns `count` frames from `first` on, moved and turned as in LAFAN1's code: the root's mean position over these
 /// frames is above the origin. Seen from above, the root's axis `facing` points along the world's X in the last of the
 /// `past` frames.
 std::vector<TreePose> PlacedWindow(std::span<const TreePose> poses, int first, int count, int past,

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 /// A clip of a method's answers.
 struct LoneClip {
   std::string reference;
-  std::string folders;  ///< those that wildcards stand for: "walks/", or ""
+  std::string folders;  ///< the folders for which wildcards stand: "walks/", or ""
 };
 
 /// Returns the folder before the first wildcard: "lib/" for "lib/*/a.bvh".

@@ -12,7 +12,7 @@ namespace etude {
 /// A condition of task plausibility.
 struct PlausibilityOptions {
   std::optional<double> floor_m;  ///< FaultOptions::floor_m
-  std::string people;             ///< a pattern for names, such as "{person}_*"; "" = each clip counts for itself
+  std::string people;             ///< a pattern for names, such as "{person}_*"; "" = each clip is a unit of its own
   std::map<std::string, double> limits;  ///< the largest allowed value of metrics, by id
 };
 

@@ -14,7 +14,7 @@ namespace etude {
 /// A definition of the distance of two poses.
 enum class PoseDistance {
   kFuzzy,           ///< paper A's d, equation 1
-  kPointCloud,      ///< Kovar's: root mean square over the joints after the best alignment on the floor, cm
+  kPointCloud,      ///< Kovar's distance: RMS over the joints after the best alignment on the floor, cm
   kJointPositions,  ///< mean over the joints after aligning heading and hip centre, cm
 };
 
@@ -27,7 +27,7 @@ PoseDistance FindPoseDistance(std::string_view name);
 struct PoseDistanceMethod {
   std::string name;
   PoseDistance distance = PoseDistance::kFuzzy;
-  WeightSource weights = WeightSource::kFixed;  ///< of the fuzzy distance
+  WeightSource weights = WeightSource::kFixed;  ///< the source of the fuzzy distance's weights
   /// Poses are called alike if their distance is below this threshold. It has no unit for the fuzzy distance, and is in
   /// centimetres for the others.
   double threshold = kPaperThreshold;

@@ -26,8 +26,8 @@ struct TrackingOptions {
 
 /// The pose from which a solver starts in every frame except the first.
 enum class FrameStart {
-  kWarm,  ///< "warm": at its answer to the frame before
-  kCold,  ///< "cold": at the start of the first frame
+  kWarm,  ///< "warm": the solver's answer to the previous frame
+  kCold,  ///< "cold": the start of the first frame
 };
 
 /// A solver with its settings.

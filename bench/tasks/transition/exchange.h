@@ -64,9 +64,9 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 /// A method that finds no transition answers `{"unsolved": "why"}`. Its cell ends like that of a built-in method that
 /// finds no match.
 struct TransitionAnswer {
-  std::optional<std::string> unsolved;  ///< the reason; the rest is then empty
-  std::vector<Segment> segments;        ///< as in a TransitionRecord
-  const JoinKind* join = nullptr;       ///< never null if there are segments; its settings are the defaults
+  std::optional<std::string> unsolved;  ///< why there is no transition; the other members are then empty
+  std::vector<Segment> segments;        ///< the segments, in the form of a TransitionRecord
+  const JoinKind* join = nullptr;       ///< the join; not null if there are segments; it has default settings
   bool matched = false;
 };
 

@@ -13,8 +13,8 @@ struct TransitionAnswer;
 /// The transition of one method in one world.
 struct TransitionOutcome {
   TransitionRequest request;
-  bool matched = false;  ///< the frames left and entered were chosen because they are similar
-  MatchRules rules;      ///< the rules by which its distances were computed
+  bool matched = false;  ///< true: the frames that are left and entered were chosen because they are similar
+  MatchRules rules;      ///< the rules by which the distances were computed
   TransitionRecord record;
   Splice splice;  ///< empty if the record has no segments
 };

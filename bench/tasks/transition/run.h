@@ -44,8 +44,8 @@ void MeasureNoWay(CellResult& result);
 struct TransitionBasis {
   const std::vector<TransitionMethod>& methods;
   const Stage& stage;
-  LearntWeights& learnt;  ///< caches fits; its answers depend on the question alone
-  double max_wait_s = 0;  ///< sent to outside methods; built-in ones have their own
+  LearntWeights& learnt;  ///< caches fits; its results depend on the arguments alone
+  double max_wait_s = 0;  ///< the wait that is sent to outside methods; built-in ones have their own
   bool explain = false;   ///< true: every cell keeps the explanation of its transition
 };
 

@@ -9,9 +9,9 @@ namespace etude {
 namespace {
 
 constexpr double kCrossover = 0.9;
-constexpr double kSpreadIndex = 1;      // of a crossover operator that is not used
-constexpr double kMutation = 0.2;       // probability per gene
-constexpr double kMutationWidth = 0.1;  // standard deviation
+constexpr double kSpreadIndex = 1;      // parameter of a crossover operator that is not used
+constexpr double kMutation = 0.2;       // probability of mutation, per gene
+constexpr double kMutationWidth = 0.1;  // standard deviation of a mutation
 constexpr unsigned kTournament = 2;
 
 /// The problem that Pagmo minimises: the negative score, as a function of genes in [0, 1].
