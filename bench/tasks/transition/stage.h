@@ -29,7 +29,7 @@ struct Stage {
   std::vector<double> natural_slides_cmps;  ///< foot slide over each clip
   RealFrames real_frames;                   ///< the frames of all clips
   FuzzySystem fuzzy;                        ///< the fuzzy system by which the clips are tagged
-  std::vector<int> playing;                 ///< clips that may play at the time of a request: all or all non-acts
+  std::vector<int> playing;                 ///< clips that may play at a request: all, or all except the acts
   std::vector<int> wanted;                  ///< clips that may be requested
 };
 
