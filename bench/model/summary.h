@@ -139,7 +139,7 @@ struct Answer {
   std::optional<Comparison> tail = {};
 };
 
-/// The cost of one stage: the mean, over worlds, by which the error falls if the truth replaces the stage.
+/// The cost of one stage: the mean reduction of the error, over worlds, when the truth replaces the stage.
 struct BudgetShare {
   std::string stage;  ///< one stage, or several that were replaced together
   double mean = 0;

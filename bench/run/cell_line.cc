@@ -28,7 +28,7 @@ std::optional<std::size_t> IndexInCatalogue(const std::string& id) {
   return static_cast<std::size_t>(FindMetric(id) - AllMetrics().data());
 }
 
-/// Returns the reason why JSON cannot represent this result; "" if JSON can.
+/// Returns the reason why a result cannot be written as JSON, or "".
 std::string FindBadValue(const CellResult& result) {
   for (const MetricValue& metric : result.metrics) {
     if (FindMetric(metric.id) == nullptr) return "the metric '" + metric.id + "' is not in the catalogue";

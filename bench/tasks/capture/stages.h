@@ -132,7 +132,7 @@ class CaptureStages {
   std::map<BodyChoice, NearestPoses> nearest_;
 };
 
-/// Returns the true measurements of a frame that the oracles of a method replace.
+/// Returns those measurements of a frame, with their true values, that the oracles of a method replace.
 KnownMeasurement KnownMeasurementOf(const BodyPose& truth, const Oracle& oracle);
 
 }  // namespace etude
