@@ -32,7 +32,7 @@ struct ExportOutcome {
 
 /// Writes the problems of all worlds and, separately, their truths (docs/datasets.md):
 ///
-///     manifest.json                                as of a run; makes the same worlds again
+///     manifest.json                                a run's manifest, from which the same worlds can be made
 ///     README.md
 ///     inputs/index.csv                             one line per world
 ///     inputs/SCENARIO/CONDITION/setting.json       shared by the problems of a condition

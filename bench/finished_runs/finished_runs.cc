@@ -182,6 +182,7 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
 }
 
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed) {
+  // Prepare the scenario under this seed.
   ScenarioSetup setup = rehearsal.setup;
   setup.seed = seed;
   ASSIGN_OR_RETURN(
@@ -193,6 +194,7 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   run.data.suite = scenario.name;
   run.data.seed = seed;
   run.scenarios.push_back(FinishScenario(scenario, setup, {}));
+  // Run all cells, world by world.
   ASSIGN_OR_RETURN(const Fence fence, FenceFor({&prepared, 1}, {}, "", {}));
   CellRunner runner(prepared, "", fence);
   for (int condition = 0; condition < static_cast<int>(scenario.conditions.size()); ++condition) {

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// An answer whose verdict has become worse. An answer compares a method with the one that the scenario names.
+/// An answer whose verdict has become worse. An answer compares a method with the baseline that the scenario names.
 struct FallenAnswer {
   std::string scenario, condition;  ///< the condition as a CompactLabel
   std::string method, baseline;

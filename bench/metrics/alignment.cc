@@ -118,7 +118,7 @@ FrameFits PairFits::Of(Alignment alignment) const {
     case kFrameScaled:
       break;
   }
-  // Alignments with one fit per frame; without scale, the scale is removed.
+  // Each frame has a fit of its own. For kFrame, replace it by the rigid fit.
   FrameFits found{each_frame_};
   if (alignment == kFrameScaled) return found;
   for (std::size_t f = 0; f < frames; ++f) found.fits[f] = WithScale(found.fits[f], moments_[f], false);

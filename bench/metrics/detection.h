@@ -39,8 +39,7 @@ struct MoveWindow {
   int end = 0;
 };
 
-/// Returns true if no window of `windows` that contains `frame` belongs to `move`, as the move asked for or as the move
-/// performed.
+/// Returns true if `frame` lies in no window in which `move` was requested or performed.
 bool IsFalseAlarm(std::string_view move, int frame, std::span<const MoveWindow> windows);
 
 /// One detection of a move by a recogniser.

@@ -60,11 +60,11 @@ class RealFrames {
   RealFrames() = default;
   explicit RealFrames(std::span<const BodyMotion> clips);
 
-  /// Returns the distance to the nearest frame, centimetres: √(mean over joints of d² + (0.1 s · v)²), where d and v
-  /// are the differences of position and velocity after both bodies are turned to one heading and moved over one point
-  /// of the floor. `before` is the frame before `now`. The library must contain at least one frame that is not the
-  /// first of its clip. The search begins at frame `nearest` and stores the index of the nearest frame there. The
-  /// result does not depend on the frame at which the search begins.
+  /// Returns the distance to the nearest frame, centimetres: √(mean over joints of d² + (0.1 s · v)²). d and v are the
+  /// differences of the joint's position and velocity, after both bodies are turned to the same heading and moved to
+  /// the same point of the floor. `before` is the frame before `now`. The library must contain at least one frame that
+  /// is not the first of its clip. The search begins at frame `nearest` and stores the index of the nearest frame
+  /// there. The result does not depend on the frame at which the search begins.
   double DistanceCm(const BodyPose& before, const BodyPose& now, double rate_hz, std::size_t& nearest) const;
 
  private:

@@ -266,6 +266,7 @@ class DensePeer final : public IkPeer {
 
   // Computes the step and returns its largest change of an angle, radians; 0 on failure.
   double FindStep(double mu) {
+    // Active-set passes: solve with some angles fixed at their limits, until the set of fixed angles stays the same.
     std::memset(sides_, 0, sizeof(sides_));
     bool is_exact = false;
     for (int pass = 0; pass < kMaxPasses && !is_exact; ++pass) {
@@ -286,6 +287,7 @@ class DensePeer final : public IkPeer {
         step_[d] = std::clamp(best, lower, upper);
       }
     }
+    // Shorten the step if an angle would turn too far, and apply it to the trial pose.
     double largest = 0;
     for (int d = 0; d < dofs_; ++d) largest = std::max(largest, std::abs(step_[d]));
     const double share = largest > kMaxTurn ? kMaxTurn / largest : 1;

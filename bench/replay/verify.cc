@@ -61,10 +61,12 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
 /// Returns the files that a run of these scenarios may leave, relative to its folder. Files made from the results later
 /// are not included.
 Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun& run) {
+  // Add the files that every run may leave.
   std::set<fs::path> files = {"manifest.json", "host.json", "summary.json", kOtherLibrariesFile,
                               kSealFile,       kSignedFile, kSignatureFile, kLockFile};
   ASSIGN_OR_RETURN(const auto scenarios, ScenariosOf(folder));
   if (!run.data.source) files.insert({kCellsFile, kTimingsFile});
+  // Add the files of each scenario: its columns or curves, and the standard error of its programs.
   for (const Scenario& scenario : scenarios) {
     if (run.data.source) {
       ASSIGN_OR_RETURN(const auto index, ReadColumnIndex(folder / kColumnsFolder / scenario.name));
@@ -77,6 +79,7 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
       files.insert(ErrorFileOf("stderr", scenario, role + program.entry->name));
     }
   }
+  // Add the recordings of the cells that keep their motions.
   std::map<std::string, const RecordingSelection*> recorded;
   for (const Scenario& scenario : scenarios) recorded[scenario.name] = &scenario.recordings;
   ForEachRow(run.data, [&](const Row& row, std::size_t) {

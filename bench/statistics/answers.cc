@@ -192,8 +192,8 @@ void Decide(Answer& answer, const Comparison* value) {
   if (answer.tail && IsDecided(answer.tail->verdict)) {
     return decide(AnswerStep::kTail, answer.tail->verdict, answer.tail->beyond.verdict);
   }
-  // No step decides. The answer is "no difference" only if the verdict on the value is "no difference" and no step is
-  // open.
+  // No step decides. The answer is "no difference" only if the verdict on the value is "no difference" and the verdict
+  // on success is not open.
   const auto is_open = [](const std::optional<Comparison>& step) {
     return step && step->verdict == Verdict::kInconclusive && (step->differing > 0 || step->pairs < kMinSample);
   };

@@ -128,7 +128,8 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
       values[i] = KeepThirtyBits(n * mean - (n - 1) * beyond.left_out[i].difference);
     }
   }
-  // The values of an amount are 0, too, if no world differs, but the interval of a share has the wrong unit for them.
+  // If no world differs, all values are 0, whatever the metric. For an amount, the interval of a share would then have
+  // the wrong unit.
   const bool is_yes_or_no = (sample.yes_or_no || beyond.differing > 0) && std::ranges::all_of(values, [](double value) {
                               return std::abs(value) == 1 || value == 0;
                             });

@@ -315,7 +315,7 @@ void AddSource(const PersonSource& source, std::vector<PersonSource>& sources) {
 Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
   if (options.rig.shape != RigShape::kFile) return {};
   const Node& condition = input.condition.node();
-  // The key `rig_file` must name a file whose text the condition has.
+  // Fail unless the condition has the key `rig_file` and the text of that file.
   const Node* named = condition.Find(kRigFileKey);
   const auto text = input.texts.find(kRigFileKey);
   if (named == nullptr || text == input.texts.end()) {

@@ -118,6 +118,7 @@ Result<std::shared_ptr<const CoachStage>> SharedStage(const std::string& song) {
 }
 
 Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
+  // Read the condition and the methods.
   Rehearsal shared;
   ASSIGN_OR_RETURN(shared.condition.sight.sensor, SensorOf(input));
   CoachConditionFields().Read(input.condition, shared.condition);
@@ -125,6 +126,7 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
   start.sight.threshold = shared.condition.sight.threshold;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "coach", CoachMethodFields(), start));
   const auto sight = [](const CoachMethod& method) -> const DetectionMethod& { return method.sight; };
+  // Prepare the cameras, and refuse settings that do not work with cameras.
   RETURN_IF_ERROR(PrepareCameras(input, methods, sight, shared.condition.sight));
   for (std::size_t i = 0; i < methods.size() && shared.condition.sight.has_cameras; ++i) {
     if (methods[i].sight.sees_truth || methods[i].sight.Capture().causal) continue;
@@ -137,6 +139,7 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
                 "'operating_point' needs the skeleton sensor, because cameras show every method something else; use "
                 "'threshold'");
   }
+  // Set the stage, and check that every recogniser can be taught.
   ASSIGN_OR_RETURN(shared.stage, SharedStage(shared.condition.song));
   if (const auto ready = MakeReady(methods, *shared.stage); !ready) {
     return Fail(input.condition.node().place, "{}", ready.error().message);

@@ -123,7 +123,7 @@ AngleTracks Chosen(const AngleTracks& angles, const std::vector<std::string>& ke
   return chosen;
 }
 
-/// Stores the angles that both motions have in `matched`.
+/// Stores in `matched` the angles that both motions have.
 void MatchAngles(const RawMotion& truth, const RawMotion& sampled, MatchedMotions& matched) {
   if (truth.rotations.empty() || sampled.rotations.empty()) return;
   const AngleTracks of_truth = AnglesOfRotations(truth), of_found = AnglesOfRotations(sampled);

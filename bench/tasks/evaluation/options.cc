@@ -43,6 +43,7 @@ std::vector<std::string> JointsOfSet(std::string_view name) {
 
 const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
   using Key = Field<EvaluationOptions>;
+  // The files that are judged come first.
   static const FieldTable<EvaluationOptions> table{
       {Key::Texts("truth", &EvaluationOptions::truth, "a list of motion files, patterns, folders",
                   "The truths; a truth and the answers of the same name are a pair.")
@@ -50,6 +51,7 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
        {{"pairs", FileKind("a CSV file"), "(files of one name are a pair)",
          "A table of pairs: a column `truth`, a column named after each method and, optionally, a column `name`."},
         [](Fields& fields, EvaluationOptions& options) { options.pairs = fields.Text("pairs", ""); }},
+       // The joints, the noise of controls, the units and the time shift.
        {{"joints", NameKind(JointSetNames()), "roles",
          "Which joints are judged: those with the same role, those with the same name, or those of a set that both "
          "files have."},
@@ -65,6 +67,7 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
        Key::Name("lag", &EvaluationOptions::lag, {{"none", Lag::kNone}, {"find", Lag::kFind}},
                  "none: the first frames of answer and truth belong together; find: the time shift between them is "
                  "found and removed."),
+       // The files that some metrics need.
        {{"statistics", FileKind("a CSV file"), "(L2P has no value)",
          "Means and standard deviations of joints over a training set: a heading `JOINT_x_m,…` and two rows."},
         [](Fields& fields, EvaluationOptions& options) { options.statistics = fields.Text("statistics", ""); }},
@@ -98,12 +101,14 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
   using Method = EvaluationMethod;
   using Key = Field<Method>;
   const auto part = [](auto member) { return Path(&Method::spoiler, member); };
+  // The answers, or a control, come first.
   static const FieldTable<Method> table{
       {Key::Texts("answers", &Method::answers, "a list of motion files, patterns, folders",
                   "The answers; they have the same names as their truths.")
            .WhenAbsent("(`pairs` names them)"),
        Key::Flag("control", &Method::is_control,
                  "The answer is the truth with the errors that the other keys add, in this order."),
+       // The faults of a control's answer, in the order in which they are added.
        Key::Number("noisy_mm", part(&Spoiler::noisy_mm), {0, 1000},
                    "Standard deviation of white noise, independent for each joint and axis."),
        Key::Number("smoothed_ms", part(&Spoiler::smoothed_ms), {0, 10'000}, "Length of a centred moving mean."),

@@ -191,6 +191,7 @@ void MeasureBeats(const EvaluatedPair& pair, const EvaluationSideData& side, Cel
 
 std::vector<std::string> EvaluationMetrics() {
   std::vector<std::string> ids;
+  // The joint errors come first, one for each alignment, and then the other metrics.
   for (const AlignedError& error : kErrors) ids.emplace_back(error.id);
   for (const char* id : {"pck_150mm@mpi_inf_3dhp",
                          "auc_150mm@mpi_inf_3dhp",

@@ -47,14 +47,14 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 ///
 /// - `"through": [{"clip": 2, "enter_frame": 3, "leave_frame": 40}]`: clips played in between, entered and left by the
 ///   same rule.
-/// - `"join"`: any of the built-in ones, `cut` by default, with its settings at their defaults.
+/// - `"join"`: a built-in join, which has its default settings; `cut` if absent.
 /// - `"join_s": 0.5`: the duration of `minimum-jerk` or `planted-feet`, 0 to 5 s. With it `"fades": true`: the old clip
 ///   continues while it fades out; or `"direct": true`: each limb moves with minimum jerk to its pose in the new clip
 ///   at the end. Other joins have durations of their own.
 /// - `"between": [[x, y, z, …], …]`: the method's own frames, shown after `leave_frame` in the place and heading of
-///   clip `from` as the setting has it. Clip `to` is then aligned with the last of them, which should be the method's
-///   own version of `enter_frame`. They are performed by the same body: a limb more than 2 cm longer or shorter than in
-///   the clips is an error. At most 300. Not together with `through`.
+///   clip `from` in the setting. Clip `to` is then aligned with the last of these frames, which should be the method's
+///   own version of `enter_frame`. The body must be the clips' body: a limb that is more than 2 cm longer or shorter is
+///   an error. There may be at most 300 frames, and no `through`.
 /// - `"between_start": [x, y, z, …]`: with `between`, the method's version of `leave_frame`. It is not shown, but the
 ///   gaps at the transition point are measured to it. Without it, the frames between are assumed to begin at constant
 ///   velocity.
