@@ -44,17 +44,17 @@ not there are the frames of a film: `ffmpeg -i camera-1.mkv -start_number 0 came
     etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
 )";
 
-/// Returns the absolute path of a folder without a slash at its end.
+/// /// Returns the canonical absolute path of a folder, without a slash at its end.
 fs::path Named(const fs::path& path) {
   std::error_code error;
   const fs::path named = fs::weakly_canonical(fs::absolute(path, error), error);
   return named.has_filename() ? named : named.parent_path();
 }
 
-/// Returns the temporary folder beside `path` that is filled first.
+/// Returns the temporary folder next to `path`. An export fills it first and then renames it.
 fs::path PartialOf(const fs::path& path) { return Named(path).string() + ".partial"; }
 
-/// Opens and locks a folder; returns −1 if another process has the lock.
+/// Opens and locks a folder. Returns its file descriptor, or −1 if it cannot be opened or another process has the lock.
 int Lock(const fs::path& folder) {
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (lock < 0 || LockUnlessTaken(lock, folder)) return lock;
@@ -62,13 +62,13 @@ int Lock(const fs::path& folder) {
   return -1;
 }
 
-/// Returns true if an export writes this name at the top of its folder.
+/// Returns true if an export creates a file or folder of this name at the top of its data set.
 bool IsOfExport(const fs::path& name) {
   constexpr std::array kParts = {"inputs", "truth", "README.md", "manifest.json"};
   return std::ranges::any_of(kParts, [&](const char* part) { return name == part || name == TemporaryName(part); });
 }
 
-/// A folder that is filled under a temporary name and renamed when it is complete; otherwise it is deleted.
+/// Fills a folder under a temporary name and renames it when it is complete. The destructor deletes an incomplete one.
 class NewFolder {
  public:
   static Result<NewFolder> Begin(const fs::path& path) {
@@ -83,7 +83,7 @@ class NewFolder {
     RETURN_IF_ERROR(MakeFolder(Inside(partial.parent_path()) / partial.filename()));
     NewFolder folder(path, Lock(partial));
     if (folder.lock_ < 0) return Fail(place, "another export is writing into it; choose another folder with -o");
-    // Empty the folder that a killed export left; refuse a folder with other contents.
+    // Empty the folder that a killed export left. Refuse a folder with other contents.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       if (IsOfExport(entry->path().filename())) continue;
       ::close(std::exchange(folder.lock_, -1));
@@ -105,7 +105,7 @@ class NewFolder {
     ::close(lock_);
   }
 
-  /// Returns the temporary folder; writing below it follows no links, even if a link replaces it.
+  /// Returns the temporary folder. Writing below it never follows a link, even if a link replaces the folder.
   FilePath partial() const { return Inside(partial_.parent_path()) / partial_.filename(); }
 
   /// Syncs the folder's contents to disk and gives it its final name.
@@ -122,7 +122,7 @@ class NewFolder {
  private:
   NewFolder(const fs::path& path, int lock) : path_(Named(path)), partial_(PartialOf(path)), lock_(lock) {}
 
-  /// Returns true if this name still belongs to the locked folder.
+  /// Returns true if `name` is still the path of the locked folder.
   bool IsOurs(const fs::path& name) const {
     struct stat locked {
     }, named{};
@@ -150,7 +150,7 @@ class Exporter {
   Exporter(const PreparedScenario& scenario, FilePath folder, bool depth)
       : scenario_(scenario), folder_(std::move(folder)), depth_(depth) {}
 
-  /// Writes the setting of a condition, if its worlds have none of their own.
+  /// Writes the setting that all worlds of a condition share. Does nothing if each world has a setting of its own.
   Result<void> SaveSetting(int condition, const std::string& place) {
     if (scenario_.task(condition).HasOwnSettings()) return {};
     const auto setting = scenario_.task(condition).Setting();
@@ -158,7 +158,8 @@ class Exporter {
     return SavePayload(*setting, folder_ / "inputs" / place, "setting.json");
   }
 
-  /// Writes a world and its line of `index`; calls `on_part` after steps 1 and 2.
+  /// Writes the problem and the truth of a world, and appends the world's line to `index`. Calls `on_part(1)` when the
+  /// problem is made and `on_part(2)` when it is written.
   Result<void> SaveWorld(int condition, int trial, const std::string& place, ExportOutcome& outcome,
                          std::vector<std::string>& index, const std::function<void(std::size_t)>& on_part) {
     const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(condition, trial), /*keeps_motion=*/false);
@@ -175,7 +176,7 @@ class Exporter {
       return {};
     }
     ++outcome.problems;
-    // Problem and truth, one after the other, because a world's pictures need much memory.
+    // Free the problem before the truth is made, because the pictures of a world need much memory.
     {
       const auto problem = world->MakeProblem();
       if (!problem) return About(path, problem.error());
@@ -200,7 +201,7 @@ class Exporter {
   }
 
  private:
-  /// Writes the pictures of takes, if there are any, as films at the rate of the setting.
+  /// Writes the pictures of each take as a film, at the rate in the condition's setting. Does nothing without takes.
   Result<void> SaveFilms(const Payload& problem, int condition, const std::string& path) const {
     const auto is_picture = [](const Attachment& file) { return IsPictureOfTake(file.name); };
     if (std::ranges::none_of(problem.files, is_picture)) return {};
@@ -245,12 +246,12 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   RETURN_IF_ERROR(RefuseFiles(suite));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   ASSIGN_OR_RETURN(auto manifest, MakeManifest(suite, scenarios, options.program_version));
-  // Check the key, and begin the folder.
+  // Check how the key may be used, and create the folder.
   const KeyUse use{"export", suite.suite, DigestOfRun(manifest), {}, options.output};
   if (options.key && !options.reuse_key) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   ASSIGN_OR_RETURN(auto folder, NewFolder::Begin(options.output));
 
-  // Write all worlds, and a setting before the first world of each condition.
+  // Write all worlds. Write the setting of each condition before its first world.
   const Plan plan(scenarios);
   ExportOutcome outcome;
   std::vector<std::string> index;
@@ -268,7 +269,8 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
                                        [&](std::size_t part) { on_progress(w * Exporter::kParts + part, parts); }));
     on_progress((w + 1) * Exporter::kParts, parts);
   }
-  // Write the index, the README and the manifest. Sorting hides the order of secret worlds.
+  // Write the index, the README and the manifest. The index is sorted, because the order of secret worlds would reveal
+  // their trials.
   const auto save = [&](const char* name, const std::string& text) {
     return WriteFileAtomically(folder.partial() / name, text);
   };

@@ -12,9 +12,9 @@
 namespace etude {
 
 struct ExportOptions {
-  std::vector<std::string> scenarios;  ///< files, or folders of *.yaml
+  std::vector<std::string> scenarios;  ///< paths of files, or of folders with *.yaml files
   std::optional<std::uint64_t> seed;   ///< default: each scenario's own, else 1
-  std::optional<SecretKey> key = {};   ///< of secret worlds, instead of a seed
+  std::optional<SecretKey> key = {};   ///< the key of secret worlds, instead of a seed
   bool reuse_key = false;              ///< allows a key that was used before (used_keys.h)
   std::optional<int> trials;           ///< default: each scenario's own
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
@@ -32,7 +32,7 @@ struct ExportOutcome {
 
 /// Writes the problems of all worlds and, separately, their truths (docs/datasets.md):
 ///
-///     manifest.json                                as of a run; makes the same worlds again
+///     manifest.json                                a run's manifest, from which the same worlds can be made
 ///     README.md
 ///     inputs/index.csv                             one line per world
 ///     inputs/SCENARIO/CONDITION/setting.json       shared by the problems of a condition
@@ -45,11 +45,11 @@ struct ExportOutcome {
 /// machine. `on_progress` counts three steps per world: problem made, problem written, truth written.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
 
-/// The version of the layout of a data set, the key `data_set` of its manifest. Without that key it is 1, whose
-/// pictures are PNG files.
+/// The layout version of a data set, stored as the key `data_set` of its manifest. A manifest without this key has
+/// version 1, in which pictures are PNG files.
 constexpr int kDataSetVersion = 2;
 
-/// Deletes the temporary folder of a killed export to this folder.
+/// Deletes the temporary folder that a killed export to `output` left.
 void RemoveUnfinishedExport(const std::filesystem::path& output);
 
 }  // namespace etude

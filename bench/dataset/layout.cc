@@ -23,8 +23,8 @@ bool IsPlain(char c) {
 
 std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
 
-/// Returns the world's name for a file name: "007" for "7.json", "007.json" and "007.JSON"; nullopt for other
-/// extensions.
+/// Returns the name of the world that an answer file is for: "007" for "7.json", "007.json" and "007.JSON". Returns
+/// nullopt if the extension is not .json.
 std::optional<std::string> WorldOf(const fs::path& name) {
   std::string extension = name.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -35,8 +35,9 @@ std::optional<std::string> WorldOf(const fs::path& name) {
   return trial && *trial >= 0 ? TrialName(*trial) : stem;
 }
 
-/// Lists all files below `folder`, sorted by name, relative to it. Entries that are neither folders nor files of one
-/// name go into `faults`: a hard link may be the truth.
+/// Lists all regular files below `folder`, sorted by name; the paths are relative to `folder`. Skips names that begin
+/// with a dot. Reports links, pipes and other special files in `faults`. A file with several hard links is reported
+/// too, because it may be a link to the truth.
 Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFaults& faults) {
   const Place place{folder.string(), 0, 0};
   std::error_code error;
@@ -84,7 +85,7 @@ std::string WorldName(const PreparedScenario& scenario, int condition, int trial
 
 Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan, PredictionFaults& faults) {
   ASSIGN_OR_RETURN(const auto files, AnswersBelow(folder, faults));
-  // Map "SCENARIO/CONDITION" and the world's name to the world's index.
+  // Map each world's folder "SCENARIO/CONDITION" and its name to its index in the plan.
   std::map<std::pair<std::string, std::string>, std::size_t> worlds;
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     const Scenario& scenario = plan.scenario_of(w).scenario();

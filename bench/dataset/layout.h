@@ -22,22 +22,23 @@ std::vector<std::string> ConditionFolders(const Scenario& scenario);
 /// instead, from which the trial cannot be found without the key.
 std::string WorldName(const PreparedScenario& scenario, int condition, int trial);
 
-/// The faults of a folder of predictions; each entry names a file or a world.
+/// The faults found in a folder of predictions. Each entry names a file or a world.
 struct PredictionFaults {
   std::vector<std::string> missing;    ///< worlds without an answer
   std::vector<std::string> extra;      ///< files that answer no world
-  std::vector<std::string> duplicate;  ///< files that answer a world that another file answers already
+  std::vector<std::string> duplicate;  ///< files for a world that already has an answer
   std::vector<std::string> broken;     ///< answers that cannot be read or have the wrong form, with the reason
 
   bool empty() const { return missing.empty() && extra.empty() && duplicate.empty() && broken.empty(); }
 };
 
-/// The file with the answer to each world of a plan; nullopt if there is none.
+/// The file that answers each world of a plan, by the world's index; nullopt if no file answers it.
 using PredictionFiles = std::vector<std::optional<FilePath>>;
 
-/// Finds SCENARIO/CONDITION/TRIAL.json in `folder`. TRIAL is a number, with or without leading zeros, or the name of a
-/// secret world. `faults` lists all other files as extra, except names that begin with a dot, and links (which could
-/// lead to the truth) and pipes as broken. Fails if the folder cannot be read.
+/// Finds SCENARIO/CONDITION/TRIAL.json in `folder` for every world of the plan. TRIAL is a number, with or without
+/// leading zeros, or the name of a secret world. In `faults`, links (which could lead to the truth) and pipes are
+/// listed as broken, all other files as extra. Names that begin with a dot are ignored. Fails if the folder cannot be
+/// read.
 Result<PredictionFiles> FindPredictions(const std::filesystem::path& folder, const Plan& plan,
                                         PredictionFaults& faults);
 

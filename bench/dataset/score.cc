@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Refuses data sets of a newer layout. Older ones are scored like today's, because only their manifest is read.
+/// Fails if the data set has a newer layout than this program knows. Data sets of all older layouts can be scored,
+/// because only the manifest is read.
 Result<void> CheckVersion(const FilePath& manifest) {
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(manifest));
   const Json version = json.is_object() ? json.value("data_set", Json(1)) : Json(1);
@@ -81,7 +82,8 @@ Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
   return judged;
 }
 
-/// Judges the answer in `file` to world `w`, and records its faults. Outside metrics measure it later.
+/// Judges the answer in `file` to world `w`, and adds the answer's faults to `faults`. Outside metrics are not measured
+/// here, but later.
 FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<FilePath>& file,
                         PredictionFaults& faults) {
   const PreparedScenario& scenario = plan.scenario_of(w);
@@ -95,7 +97,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
   const bool is_filmed = scenario.scenario().recordings.KeepsTrial(world.trial);
   const auto built =
       scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.condition, world.trial), is_filmed || has_programs);
-  // A skipped world, and a missing or broken answer.
+  // A skipped world, or a missing or broken answer, gives a row without metrics.
   if (const auto why = built->WhySkipped()) {
     if (file) faults.extra.push_back(fmt::format("{}.json ({})", NameOf(plan, w), *why));
     return ended(Status::kSkipped, *why);
@@ -109,7 +111,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
     faults.broken.push_back(ToString(judged.error()));
     return ended(Status::kBadOutput, judged.error().message);
   }
-  // Make the row. Complete its metrics now, unless outside metrics must measure it first.
+  // Make the row. If the scenario has outside metrics, its metrics are completed after these have run.
   FinishedCell cell{scenario.IdentityOf(world.condition, world.trial, method), {}};
   cell.row.result = *std::move(judged);
   cell.is_measured = !has_programs || !cell.row.result.recording;
@@ -144,8 +146,8 @@ class Meter {
   Progress progress_;
 };
 
-/// Adds the row of each answer to `cells`, or to `answered` if outside metrics must still measure it. Returns false if
-/// the user stopped it.
+/// Judges all answers. Adds each row to `cells`, or to `answered` if outside metrics must still measure it. Returns
+/// false if the user stopped the program.
 Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& cells, TemporaryLines& answered,
                       PredictionFaults& faults, Meter& meter) {
   ASSIGN_OR_RETURN(const auto files, FindPredictions(options.predictions, plan, faults));
@@ -164,7 +166,7 @@ Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& 
   return true;
 }
 
-/// Returns the number of answers and their digest: with the manifest they identify this run.
+/// Returns the number of answers and their digest. The manifest and these two values identify the run.
 Result<Json> DescribeAnswers(const Plan& plan, CellTable& cells, CellTable& answered) {
   Digest digest;
   std::size_t answers = 0;

@@ -12,16 +12,17 @@
 namespace etude {
 
 struct ScoreOptions {
-  /// A data set (or any folder with a run's manifest), a scenario file, or a folder of *.yaml.
+  /// The path of a data set (or of any folder with a run's manifest), of a scenario file, or of a folder of *.yaml
+  /// files.
   std::string target;
   std::string predictions;            ///< the folder of answers
   std::string output;                 ///< the result folder
   std::string name = "predictions";   ///< the name of the method that gave the answers
-  bool alone = false;                 ///< does not run the scenarios' own methods
-  bool allow_missing = false;         ///< a world without an answer becomes a failed cell instead of an error
+  bool alone = false;                 ///< true: the scenarios' own methods are not run
+  bool allow_missing = false;         ///< true: a world without an answer is a failed cell, not an error
   int jobs = 0;                       ///< worker processes for the scenarios' own methods; 0 = one per processor
   std::optional<std::uint64_t> seed;  ///< for scenario files; a manifest has its own
-  std::optional<SecretKey> key = {};  ///< of secret worlds
+  std::optional<SecretKey> key = {};  ///< the key of secret worlds
   std::optional<int> trials;
   std::vector<std::string> clips;
   std::string joint_map;
@@ -37,10 +38,10 @@ struct ScoreOutcome {
   PredictionFaults faults;  ///< if there are any, nothing was written
 };
 
-/// Scores answers from files and writes an ordinary result folder. In it they are the last method of each scenario,
-/// compared with the first one. Workers run the scenarios' own methods as in a run; with `alone` these are not run,
-/// nothing is compared, and no expectation is judged. The process must be in the pinned environment, because it judges
-/// the answers itself.
+/// Scores answers from files and writes an ordinary result folder. The scored method is the last method of each
+/// scenario and is compared with the scenario's first method. Workers run the scenarios' own methods as in a run. With
+/// `alone`, these methods are not run, nothing is compared, and no expectation is judged. The process must be in the
+/// pinned environment, because it judges the answers itself.
 Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                       const std::function<void(const Progress&)>& on_progress);
 

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// Returns the name of a picture's take: "camera-1" for "camera-1-0042.png"; "" for other names.
+/// Returns the take to which a picture's file belongs: "camera-1" for "camera-1-0042.png". Returns "" for other names.
 std::string_view TakeOf(std::string_view name) {
   constexpr std::string_view kForm = "-0000.png";
   if (name.size() <= kForm.size()) return {};

@@ -32,8 +32,8 @@ bool IsCommonKey(const std::string& key) {
   return std::any_of(keys.begin(), keys.end(), [&](const KeyInfo& known) { return known.key == key; });
 }
 
-/// Returns the digest of everything that shapes the worlds of a condition: its task, the task's own keys, the clips.
-/// Worlds made of files have digests of their own.
+/// Returns the digest of everything that determines the worlds of a condition: the task, the task's own keys and the
+/// clips. Files of worlds made of files are left out, because they have digests of their own.
 std::string WorldDigest(const std::string& task, const Node& condition, std::span<const std::string> clip_digests) {
   Digest digest;
   digest.Add(std::string_view(task));
@@ -62,8 +62,9 @@ std::string MethodDigest(const MethodEntry& method) {
 
 constexpr const char* kBuiltInName = "built in";
 
-// A fast scenario with metrics of every kind: medians, a share, a count. Its methods differ from the first one by a
-// little or by much: they limit how far a joint may turn from the start pose, whose error is 15° (standard deviation).
+// A fast scenario with metrics of every kind: medians, a share and a count. Its methods limit by different angles how
+// far a joint may turn from the start pose. The start pose has an error of 15° (standard deviation), so some methods
+// differ little from the first one and others much.
 constexpr const char* kBuiltInScenario = R"(
 scenario: gate-self-test
 question: Does the gate see what it should, and nothing else?
@@ -81,7 +82,8 @@ metrics: [orientation_error_deg, position_error_cm, hidden_angle_error_deg, solv
 
 namespace fs = std::filesystem;
 
-/// Complains of metric versions that differ from this program's: values of two versions are never mixed.
+/// Fails if a version of a metric differs from this program's version, because values of two versions must not be
+/// mixed.
 Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   const Json versions = manifest.value("metrics", Json::object());
   for (const auto& [id, version] : versions.items()) {
@@ -94,8 +96,9 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   return {};
 }
 
-/// Returns, for each world made of files, its name and the digest of its truth; the digest is "" if it has no truth.
-/// `digests` are those of the manifest, world by world: first the truth, if there is one, then all answers.
+/// Returns the name of each world made of files and the digest of its truth; the digest is "" if it has no truth.
+/// `digests` are the manifest's digests of files, in the order of the worlds. For each world they hold the truth first,
+/// if there is one, and then all answers.
 Result<NamedDigests> TruthsOf(const ScenarioSetup& setup, std::span<const std::string> digests, const Place& place) {
   NamedDigests truths;
   std::size_t at = 0;
@@ -108,13 +111,13 @@ Result<NamedDigests> TruthsOf(const ScenarioSetup& setup, std::span<const std::s
   return truths;
 }
 
-/// Reads the scenarios of manifest.json from the texts that it keeps.
+/// Reads the scenarios of a manifest.json from the scenario texts that it contains.
 Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(path));
   const Place place{path.string(), 0, 0};
   ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
   RETURN_IF_ERROR(CheckMetricVersions(manifest, place));
-  // Parse each scenario, and take the digests of its clips from the manifest.
+  // Parse each scenario. The manifest contains the digests of its clips.
   std::vector<FinishedScenario> finished;
   ParsedSuite parsed(suite);
   for (std::size_t s = 0; s < suite.scenarios.size(); ++s) {
@@ -138,7 +141,7 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
       finished.push_back(FinishScenario(scenario, setup, {}));
       finished.back().files = std::move(files);
     }
-    // The worlds of a secret seed also depend on the version of secret worlds.
+    // Worlds of a secret seed also depend on the version of the rule that makes secret worlds.
     if (setup.seed.IsPlain()) continue;
     for (auto& [condition, digest] : finished.back().worlds) {
       digest = Digest().Add(digest).Add(std::int64_t{suite.secret_worlds}).Hex();
@@ -179,6 +182,7 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
 }
 
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed) {
+  // Prepare the scenario under this seed.
   ScenarioSetup setup = rehearsal.setup;
   setup.seed = seed;
   ASSIGN_OR_RETURN(
@@ -190,6 +194,7 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   run.data.suite = scenario.name;
   run.data.seed = seed;
   run.scenarios.push_back(FinishScenario(scenario, setup, {}));
+  // Run all cells, world by world.
   ASSIGN_OR_RETURN(const Fence fence, FenceFor({&prepared, 1}, {}, "", {}));
   CellRunner runner(prepared, "", fence);
   for (int condition = 0; condition < static_cast<int>(scenario.conditions.size()); ++condition) {

@@ -12,13 +12,13 @@
 
 namespace etude {
 
-/// Collects what a gate needs to know of a scenario that has been run. `clip_digests` are those of the loaded clips, in
-/// order. The digests of worlds leave out everything that does not shape the worlds (questions, expectations, gate
-/// rules, comments), so that editing those keeps a baseline valid.
+/// Collects what a gate needs to know about a scenario that has been run. `clip_digests` are the digests of the loaded
+/// clips, in order. The digests of worlds depend only on what determines the worlds. A baseline therefore stays valid
+/// if questions, expectations, gate rules or comments are edited.
 FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& setup,
                                 std::span<const std::string> clip_digests);
 
-/// A scenario that can be run under any seed, in this process and without a folder, as the gate's self-test does
+/// A scenario that can be run under any seed, in this process and without a result folder. The gate's self-test runs it
 /// hundreds of times. A method that crashes ends the program.
 struct Rehearsal {
   SourceTexts sources;
@@ -26,14 +26,16 @@ struct Rehearsal {
   Scenario scenario;
 };
 
-/// Reads the first scenario of a file; "" = a small built-in one of task ik. `trials` replaces its own number.
+/// Reads the first scenario of `file`; "" = a small built-in scenario of task ik. `trials` replaces the scenario's own
+/// number of trials.
 Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> trials);
 
-/// Runs all its cells under `seed`.
+/// Runs all cells of the rehearsal under `seed`.
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed);
 
-/// Reads a result folder with its scenarios and times. A run that has not ended or was interrupted has no data, only
-/// the reason. Fails like LoadRun, and if cells.jsonl has a duplicate row or a row that the manifest does not list.
+/// Reads a result folder with its scenarios and processor times. For a run that has not ended or was interrupted, the
+/// result holds the reason and no data. Fails where LoadRun fails, and if cells.jsonl has a duplicate row or a row that
+/// the manifest does not list.
 Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 }  // namespace etude

@@ -44,7 +44,7 @@ Json EncodeValues(const SnapshotValues& kept) {
   return values;
 }
 
-/// Collects the entries of a JSON array, one per line.
+/// Collects the entries of a JSON array and writes one per line.
 class Lines {
  public:
   void Add(const Json& json) {
@@ -60,25 +60,26 @@ class Lines {
   std::optional<Error> error_;
 };
 
-// No 'm', 't', 'c', 'b': a run in which the machine ended a cell gives no baseline.
+// The letters 'm', 't' and 'c' are missing, because a run in which the machine ended a cell gives no baseline.
 constexpr std::string_view kLetters = "oufbs";
 constexpr std::string_view kAnswers = "ou";     // statuses with an answer
 constexpr std::int64_t kMaxTrials = 1'000'000;  // a scenario's own limit
 constexpr std::int64_t kMaxVersions = 1'000'000;
 
-/// Returns the seal of a baseline: the digest of its JSON values without the seal; white space does not matter.
+/// Returns the seal of a baseline: the digest of its JSON values without the key `seal`. White space does not affect
+/// it.
 Result<std::string> SealOf(Json baseline) {
   baseline.erase("seal");
   ASSIGN_OR_RETURN(const auto text, WriteJson(baseline));
   return Digest().Add(std::string_view(text)).Hex();
 }
 
-/// The cells that a line of statuses or values fills.
+/// The cells that are filled by a line of statuses or of values.
 struct Slot {
   std::size_t trials = 0;
   SnapshotCells* cells = nullptr;
 };
-/// By "scenario, condition, method".
+/// Slots by the text "scenario, condition, method".
 using Slots = std::map<std::string, Slot>;
 
 class BaselineReader {
@@ -87,7 +88,7 @@ class BaselineReader {
       : file_(std::move(file)), places_(std::move(places)), seal_(seal) {}
 
   Result<Snapshot> Read(const Json& json) {
-    // Schema and seal.
+    // Check the schema, and that a seal is present if the schema requires one.
     ASSIGN_OR_RETURN(const auto head,
                      JsonObject::Of(json, PlaceOf("", 0), "a baseline",
                                     {"schema", "etude", "suite", "scenarios", "statuses", "values"}, {"seal"}));
@@ -99,7 +100,7 @@ class BaselineReader {
     if (is_sealed != head.Has("seal")) {
       return Fail(head.place(), "a baseline of schema {} {}", schema, is_sealed ? "lacks its 'seal'" : "has a 'seal'");
     }
-    // Scenarios, which declare the cells; then the lines that fill them.
+    // Read the scenarios, which declare the cells, and then the lines that fill the cells.
     ASSIGN_OR_RETURN(snapshot_.suite, head.Text("suite"));
     ASSIGN_OR_RETURN(snapshot_.program_version, head.Text("etude"));
     RETURN_IF_ERROR(ForEach(head, "scenarios",
@@ -111,7 +112,7 @@ class BaselineReader {
                             [this](const Json& entry, const Place& place) { return ReadStatuses(entry, place); }));
     RETURN_IF_ERROR(
         ForEach(head, "values", [this](const Json& entry, const Place& place) { return ReadValues(entry, place); }));
-    // Each method must have an answer in at least one cell, and the seal must match.
+    // At least one cell must have an answer, and the seal must match.
     const auto has_answer = [](const auto& slot) {
       return slot.second.cells->statuses.find_first_of(kAnswers) != std::string::npos;
     };
@@ -156,7 +157,7 @@ class BaselineReader {
     ASSIGN_OR_RETURN(const auto line, JsonObject::Of(entry, place, "a scenario",
                                                      {"scenario", "seed", "trials", "metrics", "worlds", "methods"},
                                                      {"files"}));
-    // Name, seed and trials.
+    // Read name, seed and trials.
     SnapshotScenario scenario;
     ASSIGN_OR_RETURN(scenario.name, line.Text("scenario"));
     for (const SnapshotScenario& other : snapshot_.scenarios) {
@@ -165,7 +166,7 @@ class BaselineReader {
     ASSIGN_OR_RETURN(scenario.seed, line.Unsigned("seed"));
     ASSIGN_OR_RETURN(const auto trials, line.Whole("trials", 1, kMaxTrials));
     scenario.trials = static_cast<int>(trials);
-    // Digests of worlds and methods, and versions of metrics.
+    // Read the digests of worlds and methods, and the versions of metrics.
     const auto read_digests = [&](std::string_view key, NamedDigests& digests) {
       return line.Each(key, [&](const std::string& name, const JsonObject& inner) -> Result<void> {
         ASSIGN_OR_RETURN(auto digest, inner.Text(name));
@@ -188,7 +189,7 @@ class BaselineReader {
     return {};
   }
 
-  /// Reads the names of worlds made of files, and the digests of their truths.
+  /// Reads the names of worlds made of files and the digests of their truths.
   static Result<void> ReadFiles(const JsonObject& line, SnapshotScenario& scenario) {
     if (!line.Has("files")) return {};
     ASSIGN_OR_RETURN(const Json* files, line.List("files"));
@@ -202,8 +203,8 @@ class BaselineReader {
     return Fail(line.place(), "{} files; its scenario has {} trials", scenario.files.size(), scenario.trials);
   }
 
-  /// Checks the number of lines before the table is allocated: two long lists of names in a small file could declare a
-  /// huge table. Duplicate lines are refused, so if there are as many lines as cells, every cell is filled.
+  /// Checks the number of lines before the table is allocated, because two long lists of names in a small file could
+  /// declare a huge table. Duplicate lines are refused, so every cell is filled if there are as many lines as cells.
   Result<void> CountLines(const JsonObject& head) const {
     std::size_t cells = 0, lists = 0;
     for (const SnapshotScenario& scenario : snapshot_.scenarios) {
@@ -288,7 +289,8 @@ class BaselineReader {
     return CheckNulls(line, *kept, name);
   }
 
-  /// Checks the number of nulls. A world with a null cannot get worse, so an additional null would weaken the gate.
+  /// Fails if the number of nulls differs from the declared one. A world with a null cannot get worse, so an additional
+  /// null would weaken the gate.
   Result<void> CheckNulls(const JsonObject& line, const SnapshotValues& kept, const std::string& name) const {
     std::int64_t allowed = 0;
     if (line.Has("nulls")) {
@@ -312,7 +314,7 @@ class BaselineReader {
 }  // namespace
 
 Result<std::string> WriteBaseline(const Snapshot& snapshot) {
-  // Encode the lines.
+  // Encode each scenario and each list of statuses and values as a line.
   Lines scenarios, statuses, values;
   for (const SnapshotScenario& scenario : snapshot.scenarios) {
     scenarios.Add(EncodeScenario(scenario));
@@ -334,7 +336,7 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot) {
   for (const Lines* lines : {&scenarios, &statuses, &values}) {
     if (lines->error()) return tl::unexpected(*lines->error());
   }
-  // Join them, and append the seal.
+  // Join the lines and append the seal.
   auto head = WriteJson({{"schema", kBaselineSchema}, {"etude", snapshot.program_version}, {"suite", snapshot.suite}});
   if (!head) return head;
   head->pop_back();  // the closing brace

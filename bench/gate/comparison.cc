@@ -30,7 +30,8 @@ const SnapshotValues* FindValues(const SnapshotCells& cells, const std::string& 
   return FindIn(cells.metrics, [&](const SnapshotValues& values) { return values.metric == metric; });
 }
 
-/// Lists what `one` contains and `other` does not, at the highest level that is missing.
+/// Lists the scenarios, cells and metrics that `one` contains and `other` does not. If a whole scenario or cell is
+/// missing, only its name is listed.
 std::vector<std::string> OnlyIn(const Snapshot& one, const Snapshot& other) {
   std::vector<std::string> only;
   for (const SnapshotScenario& scenario : one.scenarios) {
@@ -56,16 +57,16 @@ const std::string* FindDigest(const NamedDigests& digests, const std::string& na
   return found == nullptr ? nullptr : &found->second;
 }
 
-/// The trials of the worlds that two snapshots of a scenario share.
+/// The trials of the worlds that two snapshots of a scenario share. `before[i]` and `after[i]` are the same world.
 struct SharedWorlds {
   std::vector<std::size_t> before, after;
 };
 
-/// Returns the worlds to compare: those of equal trials, or, for worlds made of files, those with the same name and the
-/// same truth. Files that only one snapshot has are added to the lists.
+/// Pairs the worlds of two snapshots. Worlds made of files form a pair if they have the same name and the same truth;
+/// other worlds, if they have the same trial. Files that only one snapshot has are added to the lists of `comparison`.
 SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& after, SnapshotComparison& comparison) {
   SharedWorlds shared;
-  // Without files, pair the trials of equal number.
+  // Without files, pair equal trials.
   if (before.files.empty() || after.files.empty()) {
     for (int t = 0; t < std::min(before.trials, after.trials); ++t) {
       shared.before.push_back(static_cast<std::size_t>(t));
@@ -73,7 +74,8 @@ SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& 
     }
     return shared;
   }
-  // With files, pair the same name and truth; list the files of `before` that have no partner, then those of `after`.
+  // With files, pair worlds of the same name and truth. List the files of `before` without a partner, then the files of
+  // `after` without one.
   std::map<std::string, std::size_t> trial_of;
   for (std::size_t t = 0; t < after.files.size(); ++t) trial_of[after.files[t].first] = t;
   for (std::size_t t = 0; t < before.files.size(); ++t) {
@@ -97,7 +99,7 @@ SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& 
   return shared;
 }
 
-/// Returns the elements at these indices.
+/// Returns the elements at the indices `places`.
 template <typename Elements>
 Elements Picked(const Elements& elements, const std::vector<std::size_t>& places) {
   Elements picked;
@@ -105,7 +107,7 @@ Elements Picked(const Elements& elements, const std::vector<std::size_t>& places
   return picked;
 }
 
-/// Returns the statuses and values of these trials only.
+/// Returns a copy of the cells that has only the statuses and values of `trials`.
 SnapshotCells Picked(const SnapshotCells& cells, const std::vector<std::size_t>& trials) {
   SnapshotCells picked{cells.condition, cells.method, Picked(cells.statuses, trials), {}};
   for (const SnapshotValues& values : cells.metrics) {
@@ -130,8 +132,9 @@ int CountDiffering(const SnapshotCells& before, const SnapshotCells& after, cons
   return differing;
 }
 
-/// Multiplies the values of each world by its weight (MetricInfo::weight) over the mean weight of those with both
-/// values, so that their plain mean is the weighted one. Leaves metrics without kept weights alone.
+/// Multiplies both values of each world by its weight (MetricInfo::weight) divided by the mean weight of the worlds
+/// with both values. The plain mean of the products is then the weighted mean. Does nothing if the metric has no weight
+/// or the snapshot does not keep it.
 void Weigh(const SnapshotCells& cells, const MetricInfo& metric, MoveColumns& columns) {
   const SnapshotValues* weights = metric.weight.empty() ? nullptr : FindValues(cells, metric.weight);
   if (weights == nullptr) return;
@@ -167,7 +170,8 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
     if (a != b) reasons.push_back(fmt::format("{}: {} {} and {}", before.name, what, a, b));
   };
   differ("seed", before.seed, after.seed);
-  // For worlds made of files, the number of trials may differ: a file more or less does not change the other worlds.
+  // For worlds made of files, the numbers of trials may differ, because an added or removed file does not change the
+  // other worlds.
   const bool are_files = !before.files.empty() && !after.files.empty();
   if (!are_files) differ("trials", before.trials, after.trials);
   for (const auto& [condition, digest] : before.worlds) {
@@ -213,7 +217,7 @@ std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after) {
 SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
                                     const TailRules& tails) {
   SnapshotComparison comparison;
-  // List what only one of the snapshots contains.
+  // List the entries that only one of the snapshots contains.
   comparison.only_before = OnlyIn(before, after);
   comparison.only_after = OnlyIn(after, before);
   for (const SnapshotScenario& scenario : before.scenarios) {
@@ -231,7 +235,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       const SnapshotCells cells = Picked(all_cells, shared.before), kept_others = Picked(*all_others, shared.after);
       const SnapshotCells* others = &kept_others;
       const std::vector<bool> compared = WorldsToCompare(cells, *others);
-      // Measure the share of ok cells and every metric, world by world.
+      // Compare the share of ok cells and every metric, world by world.
       const auto add = [&](const std::string& metric, const auto& values, const auto& other_values) {
         const MoveColumns columns{values, other_values, compared, cells.statuses, others->statuses};
         MoveColumns weighed = columns;
@@ -250,7 +254,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       }
     }
   }
-  // Judge all moves as one family, then single worlds by the tail rule.
+  // Judge all moves as one family of tests, then judge single worlds by the tail rule.
   JudgeMoves(comparison.moves, exact);
   for (MetricMove& move : comparison.moves) JudgeTail(move, RuleOf(move.identity.scenario, tails));
   return comparison;

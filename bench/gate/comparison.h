@@ -9,23 +9,23 @@
 
 namespace etude {
 
-/// The comparison of two snapshots. Everything that either of them contains is listed.
+/// The comparison of two snapshots. Every entry of either snapshot is listed, even if only one of them has it.
 struct SnapshotComparison {
   std::vector<MetricMove> moves;                     ///< every metric in both, changed or not
   std::vector<std::string> only_before, only_after;  ///< "ik-weights, joint_noise_deg=5, fixed, iterations"
   std::vector<std::string> settings_changed;         ///< methods with the same name but different settings
 };
 
-/// Returns why worlds of two snapshots cannot be paired: they differ in seed, number of trials, parameters of the task,
-/// clips, or version of a metric. Empty = they can be compared.
+/// Returns the reasons why the worlds of two snapshots cannot be paired. The snapshots may differ in seed, number of
+/// trials, parameters of the task, clips, or version of a metric. Empty = they can be compared.
 std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot& after);
 
-/// Removes the scenarios that cannot be compared from both snapshots; returns the reasons (WhyNotComparable).
+/// Removes the scenarios that cannot be compared from both snapshots, and returns the reasons (WhyNotComparable).
 std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after);
 
-/// Compares two snapshots world by world and judges each difference, by JudgeMoves and then JudgeTail. `exact` names
-/// the scenarios in which nothing may differ. Worlds in which the machine ended either cell are left out.
-/// WhyNotComparable must be empty.
+/// Compares two snapshots world by world and judges each difference with JudgeMoves, then JudgeTail. `exact` names the
+/// scenarios in which no value may differ. A world in which the machine ended either cell is left out. Precondition:
+/// WhyNotComparable returns no reason.
 SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
                                     const TailRules& tails = {});
 

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// An answer (a method compared with the one that the scenario names) whose verdict has become worse.
+/// An answer whose verdict has become worse. An answer compares a method with the baseline that the scenario names.
 struct FallenAnswer {
   std::string scenario, condition;  ///< the condition as a CompactLabel
   std::string method, baseline;
@@ -22,16 +22,12 @@ struct FallenAnswer {
 };
 
 /// Returns the answers that fell from "better" to "no difference" or "worse", or from "no difference" to "worse". An
-/// answer may fall although neither method moved by a practical threshold: one a little down, the other a little up. An
-/// answer that is inconclusive in either snapshot has not fallen.
-///
-/// Judges the values that both snapshots keep by the present rules of `run`. A scenario is left out if none of
-/// its `moves` differs, or if a snapshot does not keep success, a headline metric or a metric's weight. Precondition:
-/// WhyNotComparable is empty.
+/// answer may fall although neither method moved by a practical threshold: one became a little worse, the other a
+/// little better. An answer that is inconclusive in either snapshot has not fallen.
 std::vector<FallenAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
                                             std::span<const MetricMove> moves);
 
-/// "ik-weights, joint_noise_deg=5: adaptive against fixed: better before, now worse"
+/// Describes a fallen answer: "ik-weights, joint_noise_deg=5: adaptive against fixed: better before, now worse".
 std::string DescribeFallen(const FallenAnswer& one);
 
 }  // namespace etude

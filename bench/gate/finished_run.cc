@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kStatusLetters = "ouftcmbs";  // in the order of Status
 
-/// Checks the rows of a run that does not fit in memory: they must be complete and in canonical order (CellsOf).
+/// Checks the rows of a run that does not fit into memory. They must be complete and in canonical order (CellsOf).
 Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   std::vector<std::string> wanted;
   std::size_t scenario = 0, next = 0;

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// A name with the digest of what its values depend on: if the digest differs, so do the values.
+/// Names, each with the digest of everything that its values depend on. If the digests are equal, so are the values.
 using NamedDigests = std::vector<std::pair<std::string, std::string>>;
 
 struct FinishedScenario {
@@ -20,23 +20,23 @@ struct FinishedScenario {
   std::uint64_t seed = 1;
   NamedDigests worlds;   ///< by condition (CompactLabel): the task's parameters and the clips
   NamedDigests methods;  ///< by method: its settings
-  /// For a task that judges files, by trial: the name of the world and the digest of its truth. Empty for other tasks.
+  /// For a task that judges files: the name of each world and the digest of its truth, by trial. Empty for other tasks.
   NamedDigests files = {};
 };
 
-/// A result folder and all else that a gate needs; bench/finished_runs reads it.
+/// A result folder and everything else that a gate needs. bench/finished_runs reads it.
 struct FinishedRun {
   RunData data;
   std::vector<FinishedScenario> scenarios;
-  /// The reasons why there is no verdict: the run did not end, or rows are missing. Empty = it is complete.
+  /// The reasons why there is no verdict: the run did not end, or rows are missing. Empty = the run is complete.
   std::vector<std::string> incomplete;
 };
 
 /// Returns the identities of all cells that a scenario requires, in canonical order.
 std::vector<std::string> CellsOf(const Study& study);
 
-/// Checks the rows against the cells that the scenarios require. Missing rows go into `incomplete`; a duplicate row,
-/// and one that no scenario requires, are failures.
+/// Checks that the rows are the cells that the scenarios require. Missing rows are added to `incomplete`. Fails on a
+/// duplicate row, and on a row that no scenario requires.
 Result<void> CheckRows(FinishedRun& run, const Place& place);
 
 /// The values of one metric, by trial; nullopt if a cell has none.
@@ -64,7 +64,7 @@ struct SnapshotScenario {
   NamedDigests files = {};                           ///< FinishedScenario::files
 };
 
-/// The part of a run that is kept as a baseline, so that later runs can be compared with it world by world.
+/// The part of a run that is kept as a baseline. Later runs are compared with it world by world.
 struct Snapshot {
   std::string suite;
   std::string program_version;
@@ -72,12 +72,13 @@ struct Snapshot {
   std::string unsealed = {};  ///< why its seal does not match, if it was read from a file; else ""
 };
 
-/// 'o' ok, 'u' unsolved, 'f' failed, 't' timeout, 'c' crashed, 'm' out of memory, 'b' bad output, 's' skipped.
+/// Returns the letter of a status: 'o' ok, 'u' unsolved, 'f' failed, 't' timeout, 'c' crashed, 'm' out of memory, 'b'
+/// bad output, 's' skipped.
 char StatusLetter(Status status);
-/// Returns the status of a letter; kFailed for an unknown one.
+/// Returns the status that a letter stands for; kFailed for an unknown letter.
 Status StatusOf(char letter);
 
-/// Returns the snapshot of a complete run: its gated metrics.
+/// Returns the snapshot of a complete run. It contains the gated metrics only.
 Snapshot TakeSnapshot(const FinishedRun& run);
 
 }  // namespace etude

@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-/// Returns the processor times of one method, by world (condition, trial), without the cells that the machine ended and
-/// those that took less than the clock's resolution.
+/// Returns the processor times of one method, seconds, by world (condition, trial). Cells that the machine ended and
+/// cells that took less than the clock's resolution are left out.
 std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, const std::string& scenario,
                                                         const std::string& method) {
   std::map<std::pair<std::string, int>, double> seconds;
@@ -127,7 +127,7 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     if (cells.has_answer || cells.causes.size() == kMaxKeptCauses) return;
     cells.causes.Add(result.reason, fmt::format("{}: ", StatusName(result.status)));
   });
-  // Describe each method without an answer by its most frequent causes.
+  // For each method without an answer, describe its most frequent causes.
   std::vector<std::string> sentences;
   for (const auto& [name, cells] : methods) {
     if (cells.has_answer) continue;
@@ -159,13 +159,13 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
     }
   }
   if (!report.incomplete.empty()) return report;
-  // Find cells that prevent a verdict, and methods without answers.
+  // Find the cells that prevent a verdict, and the methods without answers.
   report.incomplete = WhyIncomplete(run);
   report.silent = DescribeSilentMethods(run);
   for (const FinishedScenario& scenario : run.scenarios) {
     for (const ComparedMethod& method : scenario.study.methods) report.runs_programs |= method.settings.empty();
   }
-  // Time rules, and the baseline.
+  // Judge the time rules, and compare with the baseline.
   report.ratios = JudgeTimeRatios(run);
   if (baseline == nullptr) return report;
   report.baseline_version = baseline->program_version;

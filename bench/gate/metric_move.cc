@@ -37,7 +37,8 @@ Movement MovementOf(const Comparison& comparison, const MetricInfo& metric) {
   return Movement::kUnclear;
 }
 
-/// Returns the more important of two results about the same metric: worse, then better, then unclear.
+/// Returns whichever of two results about the same metric comes first in the order worse, better, unclear. Returns
+/// kNoMatter if neither is one of these.
 Movement MoreImportant(Movement a, Movement b) {
   for (Movement movement : {Movement::kWorse, Movement::kBetter, Movement::kUnclear}) {
     if (a == movement || b == movement) return movement;
@@ -65,7 +66,7 @@ void JudgeByThreshold(MetricMove& move) {
   }
 }
 
-/// Applies Holm's correction over all comparisons in which anything differs.
+/// Applies Holm's correction to all comparisons in which at least one world differs.
 void CorrectTogether(std::span<MetricMove> moves) {
   std::vector<Comparison*> family;
   std::vector<std::optional<double>> p_values;
@@ -83,7 +84,7 @@ void CorrectTogether(std::span<MetricMove> moves) {
 
 constexpr char kOk = 'o', kUnsolved = 'u';
 
-/// Returns the change of a world in practical thresholds; positive = worse.
+/// Returns how much worse a world became, in practical thresholds; negative = it became better.
 double Worse(double before, double after, const MetricInfo& metric) {
   switch (metric.direction) {
     case Direction::kLowerIsBetter:
@@ -108,7 +109,7 @@ const MetricInfo* FindGateMetric(std::string_view id) {
     metric.direction = Direction::kHigherIsBetter;
     metric.aggregate = Aggregate::kMean;
     metric.reading = Reading::kYesNo;
-    metric.practical = 0.02;  // as for the catalogue's shares of solved problems
+    metric.practical = 0.02;  // the value of the catalogue's shares of solved problems
     return metric;
   }();
   return id == kOkShare ? &ok : FindMetric(id);
@@ -123,7 +124,7 @@ std::string_view MovementWords(Movement movement) {
 MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed) {
   MetricMove move;
   move.identity = std::move(identity);
-  // Collect the compared worlds.
+  // Collect the pairs of values of the compared worlds.
   std::vector<Pair> values, presence;
   std::vector<std::optional<double>> all_before, all_after;
   for (std::size_t t = 0; t < columns.compared.size(); ++t) {
@@ -137,7 +138,7 @@ MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::u
     presence.push_back({before ? 1.0 : 0.0, after ? 1.0 : 0.0});
     if (before && after) values.push_back({*before, *after});
   }
-  // Aggregates before and after.
+  // Compute the aggregates before and after.
   const MetricInfo& metric = *FindGateMetric(move.identity.metric);
   move.worlds = static_cast<int>(presence.size());
   move.before = AggregateOfPresent(all_before, metric.aggregate);

@@ -44,7 +44,7 @@ class Walk {
     return {};
   }
 
-  /// Reads a string, a key or a value, from its opening to its closing quote.
+  /// Reads a string from its opening to its closing quote. The string may be a key or a value.
   Result<void> String() {
     const std::size_t from = at_;
     for (++at_; at_ < text_.size() && text_[at_] != '"'; ++at_) at_ += text_[at_] == '\\';
@@ -61,7 +61,7 @@ class Walk {
                 Quote(level.key), first->second);
   }
 
-  /// Records the line of a value that begins here, if it is an entry of a list in the outermost object.
+  /// Records the current line if the value that begins here is an entry of a list in the outermost object.
   void NoteEntry() {
     if (levels_.size() == 2 && levels_[0].is_object && !levels_[1].is_object) {
       places_.lines[levels_[0].key].push_back(line_);

@@ -10,14 +10,14 @@
 
 namespace etude {
 
-/// A count of events, with the 95 % Wilson interval of its share.
+/// A number of events among `of` cases, with the 95 % Wilson interval of its share.
 struct Rate {
   int count = 0;
   int of = 0;
   double low = 0, high = 1;
 };
 
-/// How often gates found one injected change.
+/// The rate at which gates found one injected change.
 struct PowerResult {
   std::string change;
   Rate found;
@@ -36,10 +36,11 @@ struct SelfTestReport {
   /// Returns true if the gate works as specified: reruns never alarm, the interval of false alarms does not lie above
   /// kFalseAlarmLimit, and the tail rule finds exactly what it must find.
   bool Holds() const;
-  bool tails_found = true;  ///< the tail rule alarmed exactly when it had to
+  bool tails_found = true;  ///< true: the tail rule alarmed exactly when it had to
 };
 
-/// The share of gates that may report a regression although nothing changed: alpha of Holm's correction.
+/// The largest allowed share of gates that report a regression although nothing changed: the alpha of Holm's
+/// correction.
 constexpr double kFalseAlarmLimit = 0.05;
 
 using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
@@ -49,22 +50,23 @@ using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 ///   every difference is random and every alarm is false. The differences are far larger than in a real gate, because
 ///   the worlds differ; the test is the same. The tail rule, which requires equal worlds, is off.
 /// - reruns: the first seed against a second run of it.
-/// - injected: the first seed against itself, with a random difference added to every value of one metric, for the
-///   first method and condition: the first gated metric that is a median and has a direction. The differences are
-///   normal: mean k practical thresholds (worse), standard deviation three thresholds.
-/// - tails: the first seed against itself, with n worlds of that metric made worse by twice what the scenario's tail
-///   rule allows, n from 1 to the number that is a regression; and with one value lost.
+/// - injected: the first seed against itself, with a random difference added to every value of one metric, in the
+///   first method and condition. The metric is the first gated one that is a median and has a direction. The
+///   differences are normal: mean k practical thresholds (worse), standard deviation three thresholds.
+/// - tails: the first seed against itself, with a few worlds of that metric changed (InjectedTails).
 /// - real: the first seed's first method against each other method in its place.
-/// Fails if a run does, or if the scenario has no metric for injection.
+/// Fails if a run fails, or if the scenario has no metric for injection.
 Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
 
 /// Makes a few worlds of a snapshot far worse, and counts the gates that find the change: a gate must find it exactly
 /// if the tail rule counts it as a regression.
 class InjectedTails {
  public:
-  /// Changes `target` (scenario 0, cells 0, this metric) in copies of `first`: n worlds worse by twice the rule's
-  /// `times`, n = 1, 2, 3, 5, 10 and the number that is a regression; that number worse by nine tenths of `times`; one
-  /// value lost. `seed` keys the choice of worlds.
+  /// Changes the metric `target` of the first scenario and cells in copies of `first`, one change a copy:
+  /// - n worlds become worse by 2 × `rule.times`; n = 1, 2, 3, 5, 10 and the smallest number that is a regression;
+  /// - that smallest number of worlds becomes worse by 0.9 × `rule.times`;
+  /// - one value is lost.
+  /// `seed` keys the choice of worlds.
   void Try(const Snapshot& first, const std::string& target, std::uint64_t seed, const TailRule& rule);
 
   std::vector<PowerResult> Results() const;

@@ -27,11 +27,12 @@ constexpr auto Path(Members... members) {
   // clang-format on
 }
 
-/// Values with the names that files use for them.
+/// A list of values, each with the name by which files refer to it.
 template <typename Value>
 using NamedValues = std::vector<std::pair<std::string, Value>>;
 
-// The types that a number's member may have; an absent key leaves the value unchanged.
+// ReadNumber reads the value of `key` into a number's member. There is one overload for each type of member. An absent
+// key leaves the value unchanged.
 void ReadNumber(Fields& fields, const std::string& key, Range range, double& value);
 void ReadNumber(Fields& fields, const std::string& key, Range range, int& value);
 void ReadNumber(Fields& fields, const std::string& key, Range range, std::optional<double>& value);
@@ -45,20 +46,20 @@ inline std::string DegreesText(double radians) { return NumberText(Degrees(radia
 inline std::string DegreesText(const std::optional<double>&) { return "(none)"; }
 
 void ReadNumbers(Fields& fields, const std::string& key, Count count, Range range, std::vector<double>& values);
-/// Reads a list of names; complains of unknown ones.
+/// Reads a list of names. An unknown name is an error in `fields`.
 std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const std::vector<std::string>& known);
 
-/// Returns the items of a list; empty if there is no list.
+/// Returns the items of a list; empty if the key is absent.
 std::span<const Node> ReadItems(Fields& fields, const std::string& key);
 
-/// One key of a mapping that is read into `Options`: declared once, for the reader, the reference page and the schema.
-/// A `member` is a pointer to member, or a Path to a nested one; its value in `Options{}` is the default.
+/// One key of a mapping that is read into `Options`. It is declared once for the reader, the reference page and the
+/// schema. A `member` is a pointer to member, or a Path to a nested member; its value in `Options{}` is the default.
 template <typename Options>
 struct Field {
   KeyInfo info;
   std::function<void(Fields&, Options&)> read;
 
-  /// A number: a double, an int (which accepts integers only), or an optional of these.
+  /// A number: a double, an int (integers only), or a std::optional of one of these.
   template <typename Member>
   static Field Number(const std::string& key, Member member, Range range, std::string meaning) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;
@@ -78,7 +79,7 @@ struct Field {
             }};
   }
 
-  /// A list of `count` numbers; `allowed` describes them to users.
+  /// A list of `count` numbers. `allowed` describes the values to users.
   template <typename Member>
   static Field Numbers(const std::string& key, Member member, Count count, std::string allowed, Range range,
                        std::string meaning) {
@@ -100,7 +101,7 @@ struct Field {
             }};
   }
 
-  /// Any text; `allowed` describes it to users.
+  /// A text without restrictions. `allowed` describes it to users.
   template <typename Member>
   static Field Text(const std::string& key, Member member, std::string allowed, std::string meaning) {
     return {{key, TextKind(std::move(allowed)), Default(member), std::move(meaning)},
@@ -116,7 +117,7 @@ struct Field {
             [=](Fields& fields, Options& options) { std::invoke(member, options) = fields.Texts(key); }};
   }
 
-  /// One of several named values.
+  /// A value chosen by its name from a list.
   template <typename Member, typename Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>>
   static Field Name(const std::string& key, Member member, const NamedValues<Value>& values, std::string meaning) {
     std::vector<std::string> names;
@@ -133,7 +134,7 @@ struct Field {
             }};
   }
 
-  /// One of several named values; `find` returns the value of a name, or a pointer to it.
+  /// A value chosen by its name. `find` returns the value of a name, or a pointer to it.
   template <typename Member, typename Find>
   static Field Name(const std::string& key, Member member, const std::vector<std::string>& names, Find find,
                     std::string meaning) {
@@ -149,7 +150,7 @@ struct Field {
     return Name(key, member, values, std::move(meaning));
   }
 
-  /// A list of names, each of which sets a bool.
+  /// A list of names. Each name sets one bool of `Options`.
   static Field Flags(const std::string& key, const NamedValues<std::function<bool&(Options&)>>& flags,
                      std::string meaning) {
     std::vector<std::string> names;
@@ -165,19 +166,20 @@ struct Field {
             }};
   }
 
-  /// Adds the unit, for keys whose name does not give it in full.
+  /// Adds the unit. It is needed only if the key's name does not state the whole unit.
   Field Unit(const std::string& unit) const {
     Field field = *this;
     field.info.value.allowed += " (" + unit + ")";
     return field;
   }
-  /// Adds a remark on the allowed values.
+  /// Adds a remark to the description of the allowed values.
   Field And(const std::string& words) const {
     Field field = *this;
     field.info.value.allowed += "; " + words;
     return field;
   }
-  /// Sets the text for an absent key if its default is not a value: "(the scenario's)".
+  /// Sets the text that the reference page shows for an absent key, if the default is not a value, e.g. "(the
+  /// scenario's)".
   Field WhenAbsent(const std::string& words) const {
     Field field = *this;
     field.info.fallback = words;
@@ -198,14 +200,15 @@ struct Field {
   }
 };
 
-/// All keys of a mapping, in the order in which they are read and documented. A key may occur several times if no two
-/// of its conditions can hold at once: two solvers may have settings of the same name.
+/// All keys of a mapping, in the order in which they are read and documented. A key may occur several times, because
+/// two solvers may have settings of the same name, but at most one of its conditions may hold at once.
 template <typename Options>
 struct FieldTable {
   std::vector<Field<Options>> fields;
-  std::function<void(Fields&, Options&)> check = {};  ///< complains of values that do not fit together
+  std::function<void(Fields&, Options&)> check = {};  ///< adds an error for values that do not fit together
 
-  /// Reads the keys. Complaints stay in `mapping`; absent keys leave `options` unchanged. The caller runs `check`.
+  /// Reads the keys. Errors are collected in `mapping`; absent keys leave `options` unchanged. The caller must run
+  /// `check` afterwards.
   void ReadKeys(Fields& mapping, Options& options) const {
     const std::vector<KeyInfo> keys = Infos();
     for (const Field<Options>& field : fields) {
@@ -215,7 +218,7 @@ struct FieldTable {
     RefuseMisplacedKeys(mapping, keys);
   }
 
-  /// Reads the keys, then checks the values together.
+  /// Reads the keys, then runs `check` on the values together.
   void Read(Fields& mapping, Options& options) const {
     ReadKeys(mapping, options);
     if (check && mapping.ok()) check(mapping, options);
@@ -231,7 +234,8 @@ struct FieldTable {
   }
 };
 
-/// Reads a mapping with these keys and no others, on top of `options`. Complaints call it `what`.
+/// Reads a mapping that has only these keys, into `options`; absent keys leave their values unchanged. `what` is the
+/// mapping's name in error messages.
 template <typename Options>
 Result<Options> ReadMapping(const Node& node, const std::string& what, const FieldTable<Options>& table,
                             Options options = {}) {
@@ -243,7 +247,7 @@ Result<Options> ReadMapping(const Node& node, const std::string& what, const Fie
   return options;
 }
 
-/// Reads the mapping of `key`, if there is one, on top of `value`; complaints stay in `fields`.
+/// Reads the mapping at `key`, if the key is present, into `value`. Errors are collected in `fields`.
 template <typename Value>
 void ReadNested(Fields& fields, const std::string& key, const FieldTable<Value>& table, Value& value) {
   const Node* node = fields.Raw(key);
@@ -256,7 +260,8 @@ void ReadNested(Fields& fields, const std::string& key, const FieldTable<Value>&
   }
 }
 
-/// Reads the list of mappings of `key`, if there is one; complaints call each item `what` and stay in `fields`.
+/// Reads the list of mappings at `key`, if the key is present. `what` is the name of an item in error messages. Errors
+/// are collected in `fields`.
 template <typename Value>
 std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std::string& what,
                               const FieldTable<Value>& table) {
@@ -274,8 +279,9 @@ std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std:
 
 enum class Keep { kThese, kOthers };
 
-/// Returns the fields of another table, either those that `keys` name or all others, for reading into a part of
-/// `Options`. A key that two tasks have is thus declared once. `part` is a member, or a Path to one.
+/// Returns fields of another task's table for reading into a part of `Options`: the fields that `keys` name (kThese),
+/// or all others (kOthers). A key that two tasks share is thus declared once. `part` is the member of `Options`, or a
+/// Path to it.
 template <typename Options, typename Part, typename Member>
 std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Member part, Keep keep,
                                      const std::vector<std::string>& keys) {
@@ -295,8 +301,8 @@ void Append(std::vector<Field<Options>> more, std::vector<Field<Options>>& field
   std::ranges::move(more, std::back_inserter(fields));
 }
 
-/// One setting of one method of a registry, as a field that depends on the key `chooser`. `set` receives the options
-/// and the value in the file.
+/// Returns the field of one setting of one method in a registry. The field is allowed only if the key `chooser` names
+/// that method. `set` receives the options and the value from the file.
 template <typename Options, typename Set>
 Field<Options> SettingField(const std::string& chooser, const std::string& method, const NumberSetting& setting,
                             Set set) {
@@ -313,10 +319,10 @@ Field<Options> SettingField(const std::string& chooser, const std::string& metho
           }};
 }
 
-/// Returns the settings of a registry's methods (solvers, choices, joins) as fields that depend on the key `chooser`.
-/// An entry of the registry has a `name` and `settings`. Values are read into the vector of doubles `member`: if the
-/// file has at least one setting, the vector holds all settings of the chosen method, in its order. Two methods may
-/// have settings of the same name.
+/// Returns the settings of all methods in a registry (solvers, choices, joins) as fields. Each field is allowed only if
+/// the key `chooser` names its method. An entry of the registry has a `name` and `settings`. `member` is the vector of
+/// doubles that receives the values. If the file has at least one setting, the vector holds all settings of the chosen
+/// method, in the method's order. Two methods may have settings of the same name.
 template <typename Options, typename Registry, typename Member>
 std::vector<Field<Options>> SettingFields(const std::string& chooser, const Registry& registry, Member member) {
   std::vector<Field<Options>> fields;

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// Returns the value of `key` in `mapping`, or its default.
+/// Returns the value of `key` in `mapping`; its default if the mapping does not have it.
 std::string ValueOf(const std::string& key, std::span<const KeyInfo> keys, const Node& mapping) {
   const Node* value = mapping.Find(key);
   if (value != nullptr) return value->scalar;
@@ -21,7 +21,7 @@ std::string ValueOf(const std::string& key, std::span<const KeyInfo> keys, const
   return chooser == keys.end() ? "" : chooser->fallback;
 }
 
-/// Returns the key on which this one depends, if that key is itself not allowed.
+/// Returns the key on which `key` depends if that key is itself not allowed; else null.
 const KeyInfo* MisplacedChooser(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping) {
   const auto chooser = std::ranges::find(keys, key.only_with.key, &KeyInfo::key);
   return chooser == keys.end() || MayStand(*chooser, keys, mapping) ? nullptr : &*chooser;

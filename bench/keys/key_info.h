@@ -12,40 +12,40 @@ namespace etude {
 
 struct KeyInfo;
 
-/// The allowed values of a key, for people and as JSON Schema.
+/// The kind of a key's value: the allowed values in words, and as JSON Schema.
 struct ValueKind {
   std::string allowed;  ///< "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
   std::string schema;   ///< JSON
-  /// Tells whether a non-empty value is the name of a file; if so, the key's reader receives the text of that file.
+  /// Returns true if a non-empty value is the name of a file; the key's reader then receives the text of that file.
   /// Null: no value is a file name.
   bool (*names_file)(std::string_view value) = nullptr;
 };
 ValueKind NumberKind(Range range, bool is_whole = false);
 ValueKind FlagKind();
-/// Returns the kind of a text that matches the regular expression `pattern`; empty = any text.
+/// Returns the kind of a text that matches the regular expression `pattern`; "" = any text.
 ValueKind TextKind(std::string allowed, const std::string& pattern = "");
-/// Returns the kind of a text that names a file. `names_file` distinguishes files from built-in names; null: there are
-/// no built-in names.
+/// Returns the kind of a text that names a file. `names_file` returns false for built-in names; null = there are no
+/// built-in names.
 ValueKind FileKind(std::string allowed, bool (*names_file)(std::string_view value) = nullptr);
-/// Returns the kind of a value that is one of these texts.
+/// Returns the kind of a text that must be one of `names`.
 ValueKind NameKind(std::span<const std::string> names);
 /// The number of values that a list may have.
 struct Count {
   std::size_t fewest = 0;
   std::size_t most = 0;
 };
-/// Returns the kind of a list of such values: `count` of them, or any number.
+/// Returns the kind of a list of `item` values with `count` entries; without `count`, any number of entries.
 ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<Count> count = {});
-/// Returns the kind of a mapping with these keys.
+/// Returns the kind of a mapping that has these keys.
 ValueKind MappingKind(std::string allowed, std::span<const KeyInfo> keys);
 
-/// Allows a key only if another key of its mapping has one of these values.
+/// The condition under which a key is allowed: another key of its mapping has one of these values.
 struct KeyCondition {
   std::string key;                  ///< "solver"; empty: no condition
   std::vector<std::string> values;  ///< any of these
 };
 
-/// A key of a scenario file, with everything that its reference page, its complaints and its schema need.
+/// A key of a scenario file, with everything that its reference page, error messages and schema need.
 struct KeyInfo {
   std::string key;
   ValueKind value;
@@ -54,24 +54,24 @@ struct KeyInfo {
   std::string meaning;   ///< one sentence
   KeyCondition only_with = {};
 
-  /// Returns the allowed values and the condition: "0…1; with `weights: adaptive`".
+  /// Returns the allowed values and the condition, e.g. "0…1; with `weights: adaptive`".
   std::string AllowedWhere() const;
   bool IsRequired() const { return fallback.empty(); }
   bool HasDefaultValue() const { return !fallback.empty() && fallback.front() != '('; }
 };
 
-/// Returns a number as pages and defaults show it: 1000000, 0.33, 1e-06.
+/// Returns a number as reference pages show it: 1000000, 0.33, 1e-06.
 std::string NumberText(double number);
 
-/// Merges keys that differ in their conditions only.
+/// Merges keys that differ only in their conditions.
 std::vector<KeyInfo> MergeAlike(std::vector<KeyInfo> keys);
 
-/// Returns true if the values of `mapping` allow `key` in it. `keys` are all keys that the mapping may have; absent
-/// ones have their defaults. A key is not allowed if the key on which it depends is not.
+/// Returns true if the values of `mapping` allow `key` in it. `keys` are all keys that the mapping may have; an absent
+/// key counts with its default. If the key on which `key` depends is not allowed, `key` is not allowed either.
 bool MayStand(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping);
 
-/// Complains of keys of `mapping` that do not fit its other values (KeyInfo::only_with), because they would have no
-/// effect. Marks all `keys` as known.
+/// Adds an error for every key of `mapping` whose condition (KeyInfo::only_with) does not hold, because the key would
+/// have no effect. Marks all `keys` as known.
 void RefuseMisplacedKeys(Fields& mapping, std::span<const KeyInfo> keys);
 
 }  // namespace etude

@@ -25,13 +25,14 @@ std::vector<KeyInfo> Variants(const std::string& name, std::span<const KeyInfo> 
   return variants;
 }
 
-/// Returns one schema, or a choice of several.
+/// Returns a schema that accepts a value if one of `schemas` accepts it.
 Json AnyOf(std::vector<Json> schemas) {
   if (schemas.size() == 1) return std::move(schemas.front());
   return {{"anyOf", std::move(schemas)}};
 }
 
-/// Returns the schema of a mapping that holds a key with a condition.
+/// Returns the schema of a mapping that contains `key` and fulfils the key's condition. For `says_all`, see
+/// ConditionSchemas.
 Json ConditionSchema(const KeyInfo& key, std::span<const KeyInfo> keys, bool says_all) {
   const KeyCondition& condition = key.only_with;
   Json schema{
@@ -42,7 +43,7 @@ Json ConditionSchema(const KeyInfo& key, std::span<const KeyInfo> keys, bool say
   return schema;
 }
 
-/// Returns true if a value contains the description of a key below its own level.
+/// Returns true if an item of `value`, at any depth, has a description. Such an item describes a key.
 bool HoldsKeys(const Json& value) {
   return std::ranges::any_of(value, [](const Json& item) {
     return (item.is_object() && item.contains("description")) || (item.is_structured() && HoldsKeys(item));

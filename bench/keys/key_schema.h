@@ -8,22 +8,24 @@
 
 namespace etude {
 
-/// Returns a value of a document as JSON. A document keeps values as text, so a text that reads as a number, true or
-/// false becomes one, even if it had quotes.
+/// Returns a value of a document as JSON. A document stores all values as text. A text that reads as a number, true or
+/// false becomes a number or boolean, even if it was quoted.
 Json ToJson(const Node& node);
 
-/// Returns the JSON Schema (draft 7, the best supported by editors) of a key's value, with description and default.
+/// Returns the JSON Schema of a key's value, with description and default. It is draft 7, the version that most editors
+/// support.
 Json KeySchema(const KeyInfo& key);
 
-/// Returns the JSON Schema of a mapping with these keys and no others. A key may be listed several times with different
-/// conditions.
+/// Returns the JSON Schema of a mapping that may have these keys and no others. A key may be listed several times with
+/// different conditions.
 Json MappingSchema(std::span<const KeyInfo> keys);
 
-/// Writes a schema as text, one line for each key; objects with described keys, and long lines, take several lines.
+/// Writes a schema as text with one line per key. Objects with described keys and long lines are split over several
+/// lines.
 std::string SchemaText(const Json& schema, const std::string& indent = {});
 
-/// Returns the conditions between keys and other keys' values, as `dependencies`. `says_all`: true = an absent key has
-/// its default; false = it may stand in another part of the file.
+/// Returns the schema rules that tie a key to other keys' values, as `dependencies`. If `says_all` is true, an absent
+/// key has its default; if it is false, the key may be in another part of the file.
 Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);
 
 }  // namespace etude

@@ -14,9 +14,9 @@ constexpr double kMinFitted = 3;  // fewer points do not determine a rotation
 
 bool BothSeen(const glm::dvec3& a, const glm::dvec3& b) { return !std::isnan(a.x) && !std::isnan(b.x); }
 
-/// Returns the similarity of AlignSimilarity without a singular value decomposition, where that is safe; else nothing.
-/// The rotation is the eigenvector of the largest eigenvalue of Horn's 4 × 4 matrix (Horn 1987), which Newton's method
-/// finds as a root of the characteristic polynomial (Theobald 2005).
+/// Returns the similarity of AlignSimilarity without a singular value decomposition, or nothing if rounding could spoil
+/// it. The rotation is the eigenvector of the largest eigenvalue of Horn's 4 × 4 matrix (Horn 1987). Newton's method
+/// finds that eigenvalue as a root of the characteristic polynomial (Theobald 2005).
 std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   const glm::dmat3& s = moments.covariance;  // s[a][b] = Σ point_a target_b
   const glm::dvec3 skew(s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]);
@@ -26,7 +26,7 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
                        {skew.x, 2 * s[0][0] - trace, xy, zx},
                        {skew.y, xy, 2 * s[1][1] - trace, yz},
                        {skew.z, zx, yz, 2 * s[2][2] - trace}};
-  // The minors of the two lower rows, and the first row's cofactors.
+  // Compute the minors of the two lower rows, and the cofactors of the first row.
   const auto minor = [&](int i, int j) { return rows[2][i] * rows[3][j] - rows[2][j] * rows[3][i]; };
   const auto cofactors = [&] {
     const double m01 = minor(0, 1), m02 = minor(0, 2), m03 = minor(0, 3);
@@ -35,7 +35,8 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
     return glm::dvec4(r[1] * m23 - r[2] * m13 + r[3] * m12, r[2] * m03 - r[0] * m23 - r[3] * m02,
                       r[0] * m13 - r[1] * m03 + r[3] * m01, r[1] * m02 - r[0] * m12 - r[2] * m01);
   };
-  // λ⁴ + c₂λ² + c₁λ + c₀; the start is above every root, so the steps only descend.
+  // The characteristic polynomial is λ⁴ + c₂λ² + c₁λ + c₀. The start value is above every root, so Newton's steps only
+  // descend.
   const double square = glm::dot(s[0], s[0]) + glm::dot(s[1], s[1]) + glm::dot(s[2], s[2]);
   const double c2 = -2 * square, c1 = -8 * glm::determinant(s);
   const double c0 = glm::dot(glm::dvec4(rows[0][0], rows[0][1], rows[0][2], rows[0][3]), cofactors());
@@ -50,7 +51,7 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   }
   for (int i = 0; i < 4; ++i) rows[i][i] -= lambda;
   const glm::dvec4 vector = cofactors();
-  // Small cofactors: another rotation fits nearly as well, or this one turns by nearly 180°.
+  // If the cofactors are small, another rotation fits nearly as well, or this one turns by nearly 180°.
   constexpr double kSafe = 0.01;
   const double length = glm::length(vector);
   if (!(length > kSafe * lambda * lambda * lambda)) return std::nullopt;
@@ -61,7 +62,7 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   return similarity;
 }
 
-/// Returns the fit, which has a scale, or without scale the rigid transformation with the same rotation.
+/// Returns `fit`, or without scale the rigid transformation with the same rotation. `fit` has a scale.
 std::optional<Similarity> WithScale(const std::optional<Similarity>& fit, const PointMoments& moments,
                                     bool with_scale) {
   if (!fit || with_scale) return fit;
@@ -91,7 +92,7 @@ PairFits::PairFits(const EvaluatedPair& pair) : pair_(pair) {
 FrameFits PairFits::Of(Alignment alignment) const {
   using enum Alignment;
   const std::size_t frames = moments_.size();
-  // One fit for all frames, or by roots.
+  // Alignments with one fit for all frames, and alignments by the root.
   const auto for_all = [&](std::optional<Similarity> fit) {
     return FrameFits{{std::move(fit)}, std::max<std::size_t>(frames, 1)};
   };
@@ -117,7 +118,7 @@ FrameFits PairFits::Of(Alignment alignment) const {
     case kFrameScaled:
       break;
   }
-  // One fit for each frame, with or without its scale.
+  // Each frame has a fit of its own. For kFrame, replace it by the rigid fit.
   FrameFits found{each_frame_};
   if (alignment == kFrameScaled) return found;
   for (std::size_t f = 0; f < frames; ++f) found.fits[f] = WithScale(found.fits[f], moments_[f], false);
@@ -130,7 +131,7 @@ FrameFits PairFits::ByRoot(bool with_scale) const {
   for (std::size_t f = 0; f < moments_.size(); ++f) {
     const glm::dvec3 &root = pair_.found_root[f], &onto = pair_.true_root[f];
     if (!BothSeen(root, onto)) continue;
-    // The scale with the least squared error about the roots.
+    // Compute the scale that minimises the squared error of the joints relative to the root.
     double product = 0, square = 0;
     const auto answer = pair_.found.Frame(f), truth = pair_.truth.Frame(f);
     for (std::size_t j = 0; with_scale && j < answer.size(); ++j) {
@@ -158,7 +159,7 @@ FrameFits PairFits::OfSegments(std::size_t length, std::size_t fitted) const {
 
 namespace {
 
-/// Writes the errors of one frame.
+/// Writes the error of each joint in one frame, millimetres, into `errors`.
 void WriteErrorsMm(const EvaluatedPair& pair, std::size_t frame, const std::optional<Similarity>& fit, double* errors) {
   constexpr double kToMillimetres = 1000;
   const auto found = pair.found.Frame(frame), truth = pair.truth.Frame(frame);
@@ -168,7 +169,7 @@ void WriteErrorsMm(const EvaluatedPair& pair, std::size_t frame, const std::opti
   }
   const glm::dmat3 turn = fit->scale * fit->rotation;
   const glm::dvec3 move = fit->translation;
-  // NaN propagates: a joint that the answer or the truth does not show gets the error NaN.
+  // NaN propagates: the error is NaN for a joint that is not seen in the answer or in the truth.
   for (std::size_t j = 0; j < found.size(); ++j) {
     errors[j] = kToMillimetres * glm::length(turn * found[j] + move - truth[j]);
   }

@@ -6,16 +6,18 @@
 
 namespace etude {
 
-/// The positions that two annotators marked for the same joint or limb in the same picture, pixels; empty if one did
-/// not mark it.
+/// The positions that two annotators marked for one joint or limb in one picture, pixels. A position is empty if the
+/// annotator did not mark the joint or limb.
 struct MarkedTwice {
   std::optional<glm::dvec2> first, second;
 };
 
-/// Returns `annotator_distance_px`: the mean distance of what both marked; nothing if both marked nothing in common.
+/// Returns `annotator_distance_px`: the mean distance between the two marks, over the joints that both annotators
+/// marked. Returns nothing if there is no such joint.
 std::optional<double> AnnotatorDistancePx(std::span<const MarkedTwice> joints);
 
-/// Returns `annotator_overlap`: the share, of what at least one marked, that both marked; nothing if none was marked.
+/// Returns `annotator_overlap`: of the limbs that at least one annotator marked, the share that both marked. Returns
+/// nothing if no limb was marked.
 std::optional<double> AnnotatorOverlap(std::span<const MarkedTwice> limbs);
 
 }  // namespace etude

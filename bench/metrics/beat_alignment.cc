@@ -6,7 +6,8 @@
 namespace etude {
 namespace {
 
-/// Returns, for each step between frames, the sum of the joints' distances; nothing if a joint is not seen throughout.
+/// Returns, for each step between frames, the sum over all joints of the distance moved; nothing if a joint is not seen
+/// in some frame.
 std::optional<std::vector<double>> StepLengths(const PointTracks& tracks) {
   std::vector<double> lengths;
   for (std::size_t f = 0; f + 1 < tracks.FrameCount(); ++f) {
@@ -20,7 +21,8 @@ std::optional<std::vector<double>> StepLengths(const PointTracks& tracks) {
   return lengths;
 }
 
-/// Returns a curve smoothed by a Gaussian that is cut off at four deviations; beyond its ends it is mirrored.
+/// Returns a curve smoothed by a Gaussian that is cut off at four standard deviations. The curve is mirrored beyond its
+/// ends.
 std::vector<double> Smoothed(const std::vector<double>& curve, double deviation) {
   const auto reach = static_cast<std::ptrdiff_t>(4 * deviation + 0.5), size = static_cast<std::ptrdiff_t>(curve.size());
   std::vector<double> weights;
@@ -30,7 +32,7 @@ std::vector<double> Smoothed(const std::vector<double>& curve, double deviation)
     weights.push_back(std::exp(-at * at / 2));
     sum += weights.back();
   }
-  // Mirrored with the last value twice: … b a | a b … y z | z y …
+  // The mirror repeats the end value: … b a | a b … y z | z y …
   const auto mirrored = [&](std::ptrdiff_t at) {
     const std::ptrdiff_t within = ((at % (2 * size)) + 2 * size) % (2 * size);
     return curve[static_cast<std::size_t>(within < size ? within : 2 * size - 1 - within)];
@@ -45,8 +47,8 @@ std::vector<double> Smoothed(const std::vector<double>& curve, double deviation)
   return smoothed;
 }
 
-/// Returns the indices of the values that are strictly lower than all others within `order` on either side. Beyond its
-/// ends the curve is continued with the value at the end, so an end is never a minimum.
+/// Returns the indices of the strict local minima: values lower than all others within `order` on either side. Beyond
+/// its ends the curve continues with its end value, so an end is never a minimum.
 std::vector<std::ptrdiff_t> Minima(const std::vector<double>& curve, std::ptrdiff_t order) {
   const auto last = static_cast<std::ptrdiff_t>(curve.size()) - 1;
   std::vector<std::ptrdiff_t> minima;
@@ -62,7 +64,7 @@ std::vector<std::ptrdiff_t> Minima(const std::vector<double>& curve, std::ptrdif
   return minima;
 }
 
-/// Returns the beats within the motion, as whole frames.
+/// Returns the frames of the beats, rounded to whole frames. Beats outside the motion are left out.
 std::vector<std::ptrdiff_t> FramesOf(std::span<const double> beats_s, double rate_hz, std::size_t frames) {
   std::vector<std::ptrdiff_t> found;
   for (const double beat : beats_s) {
@@ -72,8 +74,8 @@ std::vector<std::ptrdiff_t> FramesOf(std::span<const double> beats_s, double rat
   return found;
 }
 
-/// Returns the mean over `ours` of exp(−d² / 2σ²), where d is the distance to the nearest of `others`, in frames;
-/// nothing if either is empty.
+/// Returns the mean over `ours` of exp(−d² / 2σ²), where d is the distance in frames to the nearest element of
+/// `others`. Returns nothing if either list is empty.
 std::optional<double> MeanNearness(std::span<const std::ptrdiff_t> ours, std::span<const std::ptrdiff_t> others) {
   if (ours.empty() || others.empty()) return std::nullopt;
   constexpr double kSigma = 3;  // frames
@@ -100,7 +102,7 @@ std::optional<double> BeatAlignmentOfMotion(const PointTracks& found, double rat
   constexpr std::ptrdiff_t kOrder = 10;  // frames
   const auto lengths = StepLengths(found);
   if (!lengths || lengths->empty()) return std::nullopt;
-  // The speed of a frame is that of the step before it; the first frame has none.
+  // The speed at a frame is taken over the step before it; the first frame has speed 0.
   std::vector<double> speeds = {0};
   speeds.insert(speeds.end(), lengths->begin(), lengths->end());
   return MeanNearness(Minima(speeds, kOrder), FramesOf(beats_s, rate_hz, speeds.size()));

@@ -8,15 +8,16 @@
 
 namespace etude {
 
-/// Returns the mean over *music* beats of exp(−d² / 18), d: frames from a music beat to the nearest motion beat, as
-/// Bailando's code computes it. Motion beats are the strict minima of the joints' mean speed,
-/// smoothed by a Gaussian of 5 frames. Both are whole frames. Nothing without a music beat or a motion beat within the
-/// motion, or if a joint is not seen throughout.
+/// Returns the mean over *music* beats of exp(−d² / 18), as Bailando's code computes it. d is the distance in frames
+/// from a music beat to the nearest motion beat. Motion beats are the strict minima of the joints' summed speed,
+/// smoothed by a Gaussian of 5 frames. All beats are whole frames. Returns nothing if the motion contains no music beat
+/// or no motion beat, or if a joint is not seen in some frame.
 std::optional<double> BeatAlignmentOfMusic(const PointTracks& found, double rate_hz, std::span<const double> beats_s);
 
-/// Returns the mean over *motion* beats of exp(−d² / 18), d: frames to the nearest music beat, as mint's code (AIST++)
-/// computes it. Motion beats are frames in which the joints' summed speed is below that of the ten frames on either
-/// side, as far as the motion goes. Nothing as for BeatAlignmentOfMusic.
+/// Returns the mean over *motion* beats of exp(−d² / 18), as mint's code (AIST++) computes it. d is the distance in
+/// frames from a motion beat to the nearest music beat. Motion beats are the frames in which the joints' summed speed
+/// is lower than in each of the ten frames on either side; fewer frames near an end. Returns nothing under the
+/// conditions of BeatAlignmentOfMusic.
 std::optional<double> BeatAlignmentOfMotion(const PointTracks& found, double rate_hz, std::span<const double> beats_s);
 
 }  // namespace etude

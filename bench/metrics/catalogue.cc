@@ -24,8 +24,8 @@ const MetricInfo* FindInCatalogue(std::string_view id) {
   return found != by_id.end() && (*found)->id == id ? *found : nullptr;
 }
 
-/// Names the first difference of two definitions that affects how their values are judged or drawn; "" if there is
-/// none.
+/// Returns the name of the first field that differs between two definitions and affects how values are judged or drawn;
+/// "" if no such field differs.
 std::string FindDifference(const MetricInfo& a, const MetricInfo& b) {
   if (a.version != b.version) return fmt::format("version {} and {}", a.version, b.version);
   if (a.direction != b.direction) return "direction";

@@ -12,14 +12,15 @@
 namespace etude {
 
 enum class Direction { kLowerIsBetter, kHigherIsBetter, kNeither };
-/// Returns "lower is better", "higher is better", or "" for neither.
+/// Returns "lower is better" or "higher is better"; "" if the metric has no direction.
 std::string_view DirectionWords(Direction direction);
 
-/// How a run aggregates the cells' values: shares and other 0/1 values by their mean, all others by the median.
+/// The way in which a run aggregates the cells' values: by the mean for shares and other values between 0 and 1, by the
+/// median for all others.
 enum class Aggregate { kMedian, kMean };
 
-/// The kind of a cell's value, which decides how it is displayed: shares and scores in per cent, and their differences
-/// in percentage points.
+/// The kind of a cell's value. It decides how the value is displayed: shares and scores are shown in per cent, and
+/// their differences in percentage points.
 enum class Reading {
   kAmount,  ///< an amount in the metric's unit, or a count
   kYesNo,   ///< 1 or 0; a run has the share of cells with 1
@@ -27,15 +28,15 @@ enum class Reading {
   kScore,   ///< 0…1, a quantity with a name of its own: F1, recall
 };
 
-/// A key of the input of a metric's test vectors.
+/// A key of the JSON input of a metric's test vectors.
 struct MetricInput {
   std::string key;
   std::string meaning;  ///< shape and unit
 };
 
-/// A metric's known value for one input, with which any implementation must agree.
+/// A test vector: an input and the metric's known value for it. Every implementation must agree with it.
 struct MetricVector {
-  std::string_view title;          ///< what it tests: "one joint of twenty jumps"
+  std::string_view title;          ///< the case that it tests: "one joint of twenty jumps"
   std::string_view input_json;     ///< one JSON object, with the keys of MetricInfo::inputs
   std::optional<double> expected;  ///< nullopt: the metric has no value here
   std::string_view null_reason;    ///< why it has no value; "" if it has one
@@ -43,7 +44,7 @@ struct MetricVector {
   std::string_view source;         ///< "derived: …" or "published: …"
 };
 
-/// The definition of a metric: the entry that tables, comparisons and other implementations use.
+/// The definition of a metric. Tables, comparisons and other implementations use this entry.
 struct MetricInfo {
   std::string id;     ///< unit in the name, e.g. "position_error_cm"
   int version = 1;    ///< raised if the definition changes; values of two versions are never mixed
@@ -60,23 +61,23 @@ struct MetricInfo {
 
   std::string practical_reason;     ///< why a smaller difference than `practical` does not matter
   std::string formula;              ///< the exact definition: frames, denominators, edge cases
-  std::string null_rule;            ///< when it has no value although the method answered
-  std::string source;               ///< where the definition comes from
+  std::string null_rule;            ///< the cases in which it has no value although the method answered
+  std::string source;               ///< the origin of the definition
   std::vector<MetricInput> inputs;  ///< the inputs of its test vectors
   std::span<const MetricVector> vectors = {};
   std::string domain = {};  ///< its heading on the page: "Inverse kinematics", …
 };
 
-/// Returns the metrics of all files of bench/metrics/catalogue, in the order of tables and of
-/// docs/reference/metrics.md.
+/// Returns the metrics of all files in bench/metrics/catalogue, in the order in which tables and
+/// docs/reference/metrics.md list them.
 std::span<const MetricInfo> AllMetrics();
-/// Adds a metric that a scenario defines, so that FindMetric finds it. Every reader of a scenario or of its run does
-/// this first. Fails if the id is in the catalogue, or was added with another definition: values of two definitions are
-/// never mixed.
+/// Adds a metric that a scenario defines, so that FindMetric finds it. Every reader of a scenario or of its run must
+/// call this before it uses the metric. Fails if the catalogue has this id, or if the id was added with another
+/// definition: values of two definitions must not be mixed.
 Result<void> AddMetric(MetricInfo metric);
-/// Returns the metrics that were added, by id.
+/// Returns the metrics that AddMetric added, by id.
 const std::map<std::string, MetricInfo, std::less<>>& AddedMetrics();
-/// Returns a metric of the catalogue or an added one; null if there is no such metric.
+/// Returns a metric of the catalogue or an added metric; null if the id is unknown.
 const MetricInfo* FindMetric(std::string_view id);
 
 }  // namespace etude

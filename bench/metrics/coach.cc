@@ -13,7 +13,7 @@ namespace {
 
 using enum PerformanceTruth;
 
-/// Returns the last performance whose window had closed when the correction was decided; null if there was none.
+/// Returns the last performance whose window had closed when the correction was decided; null if no window had closed.
 const CoachedPerformance* CauseOf(const GivenCorrection& correction, const CoachedSession& session) {
   const CoachedPerformance* cause = nullptr;
   for (const CoachedPerformance& performance : session.performances) {
@@ -23,7 +23,7 @@ const CoachedPerformance* CauseOf(const GivenCorrection& correction, const Coach
 }
 
 /// Returns true if a correction was decided between the end of the window of performance `i` and the end of the next
-/// one's.
+/// performance's window, or the end of the session if there is no next performance.
 bool IsAnswered(const CoachedSession& session, std::size_t i) {
   const bool is_last = i + 1 == session.performances.size();
   const int first = session.performances[i].end_frame;
@@ -33,7 +33,8 @@ bool IsAnswered(const CoachedSession& session, std::size_t i) {
   });
 }
 
-/// Returns the times from the decision to correct until the act begins (censored if the session ends first).
+/// Returns the time from each decision to correct until the correcting act begins. The time is censored if the session
+/// ends first.
 std::vector<Wait> FeedbackWaits(const CoachedSession& session) {
   std::vector<Wait> waits;
   for (const GivenCorrection& correction : session.corrections) {

@@ -6,14 +6,14 @@
 
 namespace etude {
 
-/// The truth about a performance.
+/// The truth about a performance. Grey means neither right nor wrong.
 enum class PerformanceTruth { kRight, kGrey, kWrong };
 
-/// One performance that the coach asked for and judged in its window. A performance whose window was cut off is not
-/// counted.
+/// One performance that the coach asked for and judged at the end of its window. A performance is left out if the
+/// session ended before its window.
 struct CoachedPerformance {
-  int begin_frame = 0;  ///< of its window
-  int end_frame = 0;    ///< the first after it
+  int begin_frame = 0;  ///< first frame of its window
+  int end_frame = 0;    ///< the frame after its window
   PerformanceTruth truth = PerformanceTruth::kRight;
   std::optional<int> called_wrong;  ///< the frame in which the coach called it wrong
   bool called_right = false;
@@ -26,10 +26,10 @@ struct GivenCorrection {
                                  ///< ended before
 };
 
-/// A coached session (docs/reference/metrics.md, Coach). Performances and corrections in order of time.
+/// A coached session (docs/reference/metrics.md, Coach). Performances and corrections are in order of time.
 struct CoachedSession {
-  double rate_hz = 30;  ///< > 0
-  int frames = 0;       ///< > 0
+  double rate_hz = 30;  ///< frames per second, > 0
+  int frames = 0;       ///< length of the session, > 0
   std::vector<CoachedPerformance> performances;
   std::vector<GivenCorrection> corrections;
 
@@ -39,41 +39,45 @@ struct CoachedSession {
 /// Counts of the corrections that were due, given and missed.
 struct CorrectionTally {
   int due = 0;           ///< performances that were wrong
-  int given = 0;         ///< corrections
+  int given = 0;         ///< number of corrections that the coach gave
   int missed = 0;        ///< due corrections that were not given before the window of the next performance closed
   int unneeded = 0;      ///< corrections given after a right performance, or before any performance
   int wrong_praise = 0;  ///< wrong performances that were called right
 };
 CorrectionTally TallyCorrections(const CoachedSession& session);
 
-/// Returns the share of mistakes that were answered by a correction within one repetition. Empty without mistakes.
+/// Returns the share of wrong performances to which the coach reacted with a correction within one repetition. Empty if
+/// no performance was wrong.
 std::optional<double> AnsweredShare(const CorrectionTally& tally);
 
-/// Returns `decision_delay_s`: the time from a wrong performance's first frame until it is called wrong; a performance
-/// never called wrong is censored when its window closes. Kaplan–Meier median; empty if it is never reached.
+/// Returns `decision_delay_s`: the time from the first frame of a wrong performance until the coach judges it wrong.
+/// The time is censored at the end of the window if the coach never does. Kaplan–Meier median; empty if the survival
+/// curve never falls to one half.
 std::optional<double> DecisionDelaySeconds(const CoachedSession& session);
-/// Returns `feedback_delay_s`: the time from the decision to correct until the act's first frame, censored at the
-/// session's end. Kaplan–Meier median; empty if it is never reached.
+/// Returns `feedback_delay_s`: the time from the decision to correct until the first frame of the correcting act,
+/// censored at the session's end. Kaplan–Meier median; empty if the survival curve never falls to one half.
 std::optional<double> FeedbackDelaySeconds(const CoachedSession& session);
-/// Returns `feedback_delay_max_s`: the longest such time among the acts that began. Empty if none began.
+/// Returns `feedback_delay_max_s`: the longest time from a decision to its correcting act, among the acts that began.
+/// Empty if none began.
 std::optional<double> MaxFeedbackDelaySeconds(const CoachedSession& session);
 
-/// Returns `repetitions_until_right`. `moves` holds, per move, the truth of its performances in order of time. For each
-/// move whose first performance was wrong, it counts the performances up to and including the first right one; if none
-/// is right, the count is censored after the last performance. Kaplan–Meier median; empty if it is never reached.
+/// Returns `repetitions_until_right`. `moves` holds, for each move, the truth of its performances in order of time. For
+/// each move whose first performance was wrong, the performances are counted up to and including the first right one.
+/// If none is right, the count is censored after the last performance. Kaplan–Meier median; empty if the survival curve
+/// never falls to one half.
 std::optional<double> RepetitionsUntilRight(std::span<const std::vector<PerformanceTruth>> moves);
 
-/// Returns `retention`: the mean probability of a right performance in a test. Empty without tests.
+/// Returns `retention`: the mean of `chances`, the probabilities of a right performance in a test. Empty without tests.
 std::optional<double> Retention(std::span<const double> chances);
 
-/// Returns `beat_error_ms`: the 95th percentile of the absolute errors; input in seconds, result in milliseconds. Empty
-/// without errors.
+/// Returns `beat_error_ms`: the 95th percentile of the absolute errors. The input is in seconds, the result in
+/// milliseconds. Empty without errors.
 std::optional<double> BeatErrorMs(std::span<const double> errors_s);
 
-/// Returns the median, used by `transition_jump_cm`. Empty without values.
+/// Returns the median of `values`; `transition_jump_cm` uses it. Empty without values.
 std::optional<double> MedianOf(std::vector<double> values);
-/// Returns `transition_natural_share`: the share of transitions whose jumps are natural (IsNatural) compared with the
-/// windows of the unbroken song, of which at least one is required. Empty without transitions.
+/// Returns `transition_natural_share`: the share of transitions with a natural jump (IsNatural). Jumps are compared
+/// with the natural jumps of the unbroken song, of which at least one is required. Empty without transitions.
 std::optional<double> NaturalShare(std::span<const double> jumps_cm, const std::vector<double>& natural_jumps_cm);
 
 }  // namespace etude

@@ -17,8 +17,8 @@ std::vector<double> TimesOf(std::string_view move, std::span<const Moment> momen
   return times;
 }
 
-/// Returns the largest number of pairs. A greedy match in order of time is optimal, because taking the earliest
-/// detection that fits a point leaves the later ones for later points.
+/// Returns the largest possible number of pairs. Greedy matching in order of time is optimal, because taking the
+/// earliest detection that fits a point leaves the later detections for later points.
 int CountPairs(const std::vector<double>& points, const std::vector<double>& detections, double tolerance_s) {
   constexpr double kRounding = 1e-9;
   int pairs = 0;

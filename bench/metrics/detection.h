@@ -11,24 +11,24 @@
 
 namespace etude {
 
-/// Returns `fault_found`: among performances with a fault of any size, the share that were not called right. Empty
-/// without any.
+/// Returns `fault_found`: among the performances with a fault of any size, the share that were not called right. Empty
+/// without such performances.
 std::optional<double> FaultFound(const std::vector<bool>& called);
-/// Returns the share of grey performances that were called right. Empty without any.
+/// Returns the share of grey performances that were called right. Empty without grey performances.
 std::optional<double> GreyCalledRight(const std::vector<bool>& called);
 
 /// A performance of a move, and the move that a recogniser spotted most often during it.
 struct NamedMove {
   std::string danced;
-  std::string named;  ///< empty: no move was spotted
+  std::string named;  ///< the move that was spotted; empty if none was
 };
 
 /// Returns the share of performances whose move was named correctly. Empty without performances.
 std::optional<double> MoveNamed(std::span<const NamedMove> performances);
 
-/// Returns the time from a right performance's completion until it was called right (`latency_s`). `first_right_s` is
-/// the time, seconds from the session's start, at which it had passed every key pose asked for. A performance without a
-/// `called_frame` is censored when its window closes. Negative if the call came before completion.
+/// Returns `latency_s`: the time from the completion of a right performance until it was called right. `first_right_s`
+/// is the time at which the performance had passed all requested key poses, in seconds from the session's start.
+/// Without a `called_frame`, the wait is censored when the window closes. Negative if the call came before completion.
 Wait WaitForPraise(double first_right_s, std::optional<int> called_frame, int window_end_frame, double rate_hz);
 
 /// The frames [begin, end) in which a performance is judged.
@@ -39,8 +39,7 @@ struct MoveWindow {
   int end = 0;
 };
 
-/// Returns true if a detection of `move` at `frame` lies outside every performance of that move, asked for or
-/// performed.
+/// Returns true if `frame` lies in no window in which `move` was requested or performed.
 bool IsFalseAlarm(std::string_view move, int frame, std::span<const MoveWindow> windows);
 
 /// One detection of a move by a recogniser.
@@ -49,10 +48,12 @@ struct MoveCall {
   int frame = 0;
 };
 
-/// Returns the share of right performances in which the move asked for was called at least once. Empty without any.
+/// Returns the share of right performances in which the requested move was called at least once. Empty without right
+/// performances.
 std::optional<double> RightSpotted(std::span<const MoveWindow> right, std::span<const MoveCall> calls);
 
-/// Returns `false_alarms_per_min` over the whole session, performances included. `session_s` must be positive.
+/// Returns `false_alarms_per_min`. The whole session counts as time, including performances. `session_s` must be
+/// positive.
 double FalseAlarmsPerMinute(std::size_t alarms, double session_s);
 
 /// The time of an action point or of a detection, seconds.
@@ -64,17 +65,17 @@ struct Moment {
 struct MomentMatch {
   int matched = 0, points = 0, detections = 0;
 
-  /// Returns 2 matched / (points + detections); nothing if both are zero.
+  /// Returns the F-score 2 · matched / (points + detections); nothing if there are neither points nor detections.
   std::optional<double> FScore() const;
 };
 
-/// Matches detections with action points of the same move that are at most `tolerance_s` away. Each point has at most
-/// one detection and each detection at most one point; the number of pairs is the maximum. Further detections of the
-/// same point are false positives (Fothergill et al. 2012).
+/// Matches detections with action points of the same move that are at most `tolerance_s` away. Each point gets at most
+/// one detection and each detection at most one point, and the number of pairs is the maximum. Further detections of
+/// one point are false positives (Fothergill et al. 2012).
 MomentMatch MatchMoments(std::span<const Moment> points, std::span<const Moment> detections, double tolerance_s);
 
-/// Returns the mean of the F-scores of the moves that occur, as in MSRC-12's paper; nothing without points and
-/// detections.
+/// Returns the mean of the F-scores of all moves that occur among points or detections, as defined in MSRC-12's paper.
+/// Returns nothing without points and detections.
 std::optional<double> MeanFScore(std::span<const Moment> points, std::span<const Moment> detections,
                                  double tolerance_s);
 

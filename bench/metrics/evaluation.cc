@@ -28,7 +28,7 @@ void SeenMean::Add(std::span<const double> values) {
     }
   };
   add_seen(std::min((kSums - next_) % kSums, values.size()));
-  // Add whole rounds without testing for NaN: a NaN shows in a sum.
+  // Add groups of kSums values at a time without testing each for NaN, because a NaN shows in the sum.
   const std::size_t rounds = (values.size() - i) / kSums;
   double sums[kSums];
   std::copy_n(sums_, kSums, sums);
@@ -73,7 +73,7 @@ std::optional<double> AucTo150(std::span<const double> values) {
   for (const double value : values) {
     if (std::isnan(value)) continue;
     ++count;
-    // The first threshold above the value: rounding in the quotient may miss it by one.
+    // Find the first threshold above the value. Rounding in the quotient may give a threshold that is one too low.
     int first = static_cast<int>(std::min(value / kStep_mm, double{kThresholds}));
     while (first < kThresholds && first * kStep_mm <= value) ++first;
     below += static_cast<std::size_t>(kThresholds - first);
@@ -95,7 +95,7 @@ std::optional<double> SeenShare(const EvaluatedPair& pair) {
 
 namespace {
 
-/// Returns the mean of the lengths of `vector_at(frame, joint)` over frames from `begin` to before `end`.
+/// Returns the mean length of `vector_at(frame, joint)` over all joints and the frames [begin, end).
 template <typename VectorAt>
 std::optional<double> MeanLength(std::size_t begin, std::size_t end, std::size_t joints, const VectorAt& vector_at) {
   SeenMean mean;
@@ -146,7 +146,7 @@ std::optional<double> Jitter(const PointTracks& found, double rate_hz) {
 std::optional<double> RootTranslationError(const EvaluatedPair& pair) {
   const auto fit = Fit(MomentsOf(pair.found_root, pair.true_root), false);
   if (!fit) return std::nullopt;
-  // The true path connects the true roots of the frames in which both are seen.
+  // The true path connects the positions of the true root in the frames in which both roots are seen.
   double length = 0, error = 0, count = 0;
   const glm::dvec3* before = nullptr;
   for (std::size_t f = 0; f < pair.found_root.size(); ++f) {

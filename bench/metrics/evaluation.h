@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// Positions of some points over time: frames × points, metres, Y up; NaN: not seen.
+/// Positions of some points over time: frames × points, metres, Y up. NaN: the point is not seen.
 struct PointTracks {
   std::size_t points = 0;
   std::vector<glm::dvec3> positions;
@@ -21,81 +21,88 @@ struct PointTracks {
   std::span<const glm::dvec3> Frame(std::size_t frame) const { return {&positions[frame * points], points}; }
 };
 
-/// An answer and its truth, frame by frame: the same joints in the same order, at one rate.
+/// An answer and its truth, frame by frame. Both have the same joints in the same order, and the same rate.
 struct EvaluatedPair {
   double rate_hz = 30;
   PointTracks found, truth;
-  /// The point by which a pose is moved to its root (`Match` says which), one a frame; empty: one of both lacks it.
+  /// The position of each frame's root, by which poses are aligned; `Match` says which point is the root. Empty if
+  /// answer or truth lacks that point.
   std::vector<glm::dvec3> found_root, true_root;
-  /// Global rotations of the same joints, frames × joints; each is empty if its file has none.
+  /// Global rotations of the joints, frames × joints. Each is empty if its file has no rotations.
   std::vector<glm::dquat> found_turns, true_turns;
-  /// The answer's feet: left ankle, left toes, right ankle, right toes; without points if it lacks these joints.
+  /// The answer's feet: left ankle, left toes, right ankle, right toes. No points if the answer lacks one of these
+  /// joints.
   PointTracks feet;
-  /// The contacts with the floor that each file states, frames × the four columns of `feet` (heels for ankles); empty
-  /// if it states none.
+  /// The contacts with the floor that each file states, frames × the four columns of `feet`; the ankle columns hold the
+  /// heels' contacts. Empty if the file states none.
   std::vector<bool> found_contacts, true_contacts;
 };
 
-/// The mean of all added values that are not NaN.
+/// The mean of all added values, without the NaN values.
 class SeenMean {
  public:
   void Add(std::span<const double> values);
-  /// Returns nothing if all values are NaN.
+  /// Returns the mean; nothing if all values are NaN.
   std::optional<double> Value() const;
 
  private:
-  // Values join four sums in turn, because additions to a single sum would wait for each other.
+  // Values are added to four sums in turn, because each addition to a single sum would have to wait for the previous
+  // one.
   static constexpr std::size_t kSums = 4;
   double sums_[kSums] = {}, counts_[kSums] = {};
   std::size_t next_ = 0;  // index of the sum that the next value joins
 };
-/// Returns the mean of the values that are not NaN; nothing if there are none.
+/// Returns the mean of the values that are not NaN; nothing if all are NaN.
 std::optional<double> MeanOfSeen(std::span<const double> values);
-/// Returns the share of values below `limit_mm`, among those that are not NaN.
+/// Returns, of the values that are not NaN, the share below `limit_mm`; nothing if all are NaN.
 std::optional<double> ShareBelow(std::span<const double> values, double limit_mm);
-/// Returns the mean of ShareBelow at 0, 5, …, 150 mm, as MPI-INF-3DHP's code computes it.
+/// Returns the mean of ShareBelow over the limits 0, 5, …, 150 mm, as MPI-INF-3DHP's code computes it.
 std::optional<double> AucTo150(std::span<const double> values);
-/// Returns the share of the truth's joints, over all its frames, that both show; nothing if the truth shows none.
+/// Returns, of the joints seen in the truth over all frames, the share that is seen in the answer too; nothing if no
+/// joint is seen in the truth.
 std::optional<double> SeenShare(const EvaluatedPair& pair);
 
-/// Returns the mean length of the difference between the second differences of answer and truth, over all joints and
-/// frames whose three frames both show; metres per frame².
+/// Returns the mean length of the difference between the answer's and the truth's second differences, metres per
+/// frame². The mean is over all joints and all groups of three frames in which the joint is seen in both.
 std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth);
-/// Returns the same after the answer is moved root onto root in each frame, without the first and the last frame
-/// (WHAM).
+/// Returns AccelerationError after the answer's root is moved onto the true root in each frame (WHAM). The first and
+/// the last frame are left out.
 std::optional<double> RootAccelerationError(const EvaluatedPair& pair);
-/// Returns the mean length of the answer's third differences × rate³ ÷ 10 (WHAM).
+/// Returns jitter: the mean length of the answer's third differences × rate³ ÷ 10 (WHAM).
 std::optional<double> Jitter(const PointTracks& found, double rate_hz);
-/// Returns the root's mean error after the rigid transformation that fits its whole path best, in per cent of the true
-/// path's length (WHAM). Nothing if the true root does not move, or if fewer than three frames are seen.
+/// Returns the mean error of the root's path after the rigid transformation that fits the whole path best, in per cent
+/// of the true path's length (WHAM). Returns nothing if the true root does not move, or if the root is seen in fewer
+/// than three frames.
 std::optional<double> RootTranslationError(const EvaluatedPair& pair);
 
-/// Returns the share of steps between frames in which a toe skates, as GMD's code computes it.
+/// Returns the share of steps between frames in which at least one foot's toes skate, as GMD's code computes it.
 std::optional<double> SkatingRatio(const PointTracks& feet, double rate_hz);
-/// Returns the mean speed of toes below 5 cm, m/s, as Kimodo's code computes it.
+/// Returns the mean speed of toes that are lower than 5 cm, m/s, as Kimodo's code computes it.
 std::optional<double> SkateFromHeight(const PointTracks& feet, double rate_hz);
-/// Returns the mean speed of heels and toes while `contacts` (frames × columns of feet) says that they touch the floor,
-/// m/s, as Kimodo's code computes it.
+/// Returns the mean speed of heels and toes over the frames in which `contacts` (frames × columns of feet) states a
+/// contact with the floor, m/s, as Kimodo's code computes it.
 std::optional<double> SkateFromContacts(const PointTracks& feet, const std::vector<bool>& contacts, double rate_hz);
-/// Returns F1 of the answer's contacts against the truth's; nothing without contacts in either.
+/// Returns the F1 score of the answer's contacts against the true contacts; nothing if neither states a contact.
 std::optional<double> ContactF1(const std::vector<bool>& found, const std::vector<bool>& truth);
-/// Returns PFC as EDGE's code computes it, with Y up and the motion's own rate.
+/// Returns PFC (physical foot contact) as EDGE's code computes it, but with Y up and at the motion's own rate.
 std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<const glm::dvec3> root, double rate_hz);
-/// Returns the mean depth of the answer's lowest joint below height 0, and its mean height above, millimetres.
+/// The mean depth of the answer's lowest joint below height 0, and its mean height above 0, millimetres.
 struct FloorErrors {
   std::optional<double> penetration_mm, floating_mm;
 };
 FloorErrors MeasureFloor(const PointTracks& found);
 
-/// The global rotations of answer and truth as channels (QuaternionChannels). The signs of the answer's quaternions are
-/// chosen nearest to the truth's. NaN where a joint is not seen by both; nothing if one of them has no rotations.
+/// The global rotations of answer and truth as channels (QuaternionChannels). Of a quaternion's two signs, the answer
+/// takes the one nearer to the truth's quaternion. NaN where a joint is not seen in both. Nothing if answer or truth
+/// has no rotations.
 struct RotationChannels {
   ChannelTracks found, truth;
 };
 std::optional<RotationChannels> RotationsOf(const EvaluatedPair& pair);
 
-/// Returns the mean absolute difference of the angles at the middle of three points, degrees. Points come in threes:
-/// hip, knee, ankle; shoulder, elbow, wrist. Nothing if no three are seen by both.
+/// Returns the mean absolute error of the bend angles, degrees. Each entry of `bends` holds three points (hip, knee,
+/// ankle; or shoulder, elbow, wrist), and its angle is at the middle point. Returns nothing if no three points are seen
+/// in both.
 std::optional<double> BendErrorDeg(const PointTracks& found, const PointTracks& truth,
                                    std::span<const std::array<std::size_t, 3>> bends);
 

@@ -119,7 +119,7 @@ std::string ExpectedText(const MetricVector& vector) {
                               : fmt::format("{:.9g}", *vector.expected);
 }
 
-/// Escapes '|', which would end a table cell.
+/// Escapes '|', which would otherwise end a table cell.
 std::string EscapeTableCell(std::string_view content) {
   std::string text(content);
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
@@ -181,10 +181,10 @@ Result<void> ReadAddedMetrics(const Json& list, const Place& place) {
     if (found == words.end()) throw Json::other_error::create(501, "unknown word " + word.dump(), nullptr);
     return found - words.begin();
   };
-  // The words, in the order of their enumerations.
+  // The texts for each enumeration's values, in the order of their declaration.
   constexpr std::array kDirections = {"lower", "higher", "neither"};
   constexpr std::array kAggregates = {"median", "mean"};
-  // Read each definition, then add it; AddMetric refuses another definition of a known id.
+  // Read and add each definition. AddMetric fails if a known id has another definition.
   for (const Json& each : list) {
     MetricInfo metric;
     try {

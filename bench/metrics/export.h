@@ -7,20 +7,21 @@
 
 namespace etude {
 
-/// Returns the whole catalogue with its test vectors as one line of JSON (docs/schemas/metrics.schema.json), so that
-/// other implementations can prove their agreement.
+/// Returns the whole catalogue with its test vectors as one line of JSON (docs/schemas/metrics.schema.json). Other
+/// implementations can use the vectors to prove that they agree.
 Json MetricsJson();
 
 /// Returns the text of docs/reference/metrics.md.
 std::string MetricsPage();
 
-/// Returns the rules by which faults of a motion are found (FaultRules), as a table of Markdown.
+/// Returns the rules that find faults of a motion (FaultRules), as a Markdown table.
 std::string FaultsTable();
 
-/// Returns the definitions of AddedMetrics by id, as a manifest keeps them: the catalogue's JSON without test vectors
-/// and with `reads`.
+/// Returns the definitions of AddedMetrics by id, as a manifest stores them. The format is the catalogue's JSON without
+/// test vectors and with the key `reads`.
 Json AddedMetricsJson();
-/// Adds the metrics of such a list (AddMetric). Fails, naming `place`, at an item that is not a valid metric.
+/// Adds the metrics of a list that AddedMetricsJson returned (AddMetric). Fails, naming `place`, at the first item that
+/// is not a valid metric.
 Result<void> ReadAddedMetrics(const Json& list, const Place& place);
 
 }  // namespace etude

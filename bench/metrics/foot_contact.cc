@@ -13,13 +13,13 @@ enum FootColumn : std::size_t { kLeftAnkleAt, kLeftToesAt, kRightAnkleAt, kRight
 
 constexpr double kLow_m = 0.05;
 
-/// Returns the length of the horizontal step of a column from frame f to the next.
+/// Returns the horizontal distance that a column's joint moves from frame `f` to the next.
 double FloorStep(const PointTracks& feet, std::size_t f, std::size_t column) {
   const glm::dvec3 step = feet.Frame(f + 1)[column] - feet.Frame(f)[column];
   return std::sqrt(step.x * step.x + step.z * step.z);
 }
 
-/// Returns, for each step between frames, whether the toes skate.
+/// Returns, for each step between frames, true if the toes skate.
 std::vector<bool> Skates(const PointTracks& feet, std::size_t toes, double rate_hz) {
   constexpr double kFast_mps = 0.5;
   constexpr std::ptrdiff_t kReach = 2;  // the mean runs over five steps; those outside the motion count as zero
@@ -38,8 +38,8 @@ std::vector<bool> Skates(const PointTracks& feet, std::size_t toes, double rate_
   return skates;
 }
 
-/// Returns the mean speed, in three dimensions, of the feet's columns over the steps that `is_judged` at their first
-/// frame.
+/// Returns the mean speed of the feet's joints in three dimensions, m/s, over the steps for whose first frame
+/// `is_judged` returns true.
 template <typename IsJudged>
 double MeanSpeed(const PointTracks& feet, double rate_hz, const IsJudged& is_judged) {
   constexpr double kNoDivisionByZero = 1e-6;  // as in Kimodo's code
@@ -91,7 +91,7 @@ std::optional<double> ContactF1(const std::vector<bool>& found, const std::vecto
 
 std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<const glm::dvec3> root, double rate_hz) {
   if (feet.points != kFootColumns || root.size() != feet.FrameCount() || root.size() < 3) return std::nullopt;
-  // The root's acceleration, with its downward part cut off.
+  // Compute the length of the root's acceleration without its downward part.
   std::vector<double> accelerations;
   for (std::size_t f = 0; f + 2 < root.size(); ++f) {
     glm::dvec3 a = rate_hz * rate_hz * (root[f + 2] - 2.0 * root[f + 1] + root[f]);
@@ -101,7 +101,8 @@ std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<con
   double largest = 0;
   for (const double a : accelerations) largest = std::max(largest, std::isnan(a) ? 0 : a);
   if (largest == 0) return std::nullopt;
-  // Multiply it by the step of each foot, which is that of its slower joint, after the acceleration's middle frame.
+  // Multiply each acceleration by the steps of both feet after its middle frame. The slower joint of a foot gives the
+  // foot's step.
   std::vector<double> products;
   for (std::size_t f = 0; f < accelerations.size(); ++f) {
     const double left = std::min(FloorStep(feet, f + 1, kLeftAnkleAt), FloorStep(feet, f + 1, kLeftToesAt));

@@ -12,7 +12,8 @@
 namespace etude {
 namespace {
 
-/// Returns true if the largest errors are below `goal`, in centimetres and in degrees.
+/// Returns true if the largest errors of the parts `asked` are below `goal`, which counts as centimetres and as
+/// degrees.
 bool AreWithin(const IkErrorSummary& errors, const IkTargetParts& asked, double goal) {
   return (!asked.positions || errors.position_max_cm < goal) && (!asked.axes || errors.axis_max_deg < goal);
 }
@@ -22,7 +23,8 @@ double ShareOfFrames(std::span<const TrackedFrame> frames, bool (*is_solved)(con
   return *Share(solved, static_cast<std::int64_t>(frames.size()));
 }
 
-/// Returns the sum of the absolute third differences. Only ratios of two motions are used, so the frame rate cancels.
+/// Returns the sum of the absolute third differences. They are not divided by the frame interval, because the frame
+/// rate cancels in the ratio of two motions.
 double TotalJerk(std::span<const std::vector<double>> frames) {
   double sum = 0;
   for (std::size_t f = 3; f < frames.size(); ++f) {

@@ -13,21 +13,22 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr glm::dvec3 kDown(0, -1, 0);
 
-/// A body segment: the joint that carries its rotation, and its rotation from rest to the neutral pose.
+/// A body segment: the index of the joint that carries its rotation, and its rotation from the rest pose to the neutral
+/// pose.
 struct Segment {
   int joint = -1;
   glm::dquat neutral{1, 0, 0, 0};
 };
 
-/// A joint of the body, between two segments.
+/// A joint of the body, with the segments above and below it.
 struct BodyJoint {
   std::string name;
   Segment above, below;
-  /// The signs of flexion, abduction and rotation (about X, Z, Y).
+  /// The signs that make flexion, abduction and rotation positive (rotations about X, Z and Y).
   double flexion = 1, abduction = 1, rotation = 1;
 };
 
-/// Returns the nearest joint that carries both; −1 if there is none.
+/// Returns the nearest common ancestor of joints `a` and `b`; −1 if there is none.
 int CarrierOf(const RawMotion& motion, int a, int b) {
   for (int above = a < 0 || b < 0 ? -1 : motion.parents[a]; above >= 0; above = motion.parents[above]) {
     for (int other = motion.parents[b]; other >= 0; other = motion.parents[other]) {
@@ -37,7 +38,7 @@ int CarrierOf(const RawMotion& motion, int a, int b) {
   return -1;
 }
 
-/// Returns the shortest rotation of one direction to another.
+/// Returns the shortest rotation that turns direction `from` into direction `to`.
 glm::dquat ShortestArc(const glm::dvec3& from, const glm::dvec3& to) {
   const double length = glm::length(from) * glm::length(to);
   if (length == 0) return {1, 0, 0, 0};
@@ -66,7 +67,8 @@ class AngleReader {
  private:
   int Playing(Role role) const { return motion_.roles[Index(role)]; }
 
-  /// Finds the body's axes at rest. Returns false if a hip is missing, or if one hip is above the other.
+  /// Finds the body's axes in the rest pose. Returns false if a hip is missing, or if one hip is exactly above the
+  /// other.
   bool FindAxes() {
     const int left = Playing(Role::kLeftHip), right = Playing(Role::kRightHip);
     if (left < 0 || right < 0) return false;
@@ -79,9 +81,9 @@ class AngleReader {
     return true;
   }
 
-  /// Returns the segment of a joint, as it is at rest.
+  /// Returns the segment of a joint whose neutral pose is the rest pose.
   static Segment AsAtRest(int joint) { return {joint}; }
-  /// Returns the segment from a joint to the next, which hangs in the neutral pose.
+  /// Returns the segment from `joint` to `next`, which hangs down in the neutral pose.
   Segment Hanging(int joint, int next) const {
     if (joint < 0 || next < 0) return {joint};
     const glm::dvec3 direction = motion_.rest_positions[next] - motion_.rest_positions[joint];
@@ -95,7 +97,7 @@ class AngleReader {
 
   void FindJoints() {
     using enum Role;
-    // The joints of the trunk.
+    // Add the joints of the trunk.
     const Segment pelvis = AsAtRest(CarrierOf(motion_, Playing(kLeftHip), Playing(kRightHip)));
     const Segment thorax = AsAtRest(CarrierOf(motion_, Playing(kLeftShoulder), Playing(kRightShoulder)));
     Add({"trunk", pelvis, thorax, 1, -1, 1});
@@ -107,7 +109,7 @@ class AngleReader {
     };
     const Side sides[] = {{"left_", 1, kLeftHip, kLeftKnee, kLeftAnkle, kLeftShoulder, kLeftElbow, kLeftWrist},
                           {"right_", -1, kRightHip, kRightKnee, kRightAnkle, kRightShoulder, kRightElbow, kRightWrist}};
-    // The joints of each side, between segments that hang in the neutral pose.
+    // Add the joints of each side. The segments of arms and legs hang down in the neutral pose.
     for (const Side& side : sides) {
       const auto hanging = [&](Role from, Role to) { return Hanging(Playing(from), Playing(to)); };
       const Segment thigh = hanging(side.hip, side.knee), shank = hanging(side.knee, side.ankle);
@@ -126,7 +128,7 @@ class AngleReader {
     }
   }
 
-  /// Returns the rotation of a segment from the neutral pose, in the body's axes.
+  /// Returns the rotation of a segment from the neutral pose, expressed in the body's axes.
   glm::dquat FromNeutral(const Segment& segment, std::size_t frame) const {
     const std::size_t joints = motion_.joints.size();
     const glm::dquat from_rest =
@@ -141,7 +143,7 @@ class AngleReader {
     }
     const glm::dmat3 m =
         glm::mat3_cast(glm::inverse(FromNeutral(joint.above, frame)) * FromNeutral(joint.below, frame));
-    // m = Rx · Rz · Ry; m[column][row].
+    // Decompose m = Rx · Rz · Ry; the matrix is stored as m[column][row].
     const double about_x = std::atan2(m[1][2], m[1][1]), about_y = std::atan2(m[2][0], m[0][0]);
     const double about_z = std::asin(std::clamp(-m[1][0], -1.0, 1.0));
     degrees.insert(degrees.end(), {joint.flexion * Degrees(about_x), joint.abduction * Degrees(about_z),
@@ -153,7 +155,7 @@ class AngleReader {
   std::vector<BodyJoint> joints_;
 };
 
-/// Returns an angle's representative within 180° of another.
+/// Returns the angle that equals `degrees` modulo 360 and lies within 180° of `other`.
 double Near(double degrees, double other) { return other + std::remainder(degrees - other, 360.0); }
 
 }  // namespace
@@ -171,7 +173,7 @@ std::optional<AgreementSums> DecodeSums(std::span<const double> v) {
 
 AgreementSums SumAgreement(const AngleTracks& found, const AngleTracks& truth, std::size_t column) {
   assert(found.degrees.size() == truth.degrees.size());
-  // The truth's circular mean over the frames in which both are known.
+  // Compute the circular mean of the truth's angle, over the frames in which both angles are known.
   std::vector<std::size_t> places;
   double sine = 0, cosine = 0;
   for (std::size_t at = column; at < truth.degrees.size(); at += truth.names.size()) {
@@ -181,7 +183,7 @@ AgreementSums SumAgreement(const AngleTracks& found, const AngleTracks& truth, s
     cosine += std::cos(Radians(truth.degrees[at]));
   }
   const double middle = Degrees(std::atan2(sine, cosine));
-  // Welford's sums.
+  // Accumulate the sums by Welford's algorithm.
   AgreementSums sums;
   for (const std::size_t at : places) {
     const double t = Near(truth.degrees[at], middle), f = Near(found.degrees[at], t);
@@ -225,7 +227,7 @@ std::optional<double> BiasOf(const AgreementSums& sums) {
 std::optional<double> IccOf(const AgreementSums& sums) {
   if (sums.count < 2) return std::nullopt;
   const double n = sums.count, bias = sums.mean_found - sums.mean_truth;
-  // Mean squares of rows (frames), columns (truth, answer) and the rest.
+  // Compute the mean squares of rows (frames), columns (truth, answer) and residuals.
   const double rows = (sums.square_truth + sums.square_found + 2 * sums.product) / 2 / (n - 1);
   const double columns = n * bias * bias / 2;
   const double rest = (sums.square_truth + sums.square_found - 2 * sums.product) / 2 / (n - 1);

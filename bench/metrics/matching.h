@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Counts how a threshold on a distance decides about all pairs of frames that a transition could have used: every
-/// bridge frame of the old clip within the allowed wait × every bridge frame of the new clip
+/// Counts how a threshold on a distance decides about pairs of frames. The pairs are all that a transition could have
+/// used: every bridge frame of the old clip within the allowed wait × every bridge frame of the new clip
 /// (docs/reference/metrics.md, Matching).
 struct MatchTally {
   std::int64_t pairs = 0;
@@ -16,16 +16,16 @@ struct MatchTally {
   std::int64_t falsely_smooth = 0;  ///< matching pairs whose pose gap exceeds 20 cm (IsFalselySmooth)
 };
 
-/// Returns the share of the pairs that match; empty without pairs.
+/// Returns the share of the pairs that match; empty if there are no pairs.
 std::optional<double> MatchingShare(const MatchTally& tally);
 
-/// Returns the share of the matching pairs that are falsely smooth; empty without matching pairs.
+/// Returns the share of the matching pairs that are falsely smooth; empty if no pair matches.
 std::optional<double> FalseSmoothShare(const MatchTally& tally);
 
 /// Returns true if a direct transition is possible: at least one pair matches.
 constexpr bool HasDirectMatch(const MatchTally& tally) { return tally.matching > 0; }
 
-/// Two poses are close (hard to tell apart) if their worst joint distance is below this, metres.
+/// Two poses are close (hard to tell apart) if their largest joint distance is below this limit, metres.
 constexpr double kCloseGap = 0.15;
 
 /// Returns the mean distance of the twenty joints, centimetres, without aligning the poses.

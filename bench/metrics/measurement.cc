@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Returns the mean of `error_of` over the measured values that have a truth, and the coverage.
+/// Returns the mean of `error_of` over the values that have both a measurement and a truth, and the coverage.
 template <typename ErrorOf>
 MeasuredError Compare(std::span<const MeasuredAndTrue> things, ErrorOf error_of) {
   double sum = 0;

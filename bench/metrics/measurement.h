@@ -7,13 +7,13 @@
 
 namespace etude {
 
-/// A measurement in one frame and the truth, each if it exists.
+/// A measurement in one frame and its true value. Either may be missing.
 struct MeasuredAndTrue {
   std::optional<glm::dvec3> found;
   std::optional<glm::dvec3> truth;
 };
 
-/// The mean error of measurements, and the share of true values that were measured.
+/// The mean error of measurements, and the coverage: the share of true values that were measured.
 struct MeasuredError {
   std::optional<double> mean;      ///< over all measured values; empty if there are none
   std::optional<double> coverage;  ///< share of the true values that were measured; empty without true values
@@ -24,7 +24,7 @@ struct MeasuredError {
 MeasuredError LimbDirectionErrorDeg(std::span<const MeasuredAndTrue> limbs);
 
 /// Returns the distance between the triangulated and the true point, millimetres (`triangulation_error_mm`), and its
-/// coverage (`triangulation_coverage`). One entry per end effector and frame, metres.
+/// coverage (`triangulation_coverage`). One entry per end effector and frame, in metres.
 MeasuredError TriangulationErrorMm(std::span<const MeasuredAndTrue> ends);
 
 /// A calibrated camera and the point pairs it was calibrated from.

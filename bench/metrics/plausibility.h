@@ -9,15 +9,15 @@
 
 namespace etude {
 
-/// Returns the share of a motion's time, from its first frame to its last, in which it shows a fault of this kind.
-/// Faults that overlap count once. `duration_s` must be positive.
+/// Returns the share of a motion's duration in which it shows a fault of this kind. Overlapping faults count once.
+/// `duration_s` must be positive.
 double FaultyShare(std::span<const MotionFault> faults, FaultKind kind, double duration_s);
-/// Returns the largest size of the faults of this kind, in its unit; 0 if there are none.
+/// Returns the largest size of the faults of this kind, in the kind's unit; 0 if there are none.
 double LargestFault(std::span<const MotionFault> faults, FaultKind kind);
-/// Returns how many faults of this kind there are.
+/// Returns the number of faults of this kind.
 double FaultCount(std::span<const MotionFault> faults, FaultKind kind);
 
-/// Returns the metrics, by id, whose values exceed their limits.
+/// Returns the ids of the metrics whose values exceed their limits.
 std::vector<std::string> BeyondLimits(const std::map<std::string, double>& values,
                                       const std::map<std::string, double>& limits);
 

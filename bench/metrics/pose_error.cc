@@ -22,7 +22,8 @@ glm::dmat3 ToGlm(const Eigen::Matrix3d& m) {
   return result;
 }
 
-// Returns the sum of the angle errors over all pairs of successive limbs, degrees, and adds their number to `count`.
+// Returns the sum of the angle errors over all pairs of successive limbs, degrees, and adds the number of pairs to
+// `count`.
 double AngleErrorsDeg(const BodyPose& found, const BodyPose& truth, int& count) {
   const auto angle = [](const BodyPose& pose, Role grandparent, const Bone& bone) {
     const glm::dvec3 upper = pose[bone.parent] - pose[grandparent], lower = pose[bone.child] - pose[bone.parent];
@@ -80,7 +81,7 @@ Similarity AlignSimilarity(const PointMoments& moments) {
     for (int column = 0; column < 3; ++column) covariance(row, column) = moments.covariance[column][row];
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // Forbid reflections: a mirrored body must not count as a good one, so the last singular vector is flipped instead.
+  // Forbid reflections by flipping the last singular vector; otherwise a mirrored body would have no error.
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
   const Eigen::Vector3d signs(1, 1, sign);
   Similarity similarity;
@@ -120,7 +121,8 @@ PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPos
     for (std::size_t i = 0; i < kRoleCount; ++i) {
       const double error_mm = kMmPerMetre * glm::distance(found[f].joints[i], truth[f].joints[i]);
       sums.pck_50mm += error_mm < kNear_mm;
-      // One joint's share is a step function at `error_mm`; the area under it lies to the right of the step.
+      // The share of correct joints, as a function of the threshold, steps from 0 to 1 at `error_mm` for a single
+      // joint. The area under that step is to the right of `error_mm`.
       sums.auc_200mm += std::max(0.0, 1 - error_mm / kAucEnd_mm);
     }
     sums.joint_angle_error_deg += AngleErrorsDeg(found[f], truth[f], angles);
@@ -128,7 +130,7 @@ PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPos
       sums.bone_length_error_cm += kCmPerMetre * std::abs(BoneLength(found[f], bone) - BoneLength(truth[f], bone));
     }
   }
-  // Divide by the counts.
+  // Divide the sums by their counts.
   const auto frames = static_cast<double>(found.size());
   const double joints = frames * static_cast<double>(kRoleCount);
   PoseErrors means = std::move(sums);

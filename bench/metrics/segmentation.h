@@ -7,7 +7,8 @@
 
 namespace etude {
 
-/// The agreement of one mask with the true one, or the mean of many. A share whose denominator has no pixels is empty.
+/// The agreement of one mask with the true mask, or the mean over many masks. A share whose denominator has no pixels
+/// is empty.
 struct MaskScore {
   std::optional<double> iou = {};           ///< |found ∩ true| / |found ∪ true|
   std::optional<double> precision = {};     ///< |found ∩ true| / |found|
@@ -17,10 +18,11 @@ struct MaskScore {
   std::optional<double> pwc = {};           ///< 100 |found ≠ true| / |pixels|: percentage of wrong classification
 };
 
-/// Scores a mask. All three have the same size; `shadow` marks the pixels of the room that are in the person's shadow.
+/// Scores a mask against the true mask. `shadow` marks the pixels of the room that lie in the person's shadow. All
+/// three have the same size.
 MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow);
 
-/// Returns the mean of each value over the images that have it.
+/// Returns the mean of each score over the images that have this score.
 MaskScore MeanScore(std::span<const MaskScore> scores);
 
 }  // namespace etude

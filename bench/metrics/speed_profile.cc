@@ -13,8 +13,8 @@ constexpr double kCutOffHz = 10;
 constexpr double kAmplitudeThreshold = 0.05;
 constexpr int kPadding = 4;
 
-/// Returns the magnitudes of the zero-padded spectrum up to the cut-off. Only a few bins are needed, so there is no
-/// FFT.
+/// Returns the magnitudes of the zero-padded spectrum up to the cut-off frequency. The few bins are computed one by
+/// one, without an FFT.
 std::vector<double> Magnitudes(std::span<const double> speed, std::size_t padded_size, double rate_hz) {
   const double hz_per_bin = rate_hz / static_cast<double>(padded_size);
   std::vector<double> magnitudes;
@@ -34,14 +34,14 @@ std::vector<double> Magnitudes(std::span<const double> speed, std::size_t padded
 
 std::optional<double> SpectralArcLength(std::span<const double> speed, double rate_hz) {
   if (speed.size() < 2) return std::nullopt;
-  // Normalised magnitude spectrum up to the cut-off.
+  // Compute the normalised magnitude spectrum up to the cut-off.
   const std::size_t padded_size = std::bit_ceil(speed.size()) << kPadding;
   std::vector<double> magnitudes = Magnitudes(speed, padded_size, rate_hz);
   const double largest = *std::max_element(magnitudes.begin(), magnitudes.end());
   if (largest <= 0) return std::nullopt;
   for (double& magnitude : magnitudes) magnitude /= largest;
 
-  // The arc length between the first and the last bin above the threshold.
+  // Sum the arc length between the first and the last bin above the threshold.
   const auto is_loud = [](double magnitude) { return magnitude >= kAmplitudeThreshold; };
   const auto first = std::find_if(magnitudes.begin(), magnitudes.end(), is_loud);
   const auto last = std::find_if(magnitudes.rbegin(), magnitudes.rend(), is_loud).base() - 1;
@@ -75,7 +75,7 @@ std::optional<double> LogDimensionlessJerk(std::span<const double> speed) {
     squares += difference * difference;
   }
   if (peak <= 0 || squares <= 0) return std::nullopt;
-  // (N dt)³ / peak² · Σ (difference / dt²)² dt, where dt, the time between samples, cancels.
+  // Compute (N dt)³ / peak² · Σ (difference / dt²)² dt. The time between samples, dt, cancels.
   const auto samples = static_cast<double>(speed.size());
   return -std::log(samples * samples * samples * squares / (peak * peak));
 }

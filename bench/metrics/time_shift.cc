@@ -11,7 +11,8 @@ namespace {
 constexpr double kNotShown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMinFrames = 5;
 
-/// Returns a joint's position at a time in frames; NaN where one of the four frames around it is not seen.
+/// Returns a joint's position at the time `at`, in frames. NaN if the joint is not seen in one of the four frames
+/// around that time.
 glm::dvec3 CubicAt(const PointTracks& tracks, double at, std::size_t joint) {
   constexpr double kSameFrame = 1e-9;
   const double whole = std::round(at), frames = static_cast<double>(tracks.FrameCount());
@@ -27,14 +28,15 @@ glm::dvec3 CubicAt(const PointTracks& tracks, double at, std::size_t joint) {
                 u * u * u * (3.0 * p(1) - p(0) - 3.0 * p(2) + p(3)));
 }
 
-/// The distance between two joints, per frame of the truth in which all three values are known: the truth's, its rate
-/// of change, and the answer's at the shifted time; metres, metres per second.
+/// The distance between two joints over time, metres: in the truth, its rate of change in the truth (metres per
+/// second), and in the answer at the shifted time. One entry per frame of the truth in which all three values are
+/// known.
 struct Distances {
   std::vector<double> truth, rate, found;
   std::vector<std::size_t> frames;
 };
 
-/// The least-squares line of the answer's distances as a function of the truth's; its slope is at least 0.
+/// The least-squares line of the answer's distances as a function of the true distances. Its slope is at least 0.
 struct Line {
   double slope = 0, mean_truth = 0, mean_found = 0;
   double square_truth = 0;
@@ -75,7 +77,7 @@ class ShiftFinder {
   }
 
  private:
-  /// Collects the distances of all pairs of joints in every `stride`-th frame but the first and the last.
+  /// Collects the distances of all pairs of joints in every `stride`-th frame, except the first and the last frame.
   std::vector<Distances> DistancesAt(double shift_s, std::size_t stride) const {
     const std::size_t n = joints_.size();
     std::vector<Distances> pairs(n * (n - 1) / 2);
@@ -108,7 +110,8 @@ class ShiftFinder {
     return count;
   }
 
-  /// Returns the shift in whole frames of the truth that fits best, unless it is the largest.
+  /// Returns the shift, in whole frames of the truth, that fits best. Returns nothing if no shift fits, or if the best
+  /// shift is the largest that is searched.
   std::optional<int> FindWholeFrames() const {
     constexpr std::size_t kMaxCompared = 1000;  // frames
     const std::size_t stride = 1 + truth_.FrameCount() / kMaxCompared;
@@ -116,7 +119,7 @@ class ShiftFinder {
     const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth_rate_hz_));
     std::optional<int> best;
     double largest = 0;
-    // Try small shifts first, so that of two shifts that fit equally well the smaller one is kept.
+    // Try small shifts first: if two shifts fit equally well, the smaller one is kept.
     for (int at = 0; at <= 2 * reach; ++at) {
       const int shift = at % 2 == 0 ? -at / 2 : (at + 1) / 2;
       const std::vector<Distances> pairs = DistancesAt(shift / truth_rate_hz_, stride);
@@ -152,7 +155,7 @@ class ShiftFinder {
       constexpr double kExact_m2 = 1e-6;  // 1 mm²
       const double n = static_cast<double>(pair.truth.size());
       const double weight = 1 / (std::max(0.0, line.all - line.explained) / n + kExact_m2);
-      // Subtract from the rate its regression on 1 and s.
+      // Subtract from the rate its regression on 1 and s, where s is the true distance.
       double mean = 0, product = 0;
       for (const double rate : pair.rate) mean += rate / n;
       for (std::size_t i = 0; i < pair.rate.size(); ++i) {
@@ -188,7 +191,8 @@ class ShiftFinder {
     return std::nullopt;
   }
 
-  /// Returns half the width of the jackknife's interval over equal parts of the motion.
+  /// Returns half the width of the jackknife interval over equal parts of the motion; nothing if the motion is too
+  /// short.
   static std::optional<double> HalfWidth(const Step& step) {
     constexpr std::size_t kParts = 10, kMinPart = 3;  // frames
     constexpr double kStudent = 2.2621571628;         // t, 97.5 %, nine degrees of freedom

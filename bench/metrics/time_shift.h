@@ -6,35 +6,35 @@
 
 namespace etude {
 
-/// How much later than its truth an answer is.
+/// The time by which an answer is later than its truth.
 struct TimeShift {
   double shift_s = 0;                  ///< the truth at time t is the answer at t + shift_s
   std::optional<double> half_width_s;  ///< of its 95 % interval; nothing: too few frames
 };
 
-/// The largest shift, in either direction, that is searched.
+/// The largest time shift that is searched in either direction, seconds.
 constexpr double kMaxTimeShift_s = 2;
 
-/// Finds the time shift of an answer, to a fraction of a frame, from the distances between its joints. Position,
-/// heading and size of the answer therefore have no effect, and slightly different joint positions have little. Of more
-/// than twenty joints, twenty evenly chosen ones are used. The first frames of answer and truth have time 0. Each frame
-/// of the truth is compared with the answer at the shifted time, interpolated by a Catmull-Rom cubic through four
-/// frames.
+/// Finds the time shift of an answer, to a fraction of a frame, from the distances between its joints. The answer's
+/// position, heading and size therefore have no effect, and slightly different joint positions have little effect. If
+/// there are more than twenty joints, twenty evenly chosen ones are used. The first frames of answer and truth have
+/// time 0. Each frame of the truth is compared with the answer at the shifted time, interpolated by a Catmull-Rom cubic
+/// through four frames.
 ///
 /// For each pair of joints, a line α + β s with β ≥ 0 is fitted to the answer's distance f, where s is the true
 /// distance.
 /// 1. Try every whole number of the truth's frames within ±kMaxTimeShift_s; take the one at which the lines explain
 ///    most of the variance of f.
 /// 2. From there, find by Newton's method the shift at which Σ w β v · (f − α − β s) = 0 over all pairs and frames.
-/// v is the rate of s by central differences, minus its regression on 1 and s. It is the truth's rate, because the
-/// noise in the answer's rate would bias the shift towards half frames. w = 1 / (the pair's mean squared residual +
-/// 1 mm²), so pairs with a good fit dominate: if the spines differ, these are the pairs within one limb.
+/// Here v is the rate of change of s by central differences, minus its regression on 1 and s. It is the truth's rate,
+/// because the noise in the answer's rate would bias the shift towards half frames. w = 1 / (the pair's mean squared
+/// residual + 1 mm²), so pairs with a good fit dominate: if the spines differ, these are the pairs within one limb.
 ///
-/// The interval is that of a jackknife over ten equal parts of the motion (Student's t), because the errors of
+/// The interval comes from a jackknife over ten equal parts of the motion (Student's t), because the errors of
 /// successive frames are correlated. It does not include the effect of different joint positions.
 ///
-/// Returns nothing if fewer than five frames are seen by both, if the best shift lies at the end of the range, or if no
-/// distance changes because the truth stands still or moves as a rigid whole.
+/// Returns nothing if fewer than five frames are seen in both, if the best shift lies at the end of the range, or if no
+/// distance between joints changes because the truth stands still or moves rigidly.
 std::optional<TimeShift> FindTimeShift(const PointTracks& truth, double truth_rate_hz, const PointTracks& answer,
                                        double answer_rate_hz);
 

@@ -24,7 +24,7 @@ double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, ve
 
 double LowestOf(const BodyPose& pose) { return std::ranges::min(pose.joints, {}, &glm::dvec3::y).y; }
 
-/// Returns the horizontal direction from one joint to another, radians about +Y; nothing if they are nearly above each
+/// Returns the horizontal direction from one joint to another, radians about +Y; nothing if one is nearly above the
 /// other.
 std::optional<double> HeadingOf(const glm::dvec3& from, const glm::dvec3& to) {
   constexpr double kShort = 0.03;
@@ -32,7 +32,7 @@ std::optional<double> HeadingOf(const glm::dvec3& from, const glm::dvec3& to) {
   return std::hypot(x, z) < kShort ? std::nullopt : std::optional(std::atan2(x, z));
 }
 
-/// Returns the turn from one heading to another, in [−π, π].
+/// Returns the turn from one heading to another, radians, in [−π, π].
 double Turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
 
 /// Returns the heading of the hips: perpendicular to the line between them, radians about +Y.
@@ -41,9 +41,9 @@ std::optional<double> HipHeading(const BodyPose& pose) {
   return line ? std::optional(*line - 0.5 * kPi) : std::nullopt;
 }
 
-/// Returns the acceleration of the mass centre in every frame, metres per second². A least-squares parabola through the
-/// nine frames (0.3 s) around a frame gives it; near an end, the nearest frame that has nine frames around it does. All
-/// are 0 if the motion is shorter.
+/// Returns the acceleration of the centre of mass in every frame, metres per second². It comes from the least-squares
+/// parabola through the nine frames (0.3 s) around the frame. Near an end of the motion, a frame takes the value of the
+/// nearest frame that has nine frames around it. All values are 0 if the motion is shorter than nine frames.
 std::vector<glm::dvec3> MassAccelerations(std::span<const glm::dvec3> centres, double rate_hz) {
   constexpr int kReach = 4;
   const int last = static_cast<int>(centres.size()) - 1;
@@ -59,9 +59,9 @@ std::vector<glm::dvec3> MassAccelerations(std::span<const glm::dvec3> centres, d
   return accelerations;
 }
 
-/// Returns the largest excess of a joint of a pose over its limit, degrees; 0 if all are within. `bears` holds the
-/// joints that bear the body. A foot's direction relative to the hips is judged only if the foot bears the body and the
-/// trunk is upright.
+/// Returns the largest angle by which a joint of a pose exceeds its limit, degrees; 0 if all joints are within their
+/// limits. `bears` holds the joints that bear the body. A foot's direction relative to the hips is judged only if the
+/// foot bears the body and the trunk is upright.
 double BeyondJoints(const BodyPose& pose, const JointSet& bears) {
   constexpr double kKnee = 25, kMinElbow = 20, kMinKnee = 20, kNeck = 75, kTrunk = 75, kInward = 60, kOutward = 110;
   constexpr double kUpright = 0.7;
@@ -69,7 +69,7 @@ double BeyondJoints(const BodyPose& pose, const JointSet& bears) {
     return Degrees(AngleBetween(pose[a] - pose[b], pose[c] - pose[b]));
   };
   double worst = std::max(0.0, 180 - angle(kSpine, kShoulderCentre, kHead) - kNeck);
-  // The trunk's twist, about its own axis.
+  // Measure the trunk's twist about its own axis.
   const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre], axis = UnitOr(trunk, {0, 1, 0});
   const auto across = [&](Role left) {
     const glm::dvec3 line = pose[left] - pose[Mirrored(left)];
@@ -92,7 +92,8 @@ double BeyondJoints(const BodyPose& pose, const JointSet& bears) {
   return worst;
 }
 
-/// Returns the largest depth of an arm in trunk, neck or head, or of one shank in the other, centimetres; 0 if none is.
+/// Returns the largest depth by which an arm overlaps the trunk, neck or head, or one shank the other, centimetres; 0
+/// if nothing overlaps.
 double Overlap(const BodyPose& pose) {
   constexpr double kArm = 0.035, kLegs = 0.03;
   const double legs = SegmentDistance(pose[kLeftKnee], pose[kLeftAnkle], pose[kRightKnee], pose[kRightAnkle]);
@@ -123,13 +124,13 @@ struct Moving {
   std::vector<glm::dvec3> centres = {}, accelerations = {};
 };
 
-/// Measures all that does not depend on the clips; glide_cm and sunk_cm stay 0.
+/// Measures everything in a frame that does not depend on the clips; glide_cm and sunk_cm stay 0.
 BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   constexpr double kFriction = 1, kCarried = 0.5, kRest = 0.3;
   const BodyPose &pose = moving.poses[f], &velocity = moving.velocities[f];
   BodyFrame frame;
   frame.flight = support.flight;
-  // The force per mass that the ground must exert (slip), and the point where it acts (ZMP).
+  // Compute the force per mass that the ground must exert (slip), and the point at which it acts (ZMP).
   if (!support.flight && support.joints.any()) {
     const glm::dvec3 &a = moving.accelerations[f], &c = moving.centres[f];
     const double up = a.y + kGravity;
@@ -144,7 +145,7 @@ BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   }
   frame.beyond_deg = BeyondJoints(pose, support.joints);
   frame.overlap_cm = Overlap(pose);
-  // The heading of the hips relative to feet at rest.
+  // Compute the heading of the hips relative to each foot at rest.
   const auto hips = HipHeading(pose);
   for (std::size_t i = 0; i < kSides.size(); ++i) {
     const Role ankle = OnSide(kSides[i], kLeftAnkle), foot = OnSide(kSides[i], kLeftFoot);
@@ -157,9 +158,9 @@ BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   return frame;
 }
 
-/// Returns the largest value that is reached in each of `length` successive frames: the maximum of the minima over such
-/// runs. Frames without a value are skipped, but a flight ends a run. 0 if no run is long enough; nothing if no frame
-/// has a value.
+/// Returns the largest value that is sustained over `length` successive frames: the maximum, over all runs of that
+/// length, of the run's minimum. Frames without a value are skipped, but a flight ends a run. Returns 0 if no run is
+/// long enough, and nothing if no frame has a value.
 template <class Value>
 std::optional<double> Sustained(std::span<const BodyFrame> frames, std::size_t length, const Value& value) {
   std::optional<double> worst;
@@ -188,7 +189,7 @@ double FarthestGlide(std::span<const BodyFrame> frames) {
   return farthest;
 }
 
-/// Returns the largest turn of the hips against a foot while it rests, degrees.
+/// Returns the largest turn of the hips relative to a foot while the foot rests, degrees.
 double LargestTwist(std::span<const BodyFrame> frames) {
   double largest = 0;
   for (std::size_t side = 0; side < kSides.size(); ++side) {
@@ -210,7 +211,7 @@ double LargestTwist(std::span<const BodyFrame> frames) {
   return Degrees(largest);
 }
 
-/// Returns the values of kBodyRules, in their order, from those of all frames.
+/// Reduces the measurements of all frames to one value for each of kBodyRules, in the order of the rules.
 BodyMeasures Reduced(std::span<const BodyFrame> frames) {
   constexpr std::size_t kZmp = 5, kSlip = 3, kJoint = 3, kOverlap = 2, kSunk = 4;
   const auto of = [](double BodyFrame::*member) {
@@ -225,13 +226,13 @@ BodyMeasures Reduced(std::span<const BodyFrame> frames) {
           Sustained(frames, kSunk, of(&BodyFrame::sunk_cm))};
 }
 
-/// One of the clips of a join: the same measurements of the clip alone, at the time of the join.
+/// Measures one of the joined clips by itself, at the time of the join.
 class BesideClip {
  public:
-  /// `begin` is the index of poses[0] in the shown motion. Measures the clip in the shown motion's frames `first` …
-  /// `last` and a second on either side.
+  /// `begin` is the shown motion's frame at which poses[0] stands. Measures the clip from frame `first` to frame `last`
+  /// of the shown motion, and one second more on either side.
   BesideClip(std::span<const BodyPose> poses, int begin, int first, int last, double rate_hz) {
-    // One second more on either side, because support depends on the frames around.
+    // Include one more second on either side, because support depends on the frames around.
     constexpr int kAround = 30;
     const int from = std::clamp(first - begin - kAround, 0, static_cast<int>(poses.size()) - 1);
     const int to = std::clamp(last - begin + kAround, from, static_cast<int>(poses.size()) - 1);
@@ -246,14 +247,14 @@ class BesideClip {
     }
   }
 
-  /// Returns the frames within `reach` of a shown frame; the clip's first or last frame stands for those that it does
-  /// not have.
+  /// Returns the measurements of the clip within `reach` frames of a shown frame. Beyond the clip's ends, its first or
+  /// last frame is used.
   std::span<const BodyFrame> Around(int frame, int reach) const {
     const auto [from, to] = Indices(frame, reach);
     return std::span(frames_).subspan(from, to - from + 1);
   }
 
-  /// Returns the lowest height of a joint of the clip within a third of a second of a shown frame, metres.
+  /// Returns the height of the clip's lowest joint within a third of a second of a shown frame, metres.
   double Floor(int frame) const {
     constexpr int kWindow = 10;
     const auto [from, to] = Indices(frame, kWindow);
@@ -263,8 +264,8 @@ class BesideClip {
   }
 
   std::span<const BodyPose> poses() const { return poses_; }
-  /// Returns the index in poses() of a shown frame if this joint, or no joint, bears the clip's body in it; else
-  /// nullopt.
+  /// Returns the index in poses() of a shown frame, if this joint bears the clip's body in that frame or no joint does.
+  /// Returns nullopt otherwise.
   std::optional<int> BearsAt(int frame, std::size_t joint) const {
     const int now = frame - begin_;
     if (now < 0 || now >= static_cast<int>(poses_.size())) return std::nullopt;
@@ -284,9 +285,10 @@ class BesideClip {
   std::vector<JointSet> bears_;
 };
 
-/// Returns the horizontal distance that a joint moves from the frame before or to the frame after, whichever is
-/// shorter, centimetres: a joint that has just come to rest, or is about to leave, counts as at rest. With a clip, the
-/// movement of the clip's joint at its frame `clip_frame` is subtracted first. Nothing if neither frame exists.
+/// Returns the horizontal distance that a joint moves from the previous frame or to the next, whichever is shorter,
+/// centimetres. A joint that has just come to rest or is about to leave therefore counts as at rest. If a clip is
+/// given, the movement of the clip's joint at its frame `clip_frame` is subtracted first. Returns nothing if neither
+/// neighbour frame exists.
 std::optional<double> TravelOf(std::span<const BodyPose> poses, int frame, std::size_t joint,
                                std::span<const BodyPose> clip = {}, int clip_frame = 0) {
   std::optional<double> slowest;
@@ -309,7 +311,7 @@ std::optional<double> TravelOf(std::span<const BodyPose> poses, int frame, std::
   return slowest;
 }
 
-/// Returns the least of `speed(joint)` over the joints of a set; 0 for an empty set.
+/// Returns the smallest `speed(joint)` over the joints of a set; 0 for an empty set.
 template <class Speed>
 double SlowestOf(const JointSet& joints, const Speed& speed) {
   std::optional<double> slowest;
@@ -321,7 +323,8 @@ double SlowestOf(const JointSet& joints, const Speed& speed) {
   return slowest.value_or(0);
 }
 
-/// Sets a value to 0 if it is at most 1.25 times the clips' own largest value within three frames of this one.
+/// Sets a measurement of a frame to 0 if it is at most 1.25 times the largest that the clips themselves reach within
+/// three frames of it.
 void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame) {
   constexpr int kReach = 3;
   constexpr double kAllowance = 1.25;
@@ -344,7 +347,7 @@ void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame
 
 BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support) {
   const int end = view.first + static_cast<int>(support.size()) - 1;
-  // Measure each clip alone.
+  // Measure each clip by itself.
   std::vector<BesideClip> clips;
   const auto add = [&](std::span<const BodyPose> poses, int begin) {
     if (!poses.empty()) clips.emplace_back(poses, begin, view.first, end, view.rate_hz);
@@ -355,7 +358,8 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
   // Measure each frame of the join.
   JointSet feet;
   for (const Side side : kSides) feet.set(Index(OnSide(side, kLeftAnkle))).set(Index(OnSide(side, kLeftFoot)));
-  // Velocities and accelerations depend on four frames on either side, or on nine at an end of the motion.
+  // Velocities and accelerations depend on four frames on either side; at an end of the motion, they depend on nine
+  // frames on one side.
   constexpr int kReach = 8;
   const int from = std::max(view.first - kReach, 0);
   const Moving moving(view.shown.subspan(from, std::min<std::size_t>(end + kReach + 1, view.shown.size()) - from),
@@ -365,8 +369,8 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
     const Support& held = support[f - view.first];
     BodyFrame frame = FrameOf(moving, f - from, held);
     Excuse(clips, f, frame);
-    // Glide: the travel of the slowest supporting joint or, without support, of the slowest foot joint. If a clip is
-    // supported by that joint too, travel relative to the clip counts if it is shorter.
+    // Glide is the distance moved by the slowest supporting joint or, without support, by the slowest joint of the
+    // feet. If this joint supports the body in a clip too, the movement relative to the clip counts if it is shorter.
     if (!held.flight) {
       frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
         double slowest = TravelOf(view.shown, f, j).value_or(0);
@@ -377,14 +381,14 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
         return slowest;
       });
     }
-    // Depth below the lowest joint of the clips.
+    // Measure the depth below the lowest joint of the clips.
     double floor = clips.front().Floor(f);
     for (const BesideClip& clip : clips) floor = std::min(floor, clip.Floor(f));
     frame.sunk_cm = kToCm * std::max(floor - LowestOf(view.shown[f]), 0.0);
     frames.push_back(frame);
   }
   BodyMeasures measures = Reduced(frames);
-  // A turn of at most 1.25 times a clip's own counts as 0.
+  // A turn counts as 0 if it is at most 1.25 times the turn in a clip.
   constexpr std::size_t kTurn = 3;
   constexpr double kAllowance = 1.25;
   for (const BesideClip& clip : clips) {

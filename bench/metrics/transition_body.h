@@ -13,15 +13,15 @@
 
 namespace etude {
 
-/// A limit that a human body keeps, and the metric that is compared with it. The metric is computed from the motion
-/// alone (docs/reference/metrics.md, Transitions).
+/// A limit that a human body keeps, and the metric that is compared with the limit. The metric is computed from the
+/// motion alone (docs/reference/metrics.md, Transitions).
 struct BodyRule {
   std::string_view metric;
   double limit = 0;        ///< largest value of a clean transition, in the unit of `metric`
   std::string_view unmet;  ///< why a value may be missing; empty: it never is
 };
 
-/// The rules of clean_share version 4, in the order of the values of BodyMeasures.
+/// The rules of clean_share version 4. BodyMeasures holds its values in this order.
 constexpr std::array kBodyRules = {
     BodyRule{"zmp_off_cm", 25, "the ground never bears half of the weight"},
     BodyRule{"slip_mps2", 2, "the body has no support"},
@@ -31,15 +31,15 @@ constexpr std::array kBodyRules = {
     BodyRule{"overlap_cm", 0, ""},
     BodyRule{"sunk_cm", 3, ""},
 };
-/// One value for each of kBodyRules.
+/// The measured values, one for each of kBodyRules; nullopt if a value is missing.
 using BodyMeasures = std::array<std::optional<double>, kBodyRules.size()>;
 
-/// Measures the body of a join in the frames of `support`, which JoinSupport returned: one entry per frame from
-/// `view.first` on. Values that a clip itself reaches at that time do not count against the join;
+/// Measures how far the body of a join departs from possible motion. `support` is the result of JoinSupport: one entry
+/// per frame from `view.first` on. A value does not count against the join if a clip itself reaches it at that time.
 /// docs/reference/metrics.md gives the rule of each measure.
 BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support);
 
-/// Returns true if no value exceeds its limit, rounding aside. A missing value exceeds none.
+/// Returns true if no value exceeds its limit by more than rounding. A missing value exceeds no limit.
 bool IsPossible(const BodyMeasures& measures);
 
 }  // namespace etude

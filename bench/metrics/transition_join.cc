@@ -23,7 +23,8 @@ bool HasArrived(const BodyPose& shown, const BodyPose& wanted) {
                              [&](Role role) { return glm::distance(shown[role], wanted[role]) <= kArrived; });
 }
 
-/// Returns the largest second difference of any joint at a frame; nothing if a neighbour frame is missing.
+/// Returns the largest second difference of any joint at a frame, centimetres; nothing if a neighbouring frame is
+/// missing.
 std::optional<double> JumpCm(std::span<const BodyPose> poses, int frame) {
   if (frame < 1 || frame + 1 >= static_cast<int>(poses.size())) return std::nullopt;
   double worst = 0;
@@ -34,7 +35,7 @@ std::optional<double> JumpCm(std::span<const BodyPose> poses, int frame) {
   return kCmPerMetre * worst;
 }
 
-/// Returns the larger of the jumps that the two clips themselves have at a frame of the join.
+/// Returns the larger of the two clips' own jumps at a frame of the join, centimetres.
 double OwnJumpCm(const JoinView& view, int frame) {
   return std::max(JumpCm(view.left, frame).value_or(0), JumpCm(view.wanted, frame - view.last).value_or(0));
 }
@@ -45,7 +46,7 @@ double MeanOf(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Returns the smallest mean of ten successive speeds; nothing if there are fewer.
+/// Returns the smallest mean of ten successive speeds; nothing if there are fewer than ten.
 std::optional<double> SlowestTen(std::span<const double> speeds) {
   std::optional<double> slowest;
   for (std::size_t i = 0; i + kLiveFrames <= speeds.size(); ++i) {
@@ -103,14 +104,14 @@ double Liveness(const JoinView& view) {
 }
 
 RealFrames::Row RealFrames::RowOf(const BodyPose& before, const BodyPose& now, double rate_hz) {
-  // Hands and feet come first because they differ most, so the sum over a distant frame exceeds the best one early.
+  // Hands and feet come first because they differ most. The sum over a distant frame then exceeds the best sum early.
   using enum Role;
   static constexpr std::array kOrder = {kLeftHand,       kRightHand,    kLeftFoot,      kRightFoot, kHead,
                                         kLeftElbow,      kRightElbow,   kLeftKnee,      kRightKnee, kHipCentre,
                                         kShoulderCentre, kLeftWrist,    kRightWrist,    kLeftAnkle, kRightAnkle,
                                         kSpine,          kLeftShoulder, kRightShoulder, kLeftHip,   kRightHip};
   static_assert(kOrder.size() == kRoleCount);
-  // Joint positions and scaled velocities, relative to the body's place and heading.
+  // Write joint positions and scaled velocities, relative to the body's position and heading on the floor.
   const FloorMove to_origin = ToOrigin(now);
   const BodyPose places = to_origin.Apply(now), places_before = to_origin.Apply(before);
   Row row{};
@@ -137,7 +138,7 @@ double RealFrames::DistanceCm(const BodyPose& before, const BodyPose& now, doubl
   const Row query = RowOf(before, now, rate_hz);
   constexpr std::size_t kStep = 12;
   static_assert(kNumbers % kStep == 0);
-  // The squared distance to a row; the sum stops once it reaches `enough`.
+  // Returns the squared distance to a row. The summation stops once the sum reaches `enough`.
   const auto squared = [&](const Row& row, double enough) {
     double sum = 0;
     for (std::size_t i = 0; i < kNumbers && sum < enough; i += kStep) {
@@ -149,7 +150,7 @@ double RealFrames::DistanceCm(const BodyPose& before, const BodyPose& now, doubl
     return sum;
   };
   constexpr double kNever = 1e300;
-  // A good first candidate lets most rows stop early.
+  // Begin with a row that is probably near, because then most other sums stop early.
   nearest = std::min(nearest, rows_.size() - 1);
   double best = squared(rows_[nearest], kNever);
   for (std::size_t i = 0; i < rows_.size(); ++i) {

@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// A join as it was shown, with the clips that it joins (docs/reference/metrics.md, Transitions). All motions have the
-/// judged rate and are in metres.
+/// A join as it was shown, together with the two clips that it joins (docs/reference/metrics.md, Transitions). All
+/// motions have the rate at which joins are judged and are in metres.
 struct JoinView {
   std::span<const BodyPose> shown;   ///< the spliced motion
   std::span<const BodyPose> left;    ///< the old clip, continued: left[f] is its own frame at the time of shown[f],
@@ -20,16 +20,16 @@ struct JoinView {
                                      ///< k]
   int request = 0;                   ///< the frame shown when the wanted clip was requested
   int first = 0;                     ///< the frame of the first transition point
-  int last = 0;                      ///< of the last one
+  int last = 0;                      ///< the frame of the last transition point
   double rate_hz = kJudgedRateHz;
   std::vector<SupportingClip> between = {};  ///< the clips in between, placed where they are shown
 };
 
-/// A frame has arrived if every joint is at most this far from the wanted clip's own frame. Metres.
+/// A frame has arrived at the wanted clip if every joint is at most this far from its position in the clip, metres.
 constexpr double kArrived = 0.05;
 
-/// Returns the first frame, from the last transition point on, after which every frame up to the motion's end has
-/// arrived; nothing if the last frame has not.
+/// Returns the first frame, at or after the last transition point, from which all frames up to the motion's end have
+/// arrived. Returns nothing if the motion's last frame has not arrived.
 std::optional<int> SettledFrame(const JoinView& view);
 
 /// Returns `settle_s`, the time from the request to SettledFrame; nothing if the join never settles.
@@ -39,31 +39,32 @@ std::optional<double> SettleSeconds(const JoinView& view);
 /// five frames after the last transition point, if the motion is that long.
 int JoinEnd(const JoinView& view);
 
-/// Returns `join_slide_cmps`: FootSlideCmps from the first transition point to the join's end, or to a second after the
-/// last point if that is later. A frame after the first point is required.
+/// Returns `join_slide_cmps`: FootSlideCmps from the first transition point to the join's end, or to one second after
+/// the last transition point if that is later. A frame after the first point is required.
 double JoinSlideCmps(const JoinView& view);
 
-/// Returns true if the transition counts for `calm_natural_share`: at every frame from the first transition point to
-/// the join's end, the jump is at most the largest of `limit_cm` (the limit of the calmer clip), 1 cm, and 1.25 times
-/// the larger jump of the two clips at that frame.
+/// Returns true if the transition counts for `calm_natural_share`. At every frame from the first transition point to
+/// the join's end, the jump must be at most the largest of `limit_cm` (the limit of the calmer clip), 1 cm, and 1.25
+/// times the larger jump of the two clips at that frame.
 bool IsCalmlyNatural(const JoinView& view, double limit_cm);
 
-/// Returns `live`: the mean joint speed in the slowest ten successive frames of the join, divided by that in the
-/// slowest ten of the second before or of the second after it, whichever is slower; at most 1. It is 1 if the divisor
-/// is below 5 cm/s, or if there are too few frames.
+/// Returns `live`: the mean joint speed in the slowest ten successive frames of the join, divided by the mean joint
+/// speed in the slowest ten successive frames of a clip. The divisor is the smaller of the values in the second before
+/// and in the second after the join. The result is at most 1. It is 1 if the divisor is below 5 cm/s, or if there are
+/// too few frames.
 double Liveness(const JoinView& view);
 
-/// The frames of a library's clips, for finding the distance from a frame to the nearest of them.
+/// All frames of a library's clips. Finds the distance from a given frame to the nearest of them.
 class RealFrames {
  public:
   RealFrames() = default;
   explicit RealFrames(std::span<const BodyMotion> clips);
 
-  /// Returns the distance to the nearest frame, centimetres: √(mean over joints of d² + (0.1 s · v)²), where d and v
-  /// are the differences of position and velocity after both bodies are turned to one heading and moved over one point
-  /// of the floor. `before` is the frame before `now`. At least one frame with a velocity (not the first of a clip) is
-  /// required. The search begins at frame `nearest` and stores the index of the nearest frame there; the result does
-  /// not depend on where it begins.
+  /// Returns the distance to the nearest frame, centimetres: √(mean over joints of d² + (0.1 s · v)²). d and v are the
+  /// differences of the joint's position and velocity, after both bodies are turned to the same heading and moved to
+  /// the same point of the floor. `before` is the frame before `now`. The library must contain at least one frame that
+  /// is not the first of its clip. The search begins at frame `nearest` and stores the index of the nearest frame
+  /// there. The result does not depend on the frame at which the search begins.
   double DistanceCm(const BodyPose& before, const BodyPose& now, double rate_hz, std::size_t& nearest) const;
 
  private:
@@ -75,11 +76,11 @@ class RealFrames {
 };
 
 /// Returns `strange_cm_s`: the distance to the nearest real frame, integrated over the join's frames after the first
-/// transition point.
+/// transition point, centimetre seconds.
 double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
 
-/// Finds what supports the body from the first transition point to the join's end, or for 1.2 s if that is longer and
-/// the motion is that long. Support is found from the clips, never from the shown frames (FindSupport).
+/// Returns the support of the body in each frame from the first transition point to the join's end, or for at least 1.2
+/// s if the motion is that long. Support is found from the clips, never from the shown frames (FindSupport).
 std::vector<Support> JoinSupport(const JoinView& view);
 
 /// A transition floats if the body is unsupported for at least this many frames in a row. Shorter gaps are not visible.
@@ -89,20 +90,21 @@ int UnsupportedFrames(std::span<const Support> support);
 /// Returns true if the transition counts for `supported_share`.
 bool IsSupported(std::span<const Support> support);
 
-/// Returns `balance_cm`: the distance, on the floor, from the projected centre of mass to the joints that bear the body
-/// (BalanceOffset), as a mean over the frames of `support` that have such joints; nothing if there are none. `support`
-/// is JoinSupport's.
+/// Returns `balance_cm`: the horizontal distance from the centre of mass to the joints that bear the body
+/// (BalanceOffset), as a mean over the frames of `support` in which some joints bear it. Returns nothing if there is no
+/// such frame. `support` is the result of JoinSupport.
 std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> support);
 
-/// The start of the wanted clip that the transition skips. A motion that continues without a transition enters no clip.
+/// The start of the wanted clip, which the transition skips. If the motion continues without a transition, no clip is
+/// entered.
 struct SkippedStart {
   std::optional<int> entered_frame;  ///< the frame at which the wanted clip is entered
   int frames = 1;                    ///< number of frames of the wanted clip
   double rate_hz = kJudgedRateHz;
 };
-/// Returns `skipped_s`: the skipped time.
+/// Returns `skipped_s`: the duration of the skipped start, seconds.
 constexpr double SkippedSeconds(const SkippedStart& start) { return start.entered_frame.value_or(0) / start.rate_hz; }
-/// Returns `skipped_share`: the skipped share of the clip's frames.
+/// Returns `skipped_share`: the length of the skipped start as a share of the clip's frames.
 constexpr double SkippedShare(const SkippedStart& start) {
   return static_cast<double>(start.entered_frame.value_or(0)) / start.frames;
 }
@@ -116,11 +118,11 @@ struct CleanMeasures {
   std::optional<double> settle_s;
   bool possible = false;  ///< all measures of its body are within their limits (transition_body.h)
 };
-/// Returns true if the transition is clean by `clean_share_v3`: natural and calmly natural, slide ≤ 6 cm/s or ≤ that of
-/// the clips themselves, settled within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5, supported, at most a third of the wanted
-/// clip skipped. `possible` is not considered.
+/// Returns true if the transition is clean by `clean_share_v3`: natural and calmly natural, slide ≤ 6 cm/s or ≤ the
+/// slide of the clips themselves, settled within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5, supported, at most a third of
+/// the wanted clip skipped. `possible` is ignored.
 bool IsCleanByVersion3(const CleanMeasures& measures);
-/// Returns true if the transition is clean by `clean_share`: by version 3, and possible.
+/// Returns true if the transition is clean by `clean_share`: clean by version 3, and possible for a human body.
 inline bool IsClean(const CleanMeasures& measures) { return IsCleanByVersion3(measures) && measures.possible; }
 
 }  // namespace etude

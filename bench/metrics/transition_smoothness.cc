@@ -34,7 +34,8 @@ Jump JumpAt(const BodyMotion& motion, int frame) {
   return jump;
 }
 
-/// Returns the smallest rotation that takes one limb direction to the next: positions do not determine the twist.
+/// Returns the smallest rotation that turns one limb direction into the next. Positions do not determine the twist, so
+/// it is left out.
 glm::dquat StepRotation(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 normal = glm::cross(from, to);
   const double length = glm::length(normal);
@@ -57,7 +58,7 @@ double RotationStepChangeAt(const BodyMotion& motion, int frame) {
   return largest;
 }
 
-/// Returns the largest third difference of any joint over the frames frame − 1 … frame + 2.
+/// Returns the largest third difference of any joint over the frames from frame − 1 to frame + 2.
 double ThirdDifferenceAt(const BodyMotion& motion, int frame) {
   double largest = 0;
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) {
@@ -101,7 +102,7 @@ std::vector<double> SecondDifferencesCm(const BodyMotion& motion) {
 std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
   const std::vector<double> differences = SecondDifferencesCm(clip);
   std::vector<double> jumps;
-  // The first frame has no second difference, so the first whole window starts at frame 1.
+  // The first frame has no second difference, so the first complete window starts at frame 1.
   constexpr std::size_t kWindow = 2 * kWindowReach + 1;
   for (std::size_t first = 1; first + kWindow < differences.size(); ++first) {
     const auto begin = differences.begin() + static_cast<std::ptrdiff_t>(first);
@@ -113,8 +114,8 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
 double NaturalLimitCm(std::vector<double> natural_jumps) { return Quantile(natural_jumps, 0.95); }
 
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm) {
-  // With few windows the percentile is the value of one window; without a tolerance, rounding could make a motion fail
-  // against itself.
+  // With few windows, the percentile is the value of one window. Without a tolerance, rounding could then make a motion
+  // exceed its own limit.
   constexpr double kSlack = 1 + 1e-9;
   return jump_cm && *jump_cm <= kSlack * NaturalLimitCm(std::move(natural_jumps_cm));
 }

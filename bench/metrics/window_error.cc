@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Returns the powers of the Fourier coefficients of windows of one length.
+/// Computes the powers of the Fourier coefficients of windows of one length.
 class PowerSpectrum {
  public:
   PowerSpectrum(std::size_t length, PowerOf kind) : length_(length), kind_(kind) {
@@ -21,9 +21,9 @@ class PowerSpectrum {
     }
   }
 
-  /// Writes the power of each frequency of one channel in the window that begins at `first`, and returns their sum. If
-  /// the sum is only rounding error, it and all powers are set to zero. The coefficients of real values come in
-  /// conjugate pairs, so half of them are computed.
+  /// Writes the power of each frequency of one channel in the window that begins at `first`, and returns the sum of the
+  /// powers. If the sum is only rounding error, the sum and all powers are zero. The coefficients of real values come
+  /// in conjugate pairs, so only half of them are computed.
   double Compute(const ChannelTracks& tracks, std::size_t first, std::size_t channel,
                  std::vector<double>& powers) const {
     powers.assign(length_, 0.0);
@@ -54,7 +54,8 @@ class PowerSpectrum {
   std::vector<double> cosines_, sines_;
 };
 
-/// Returns Σ |cumulated share of a − cumulated share of b|; shares are those of `sum_a` and `sum_b`.
+/// Returns Σ |cumulated share of a − cumulated share of b| over all frequencies. The shares of `a` are relative to
+/// `sum_a`, the shares of `b` to `sum_b`.
 double CumulatedDistance(std::span<const double> a, double sum_a, std::span<const double> b, double sum_b) {
   double of_a = 0, of_b = 0, distance = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {

@@ -31,7 +31,7 @@ View RowsOf(const View& all, const RowRange& rows) {
   return view;
 }
 
-/// All effects but motion blur, as strong as in a cheap camera.
+/// All camera effects except motion blur, as strong as in a cheap camera.
 constexpr CameraEffects kAll{.sync_offset_ms = 10,
                              .clock_drift_ppm = 100,
                              .rolling_shutter_ms = 20,
@@ -47,7 +47,7 @@ constexpr CameraEffects kAll{.sync_offset_ms = 10,
                              .noise = 1,
                              .jpeg_loss = 20};
 
-// Without drawing: the scene is copied from a picture drawn before.
+// Times effects without drawing: the scene is copied from a picture drawn before.
 void Effect(benchmark::State& state, const CameraEffects& effects) {
   const auto renderer = Renderer::Create();
   if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
@@ -76,7 +76,7 @@ ETUDE_EFFECT(jpeg, {.noise = 0, .jpeg_loss = 20});
 ETUDE_EFFECT(motion_blur, {.motion_blur = 0.5, .noise = 0});
 BENCHMARK_CAPTURE(Effect, all_but_motion_blur, kAll)->Unit(benchmark::kMillisecond);
 
-// With drawing: a picture of a take.
+// Times a picture of a take, with drawing.
 void Shot(benchmark::State& state, const CameraEffects& effects) {
   const auto renderer = Renderer::Create();
   if (!renderer) return state.SkipWithError(renderer.error().message.c_str());

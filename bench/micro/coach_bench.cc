@@ -1,5 +1,5 @@
-// Times a frame of the coach's loop as a whole and by stage: the learner, the sensor, the eyes (filter and features),
-// each recogniser, and the coach's own step.
+// Times one frame of the coach's loop, as a whole and by stage: the learner, the sensor, filter and features, each
+// recogniser, and the coach's own step.
 //   build/release/bench/micro/coach_bench --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
 
@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-/// The log of a session of one minute with a coach that corrects at the first mistake.
+/// The log of a session of one minute with a coach that corrects after the first mistake.
 struct Lesson {
   CoachCondition condition;
   CoachStage stage = *SetCoachStage("groove");
@@ -63,7 +63,7 @@ void WholeSession(benchmark::State& state, const std::string& recogniser) {
   CountFrames(state, lesson.log.Frames());
 }
 
-/// Times the learner alone, who sees the output of a coach that never interrupts.
+/// Times the learner alone. The learner sees a coach that never interrupts.
 void LearnerAlone(benchmark::State& state) {
   Lesson& lesson = TheLesson();
   const ReadyCoach& ready = lesson.ReadyWith("dtw");

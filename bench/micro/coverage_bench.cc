@@ -1,7 +1,7 @@
-// Times what `etude bridge` computes of a library, without reading its files: tags, keys of in-betweens and the coverage
-// into any other clip, for 10⁴ to 10⁶ frames; and the coverage of all pairs, for the sizes at which it is affordable.
-// The library is made of performances with varied tempo and amplitude (sim/choreography/varied_library.h). Arguments
-// other than options are the clips to vary.
+// Times the computations of `etude bridge` on a library, without reading its files: tags, keys of in-betweens, and the
+// coverage of transitions into any other clip, for 10⁴ to 10⁶ frames. It also times the coverage of all pairs of clips,
+// for sizes at which that is affordable. The library is made of performances with varied tempo and amplitude
+// (sim/choreography/varied_library.h). Arguments that are not options name the clips to vary.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace etude {
 namespace {
 
-/// Tags clips of about six seconds with `frames` frames in all.
+/// Returns tagged clips of about six seconds with `frames` frames in total.
 std::vector<TaggedClip> MakeTagged(const std::vector<BodyMotion>& seeds, int frames) {
   constexpr std::size_t kClipFrames = 171;  // the mean of the 226 clips that large libraries are compared with
   RandomStream dice({.suite_seed = 1, .scenario = "coverage_bench", .trial = 0}, "library");
@@ -39,7 +39,7 @@ class Libraries {
   explicit Libraries(const std::vector<std::string>& files) {
     for (SeedClip& seed : LoadSeeds(files)) seeds_.push_back(std::move(seed.motion));
   }
-  /// Returns the tagged library of `frames` frames. It is kept until another size is asked for.
+  /// Returns the tagged library of `frames` frames. Keeps it until another size is requested.
   const std::vector<TaggedClip>& Of(int frames) {
     if (frames != frames_) tagged_ = MakeTagged(seeds_, frames);
     frames_ = frames;

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Times `etude evaluate` on hours of pairs, beside NumPy on the same arrays in the same run.
+"""Times `etude evaluate` on hours of pairs, and NumPy on the same arrays in the same run.
 
     bench/micro/evaluation_numpy.py FOLDER [--etude PROGRAM] [--hours 10] [--bvh]
 
-FOLDER receives pairs of five minutes at 30 Hz: a built-in dance, and the same with noise, another size and a drift.
-NumPy computes every positional metric, vectorised, without gaps; the script ends if a metric differs by more than 1e-8
-of its value. Times are processor seconds of one thread, with reading; memory is the most that a process held. --bvh
-measures the program on BVH files alone.
+FOLDER receives pairs of files of five minutes at 30 Hz: a built-in dance, and a copy with noise, another size and a
+drift. NumPy computes every positional metric, vectorised, on motions without gaps. The script fails if a metric differs
+by more than 1e-8 of its value. Times are processor seconds of one thread, including reading; memory is the peak of a
+process. With --bvh, only the program is measured, on BVH files.
 """
 import argparse
 import json
@@ -26,7 +26,7 @@ BENDS = [(4, 5, 6), (8, 9, 10), (12, 13, 14), (16, 17, 18)]
 
 
 def similarity(a, b):
-    """Batches of points: returns rotations, scales, and both means, of the best similarity from a to b (Umeyama)."""
+    """Returns rotations, scales and both means of the best similarities from a to b, batches of points (Umeyama)."""
     mean_a, mean_b = a.mean(1, keepdims=True), b.mean(1, keepdims=True)
     x, y = a - mean_a, b - mean_b
     u, s, vt = np.linalg.svd(y.transpose(0, 2, 1) @ x)
@@ -59,7 +59,7 @@ def by_segments(a, b, fitted):
 
 
 def all_metrics(a, b):
-    """The metrics of an answer a and its truth b, frames × joints × 3, by id."""
+    """Returns the metrics of an answer a and its truth b, by id; both are frames × joints × 3, metres."""
     found = {"mpjpe_unaligned_mm": 1000 * distances(a, b).mean(), "seen_share": 1.0}
     x, y = a - a[:, :1], b - b[:, :1]
     of_root = 1000 * distances(x, y)
@@ -83,7 +83,7 @@ def all_metrics(a, b):
     found["accel_error_mm@human_dynamics"] = 1000 / RATE ** 2 * found["accel_error_mps2"]
     found["accel_error_mps2@wham"] = RATE ** 2 * np.sqrt((np.diff(x - y, 2, axis=0) ** 2).sum(-1))[1:-1].mean()
     found["jitter@wham"] = RATE ** 3 / 10 * np.sqrt((np.diff(a, 3, axis=0) ** 2).sum(-1)).mean()
-    # Feet, on the floor at height 0.
+    # Measure the feet with respect to the floor at height 0.
     feet = a[:, FEET]
     steps = np.sqrt((np.diff(feet, axis=0)[:, :, [0, 2]] ** 2).sum(-1))
     toes, speed = feet[:, [1, 3]], RATE * steps[:, [1, 3]]
@@ -112,7 +112,7 @@ def bends(p):
 
 
 def make_pairs(etude, folder, count, ending):
-    """Writes the pairs. Those of BVH are one pair under many names."""
+    """Writes the pairs. For BVH, all of them are one pair under many names."""
     for side in "t", "m":
         (folder / side).mkdir(parents=True, exist_ok=True)
     if not (folder / "groove.npz").exists():

@@ -1,6 +1,6 @@
-// Times one sweep of coordinate descent: paper B's joints and hinges, effector by effector, and hinges in moment form;
-// forward kinematics alone for comparison. The counter `per_sweep` is the time per problem and sweep, including forward
-// kinematics and error measurement.
+// Times one sweep of coordinate descent: paper B's joints and hinges, effector by effector, and hinges in moment form.
+// For comparison, it also times forward kinematics alone. The counter `per_sweep` is the time per problem and sweep,
+// including forward kinematics and error measurement.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-// Makes a problem whose truth lies within the middle half of every range and has no joint at its rest angle. The start
-// differs from it by up to 15° per angle.
+// Makes a problem whose true angles lie within the middle half of every range and differ from the rest angles. The
+// start differs from the truth by up to 15° per angle.
 IkProblem MakeProblem(const KinematicTree& tree, double phase = 1) {
   TreeState truth = StandingState(tree);
   IkProblem problem{truth, {}, tree.limits};

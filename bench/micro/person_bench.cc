@@ -1,4 +1,5 @@
-// Times finding the person in a picture of 640 × 480: our segmenters and, if OpenCV is installed, its functions.
+// Times how long it takes to find the person in a picture of 640 × 480, with our segmenters and, if OpenCV is
+// installed, with its functions.
 //   build/release/bench/micro/person_bench --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
 
@@ -20,20 +21,23 @@ constexpr int kPictures = 4, kStepPx = 9;  // the person's movement from picture
 
 std::uint8_t Level(double value) { return static_cast<std::uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value + 0.5); }
 
-/// Returns true if a pixel is in an ellipse that is moved to the right by `shift` pixels.
+/// Returns true if a pixel is inside the ellipse with centre (cx, cy) and radii (rx, ry), moved to the right by `shift`
+/// pixels.
 bool IsIn(int x, int y, int shift, double cx, double cy, double rx, double ry) {
   const double u = (x - cx - shift) / rx, v = (y - cy) / ry;
   return u * u + v * v < 1;
 }
 
-/// Returns true if a pixel is the person's: head, trunk, arms, legs. The small hole in the trunk counts as the person.
+/// Returns true if a pixel belongs to the person's head, trunk, arms or legs. The small hole in the trunk belongs to
+/// the person.
 bool IsPerson(int x, int y, int shift) {
   const auto in = [&](double cx, double cy, double rx, double ry) { return IsIn(x, y, shift, cx, cy, rx, ry); };
   return in(320, 120, 22, 28) || in(320, 220, 45, 80) || in(270, 210, 12, 70) || in(370, 210, 12, 70) ||
          in(300, 350, 20, 90) || in(340, 350, 20, 90);
 }
 
-/// Draws a coloured wall and floor, and the person moved by `shift` pixels, with noise (standard deviation 2 of 255).
+/// Draws a coloured wall and floor with noise (standard deviation 2 of 255), and the person, moved to the right by
+/// `shift` pixels.
 ColourImage Room(const char* noise, int shift, bool has_person) {
   RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "person-bench", .trial = shift}, noise);
   ColourImage picture(kWidth, kHeight);
@@ -70,8 +74,8 @@ const std::vector<ColourImage>& Pictures() {
   return pictures;
 }
 
-/// Returns the mean intersection over union of found and true person. First the finder sees one second of the empty
-/// room, from which some models learn the background.
+/// Returns the mean intersection over union of the found and the true person. The finder first sees one second of the
+/// empty room, from which some models learn the background.
 template <typename Finder>
 double IouOf(Finder& finder) {
   constexpr int kEmptyPictures = 30;
@@ -112,7 +116,7 @@ BENCHMARK_CAPTURE(Ours, hue_gated, Segmenter::kHueGated)->Unit(benchmark::kMicro
 BENCHMARK_CAPTURE(Ours, ratio, Segmenter::kRatio)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Ours, running, Segmenter::kRunning)->Unit(benchmark::kMicrosecond);
 
-/// Times the classification of pixels alone, without the choice of the largest piece and the filling of holes.
+/// Times the classification of pixels alone. The choice of the largest piece and the filling of holes are left out.
 void OursDetect(benchmark::State& state) {
   PersonFinder finder(Background(), {.segmenter = Segmenter::kHue, .change = {}});
   std::size_t i = 0;
@@ -124,7 +128,7 @@ void OursDetect(benchmark::State& state) {
 BENCHMARK(OursDetect)->Unit(benchmark::kMicrosecond);
 
 #ifdef ETUDE_HAS_OPENCV
-/// Returns the number of pixels, over all pictures, in which a peer's mask differs from ours.
+/// Returns the number of pixels, over all pictures, in which the peer's mask differs from our mask.
 template <typename Finder>
 std::size_t DifferentFromOurs(Finder& peer) {
   PersonFinder ours(Background(), {.segmenter = Segmenter::kHue, .change = {}});

@@ -1,6 +1,6 @@
-// Times the planning of one transition by every choice, with clips of 1,000 frames (33 s) and one second to wait. The
-// point-cloud choice is also timed as its paper describes it, which computes the distance of every pair of frames.
-// Before measuring, the program checks that both implementations find the same frames.
+// Times the planning of one transition by every choice, with clips of 1,000 frames (33 s) and an allowed wait of one
+// second. The point-cloud choice is also timed in the form of its paper, which computes the distance of every pair of
+// frames. Before measuring, the program checks that both implementations find the same frames.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -43,7 +43,8 @@ std::vector<TransitionRequest> Requests(const MotionLibrary& library) {
   return requests;
 }
 
-/// Returns the distance of one pair of frames by Kovar's closed form, over all points of both clouds, cm.
+/// Returns the distance of one pair of frames by Kovar's closed form, over all points of both point clouds,
+/// centimetres.
 double CloudDistance(const BodyMotion& a, int frame_a, const BodyMotion& b, int frame_b, int half) {
   const Reach reach =
       ReachAround(frame_a, static_cast<int>(a.poses.size()), frame_b, static_cast<int>(b.poses.size()), half);
@@ -102,7 +103,7 @@ void CompareAnswers(const MotionLibrary& library) {
   }
 }
 
-/// Registers a benchmark that plans all transitions in turn; the reported time is the mean.
+/// Registers a benchmark that plans all transitions in turn. The reported time is the mean over them.
 void RegisterPlanning(const MotionLibrary& library, const std::string& name, auto plan) {
   benchmark::RegisterBenchmark(("plan/" + name).c_str(), [=, &library](benchmark::State& state) {
     const std::vector<TransitionRequest> requests = Requests(library);

@@ -1,5 +1,5 @@
-// Times one frame of each recogniser, which follows all eleven built-in moves with one of them requested, and one frame
-// of filter and features.
+// Times one frame of each recogniser, and one frame of filter and features. A recogniser follows all eleven built-in
+// moves, one of which is requested.
 //   build/release/bench/micro/recognition_bench --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
 

@@ -1,4 +1,4 @@
-// Times a picture of the empty room, of a person of capsules, and of a character of some thousand triangles.
+// Times a picture of the empty room, of a person made of capsules, and of a character with some thousand triangles.
 #include <benchmark/benchmark.h>
 
 #include "sim/character/characters.h"
@@ -44,8 +44,8 @@ BENCHMARK_CAPTURE(Picture, capsules_vga_labels, OfCapsules, kVga, Kind::kLabels)
 BENCHMARK_CAPTURE(Picture, surfaces_vga, OfSurfaces, kVga, Kind::kColour)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_vga_all, OfSurfaces, kVga, Kind::kAll)->Apply(InMilliseconds);
 
-// A picture of the capture task, with people and moving objects posed for each picture. The argument is the condition
-// `scene` in percent.
+// Times a picture of the capture task. People and moving objects are posed anew for each picture. The argument is the
+// condition `scene` in per cent.
 void Staged(benchmark::State& state) {
   const auto renderer = Renderer::Create();
   if (!renderer) return state.SkipWithError(renderer.error().message.c_str());

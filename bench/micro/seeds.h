@@ -12,8 +12,9 @@ struct SeedClip {
   BodyMotion motion;
 };
 
-/// Loads the clips of which benchmarks make libraries: the built-in moves and acts, and `files` or else three captured
-/// clips of Debian's assimp-testmodels, if installed. Ends the program if a file cannot be read.
+/// Loads the clips from which benchmarks make libraries: the built-in moves and acts, and the clips in `files`. If
+/// `files` is empty, three captured clips of Debian's assimp-testmodels are added instead, if installed. Ends the
+/// program if a file cannot be read.
 std::vector<SeedClip> LoadSeeds(const std::vector<std::string>& files);
 
 }  // namespace etude

@@ -15,10 +15,10 @@ struct Attachment {
   std::string bytes;
 };
 
-/// Receives files one after the other, where there are too many to keep; may fail.
+/// A function that receives files one by one, for use where there are too many to keep in memory. It may fail.
 using AttachmentSink = std::function<Result<void>(const Attachment&)>;
 
-/// The part of a world that an outside method is given, or the truth about it (docs/outside-methods.md).
+/// The data that an outside method receives about a world, or the truth about it (docs/outside-methods.md).
 struct Payload {
   JsonPtr json;  ///< never null
   std::vector<Attachment> files;

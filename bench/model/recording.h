@@ -10,18 +10,18 @@
 
 namespace etude {
 
-/// A named motion of a recording.
+/// A motion of a recording, with its name.
 struct Track {
   std::string name;  ///< "truth", "recovered", "coach", …
   BodyMotion motion;
 };
 
-/// Returns the motion of that name, or null.
+/// Returns the motion with this name; null if there is none.
 const BodyMotion* FindTrack(const Recording& recording, std::string_view name);
 
-/// Encodes a pose for recordings and for the exchange with outside methods: x, y, z of the twenty joints in the order
-/// of AllRoles, sixty numbers, metres, Y up. Every digit is kept, so outside methods see the same values as built-in
-/// ones.
+/// Encodes a pose for recordings and for messages to outside methods: x, y, z of the twenty joints in the order of
+/// AllRoles; sixty numbers, metres, Y up. The numbers are not rounded, so outside methods receive the same values as
+/// built-in methods.
 Json EncodePose(const BodyPose& pose);
 
 /// Adds the position of every joint to a digest.

@@ -14,15 +14,15 @@ namespace etude {
 /// The time and memory that one cell took on this machine.
 struct CellUsage {
   double wall_s = 0;
-  double cpu_s = 0;  ///< of the worker and of the outside method
-  /// The largest resident size of the worker or of the outside method while the cell ran. It is sampled, so cells
-  /// shorter than the sampling interval may share one sample.
+  double cpu_s = 0;  ///< processor time of the worker and of the outside method
+  /// The largest resident memory of the worker or of the outside method while the cell ran, MB. It is sampled, so cells
+  /// that are shorter than the sampling interval may share one sample.
   double peak_mb = 0;
-  /// The time to build the world; only the first cell that ran in the world holds it.
+  /// The time to build the world, seconds. Only the first cell that ran in the world contains it.
   double world_wall_s = 0, world_cpu_s = 0;
 };
 
-/// How a cell (world × method) ended. Every cell becomes a row with one of these.
+/// The way in which a cell (world × method) ended. Every cell becomes a row with one of these statuses.
 enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kOutOfMemory, kBadOutput, kSkipped };
 inline constexpr std::array<Named<Status>, 8> kStatuses = {{{"ok", Status::kOk},
                                                             {"unsolved", Status::kUnsolved},
@@ -34,30 +34,30 @@ inline constexpr std::array<Named<Status>, 8> kStatuses = {{{"ok", Status::kOk},
                                                             {"skipped", Status::kSkipped}}};
 
 std::string_view StatusName(Status status);
-/// Returns true if the status depends on the limits of the machine (timeout, crashed, out of memory), so another run
-/// need not repeat it.
+/// Returns true if the status depends on the limits of the machine (timeout, crashed, out of memory). Another run may
+/// then end with another status.
 bool DependsOnMachine(Status status);
-/// Returns the status of that name; nothing if there is none.
+/// Returns the status with this name; nothing if there is none.
 std::optional<Status> FindStatus(std::string_view name);
 
-/// One measured value of a cell. A missing value has a reason, and never counts as zero.
+/// One measured value of a cell. A missing value has a reason and never counts as zero.
 struct MetricValue {
   std::string id;  ///< an id of bench/metrics, unit in the name
   std::optional<double> value;
-  std::string null_reason;  ///< only when `value` is empty
+  std::string null_reason;  ///< why `value` is empty; "" if it is not
 };
 
 /// A curve of a cell: one value per frame or iteration, e.g. the error in each frame.
 struct Series {
   std::string name;  ///< e.g. "mpjpe_mm"
-  std::string axis;  ///< what the values are along: "frame", "iteration", "effector", "angle"
+  std::string axis;  ///< the index of the values: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
   std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into them
 };
 
-struct Track;  // bench/model/recording.h, which brings motions along
+struct Track;  // defined in bench/model/recording.h, which also includes motions
 
-/// All data needed to show a cell again without running it: what a film draws.
+/// All data needed to show a cell again, e.g. in a film, without running it.
 struct Recording {
   Recording();
   Recording(std::vector<Track> motions, std::string extras);
@@ -68,7 +68,7 @@ struct Recording {
   ~Recording();
 
   std::vector<Track> tracks;
-  /// Facts for the viewer, as JSON text written by the task (cameras, masks, captions).
+  /// Data for the viewer, written by the task as JSON text (cameras, masks, captions).
   std::string extras_json;
 };
 
@@ -77,7 +77,8 @@ struct CellResult {
   Status status = Status::kFailed;
   std::string reason = "the task did not fill this cell";
   std::vector<MetricValue> metrics;
-  /// The digest of each stage's output, in order: the first one that differs between two runs shows where they part.
+  /// The digest of each stage's output, in the order of the stages. The first digest that differs between two runs
+  /// shows the stage at which the runs diverge.
   std::vector<std::pair<std::string, std::string>> digests;
   std::vector<Series> series;
   std::optional<Recording> recording;
@@ -107,23 +108,23 @@ struct SweptValue {
 struct Row {
   std::string scenario;
   std::string task;
-  std::vector<SweptValue> condition;  ///< empty when nothing is swept
+  std::vector<SweptValue> condition;  ///< empty if nothing is swept
   int trial = 0;
   std::string clip;                ///< "" for tasks without clips
-  std::vector<std::string> units;  ///< that the world was drawn from (Study::unit); empty = the world is its own unit
+  std::vector<std::string> units;  ///< units from which the world was drawn (Study::unit); empty = it is its own unit
   std::string method;
-  CellResult result;  ///< `series` and `recording` live in files of their own
+  CellResult result;  ///< `series` and `recording` are stored in files of their own
 
   /// "scenario/key=value,key=value/trial/method", unique in a run; a condition without sweep is "-".
   std::string Id() const;
 };
 
-/// Returns a row's value of a metric; nothing if it is missing or was not measured.
+/// Returns a row's value of a metric; nothing if the value is missing or the metric was not measured.
 std::optional<double> ValueOf(const Row& row, std::string_view metric);
 
-/// Returns the condition for display: "key=value, key=value", or "" if nothing is swept.
+/// Returns a condition as text for display: "key=value, key=value", or "" if nothing is swept.
 std::string ConditionLabel(const std::vector<SweptValue>& condition);
-/// Returns the condition as identities contain it: "key=value,key=value", or "-".
+/// Returns a condition as text in a cell's identity: "key=value,key=value", or "-" if nothing is swept.
 std::string CompactLabel(const std::vector<SweptValue>& condition);
 
 }  // namespace etude

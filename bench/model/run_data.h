@@ -14,19 +14,19 @@
 
 namespace etude {
 
-/// The rows of a run that does not fit in memory, in canonical order: scenario, condition, trial, method. `place` is
+/// The rows of a run that does not fit into memory, in canonical order: scenario, condition, trial, method. `place` is
 /// the index of a row in this order.
 class RowSource {
  public:
   virtual ~RowSource() = default;
   virtual std::size_t size() const = 0;
-  /// Chooses whole worlds, evenly spaced, and returns the indices of all their rows: about `rows`, or all if there are
-  /// fewer.
+  /// Chooses evenly spaced worlds and returns the indices of all their rows. These are about `rows` rows, or all rows
+  /// if there are fewer.
   virtual std::vector<std::size_t> SampleRowIndices(std::size_t rows) const = 0;
-  /// Replaces `row` by the row at this index, reusing its memory. Series and recording are not read.
+  /// Replaces `row` by the row at index `place`, reusing its memory. Series and recording are not read.
   virtual void Read(std::size_t place, Row& row) const = 0;
   virtual std::vector<Series> SeriesOf(std::size_t place) const = 0;
-  /// Returns the processor time of the cell; nothing if the folder does not record it.
+  /// Returns the processor time of the cell at index `place`, seconds; nothing if the folder does not record it.
   virtual std::optional<double> CpuSecondsOf(std::size_t place) const = 0;
 };
 
@@ -40,52 +40,54 @@ struct CellRecording {
   Recording recording;
 };
 
-/// The software that a result may depend on beside this program, as the run's manifest records it.
+/// The software, apart from this program, that a result may depend on. The run's manifest records it.
 struct RunSystem {
   std::string compiler;  ///< "12.2.0"
   std::string glibc;     ///< "2.36"
   std::string ceres;     ///< "2.1.0"
-  std::string renderer;  ///< "4.5 (Core Profile) Mesa 22.3.6, by OSMesa"; "" where nothing was drawn
+  std::string renderer;  ///< "4.5 (Core Profile) Mesa 22.3.6, by OSMesa"; "" = nothing was drawn
   friend bool operator==(const RunSystem&, const RunSystem&) = default;
 };
 
-/// A result folder in memory: all rows, or, for a very large run, the rows of some worlds and a source of all rows.
+/// A result folder in memory. It contains all rows or, for a very large run, the rows of some worlds and a source that
+/// reads all rows.
 struct RunData {
   std::string suite;
   std::uint64_t seed = 1;  ///< for secret worlds a number derived from the digest of their key
   std::string key_digest;  ///< for secret worlds; "" otherwise
-  std::string fence;       ///< the sandbox that outside methods ran in; "" = there were no outside methods
+  std::string fence;       ///< the sandbox in which outside methods ran; "" = there were none
   std::string program_version;
-  std::string command_line;  ///< from host.json
+  std::string command_line;  ///< the command line in host.json
   std::string host;          ///< one line about the machine
   RunSystem system;
   double wall_seconds = 0;
   std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
-  /// Reads all rows of a run that does not fit in memory; null otherwise. `rows`, `series` and `cpu_seconds` then hold
-  /// the data of some worlds only, evenly spaced.
+  /// The source of all rows of a run that does not fit into memory; null for other runs. If it is set, `rows`, `series`
+  /// and `cpu_seconds` contain the data of some evenly spaced worlds only.
   std::shared_ptr<const RowSource> source;
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;
   std::string seal;      ///< the text of the folder's seal; "" = it has none, or the seal was not loaded
-  std::string unsealed;  ///< why the folder differs from what the run wrote, if it was read nevertheless; "" otherwise
+  std::string unsealed;  ///< why the seal does not match, if the folder was read nevertheless; else ""
   std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty if the folder does not record it
 };
 
-/// Says how the worlds were drawn, and whether an outside program could have known them: "seed 1", "seed 1, open
-/// worlds", "secret worlds, key 0123456789abcdef…". The text also says if the conditions of a sweep have different
-/// worlds, as secret worlds do, because the worlds then add to the difference between conditions.
+/// Returns a text that says how the worlds were drawn and whether an outside program could have known them: "seed 1",
+/// "seed 1, open worlds", "secret worlds, key 0123456789abcdef…". The text also says if the conditions of a sweep have
+/// different worlds, because then the worlds add to the difference between conditions. Secret worlds always differ
+/// between conditions.
 std::string DescribeWorlds(const RunData& run);
 
 /// Returns the number of rows of the run, including those that are not in memory.
 std::size_t CountRows(const RunData& run);
-/// Calls `use` with every row of the run and its index, including rows that are not in memory.
+/// Calls `use` for every row of the run with the row's index, including rows that are not in memory.
 void ForEachRow(const RunData& run, const std::function<void(const Row& row, std::size_t place)>& use);
-/// Returns the row at this index, without series and recording if it is read from `source`.
+/// Returns the row at index `place`. Series and recording are missing if it is read from `source`.
 Row RowAt(const RunData& run, std::size_t place);
-/// Returns the index of the row with this identity; nothing if there is none.
+/// Returns the index of the row with this identity (Row::Id); nothing if there is none.
 std::optional<std::size_t> FindRow(const RunData& run, const std::string& id);
-/// Returns the processor time of the row at this index; nothing if the folder does not record it.
+/// Returns the processor time of the row at index `place`, seconds; nothing if the folder does not record it.
 std::optional<double> CpuSecondsOf(const RunData& run, const Row& row, std::size_t place);
 
 }  // namespace etude

@@ -10,33 +10,34 @@
 
 namespace etude {
 
-/// A claim that a scenario makes about its results, judged after the run and shown in the report.
+/// A claim that a scenario makes about its results. It is judged after the run and shown in the report.
 struct Expectation {
   std::string metric;
   std::string of;                           ///< the method judged
   std::string below, above;                 ///< the method it is compared with in the same worlds; at most one is set
-  std::optional<double> at_most, at_least;  ///< or the bound of its statistic
+  std::optional<double> at_most, at_least;  ///< the bound of its statistic, if no method is compared
   std::string statistic = "median";         ///< median, mean or p95; only for bounds
-  double confidence = 0.95;                 ///< of a comparison's interval; the level of its test is 1 − confidence
+  double confidence = 0.95;                 ///< of a comparison's interval; its test has level 1 − confidence
   std::vector<SweptValue> where;            ///< the conditions in which it is judged; empty = all of them
   Place place;
 };
 
-/// A bound on the ratio of processor times in one run. Times are judged only by such ratios, because runs on different
-/// machines cannot be compared.
+/// A bound on the ratio of two methods' processor times in one run. Times are judged only by ratios within a run,
+/// because runs on different machines cannot be compared.
 struct TimeRatio {
-  std::string of, over;  ///< methods
+  std::string of, over;  ///< the ratio is the time of method `of` divided by the time of method `over`
   double at_most = 1;    ///< the largest allowed median of the paired ratios
   Place place;
 };
 
 /// The rule by which a few worlds alone are a regression, even if the statistics over all worlds show no change. Both
-/// runs have the same worlds, so every difference comes from the code. docs/gate.md says how the defaults were
+/// runs have the same worlds, so every difference comes from the code. docs/gate.md explains how the defaults were
 /// measured.
 struct TailRule {
   double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
   int worlds = 4;     ///< this many far worse worlds of one comparison are a regression; 0 = never …
-  /// … if they are also at least this share of the compared worlds, because rounding may move a few of many.
+  /// … if the far worse worlds are also at least this share of the compared worlds, because in a large number of worlds
+  /// rounding may change a few.
   double share = 0.05;
   int lost = 1;  ///< this many worlds that lost their value or answer are a regression; 0 = never
 };
@@ -50,30 +51,30 @@ struct GateRules {
   std::vector<TimeRatio> time_ratios;
 };
 
-/// One of the methods compared.
+/// One of the methods that a scenario compares.
 struct ComparedMethod {
   std::string name;
   std::string against;      ///< the method it is compared with; the first method is compared with itself
   bool has_oracle = false;  ///< the truth replaces some of its stages; it shows an upper bound and does not compete
   std::vector<std::string> oracle = {};  ///< the stages that the truth replaces
   std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method
-  std::string description = {};  ///< what it is, in a sentence, or its settings
+  std::string description = {};  ///< a sentence about the method, or its settings
 };
 
-/// The comparisons and expectations of a scenario, with all that is needed to judge its rows, but without how its
-/// worlds are made.
+/// The comparisons and expectations of a scenario, with everything that is needed to judge its rows. It does not
+/// describe how the scenario's worlds are made.
 struct Study {
   std::string scenario;
   std::string task;
   std::string question;
-  std::string description = {};  ///< what its worlds are, in a sentence; "" = not described
+  std::string description = {};  ///< a sentence about its worlds; "" = not described
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 1;
   std::vector<ComparedMethod> methods;              ///< at least one
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
   std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
-  /// The metric that says whether the task's goal was reached, which answers compare first; "" = none.
+  /// The metric that says whether the task's goal was reached; answers compare it first. "" = there is none.
   std::string success;
   double success_matters = 0.05;  ///< the smallest difference of success that matters, as a share
   std::string rival;              ///< the method that all others must beat; "" = the best method is found

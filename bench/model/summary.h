@@ -18,9 +18,9 @@ enum class IntervalKind {
   kBca,              ///< bias-corrected and accelerated bootstrap
   kPercentile,       ///< percentile bootstrap, where the BCa correction is undefined, e.g. all values equal
   kWilson,           ///< score interval of a share
-  kAdjustedWald,     ///< Bonett and Price's, of the difference of two shares on the same worlds
-  kStudent,          ///< Student's t: of a mean over units, or over very many worlds
-  kOrderStatistics,  ///< order statistics: of the median of very many worlds
+  kAdjustedWald,     ///< Bonett and Price's interval of the difference of two shares on the same worlds
+  kStudent,          ///< Student's t interval of a mean over units, or over very many worlds
+  kOrderStatistics,  ///< interval of the median of very many worlds, from order statistics
 };
 inline constexpr std::array<Named<IntervalKind>, 7> kIntervalKinds = {
     {{"none", IntervalKind::kNone},
@@ -32,7 +32,7 @@ inline constexpr std::array<Named<IntervalKind>, 7> kIntervalKinds = {
      {"order statistics", IntervalKind::kOrderStatistics}}};
 std::string_view IntervalKindName(IntervalKind kind);
 
-/// One metric of one method over the trials of one condition.
+/// The values of one metric of one method over the trials of one condition, summarised.
 struct MetricSummary {
   std::string id;
   int present = 0;
@@ -47,7 +47,7 @@ struct MethodSummary {
   std::vector<std::pair<Status, int>> statuses;  ///< number of cells that ended in each status; zeros are left out
   std::vector<MetricSummary> metrics;
   int ok = 0;                             ///< cells of status ok
-  int attempted = 0;                      ///< all cells but skipped ones; failures stay in the denominator
+  int attempted = 0;                      ///< all cells except skipped ones; failures count as attempts
   std::optional<double> ok_low, ok_high;  ///< 95 % Wilson interval of ok / attempted
 };
 
@@ -64,20 +64,20 @@ struct PairedTest {
   std::string how;          ///< "exact", "normal approximation", "9,999 draws"
 };
 
-/// The mean difference of a comparison without the worlds of one unit.
+/// The mean difference of a comparison if the worlds of one unit are left out.
 struct LeftOut {
   std::string unit;
   double difference = 0;
 };
 
-/// The result of a comparison generalised to other units (clips, people, …) like those from which its worlds were drawn
+/// The result of a comparison for other units (clips, people, …) like the units from which its worlds were drawn
 /// (bench/statistics/beyond.h). If every world is its own unit, it equals the result on the worlds.
 struct Beyond {
   int units = 0;      ///< units that have a pair
   int differing = 0;  ///< units whose mean difference is not zero
-  /// The pseudo-median of the units' mean differences, and its 95 % interval; the verdict judges it.
+  /// The pseudo-median of the units' mean differences, and its 95 % interval. The verdict is judged from this interval.
   std::optional<double> difference, low, high;
-  std::optional<double> mean, mean_low, mean_high;  ///< their mean and its 95 % interval
+  std::optional<double> mean, mean_low, mean_high;  ///< the mean of the units' means, and its 95 % interval
   PairedTest test;                                  ///< the test that decides
   std::optional<double> p_holm;                     ///< corrected over the scenario's comparisons (Holm)
   std::optional<Verdict> verdict;                   ///< nothing = too few units for a verdict
@@ -85,43 +85,44 @@ struct Beyond {
   std::vector<LeftOut> left_out;                    ///< in the order of the units' names; empty if worlds are the units
 };
 
-/// `method` against `baseline` on the same worlds: the median, or the mean for shares and penalised costs (MetricInfo),
-/// of the paired differences method − baseline.
+/// The comparison of `method` with `baseline` on the same worlds: the median of the paired differences method −
+/// baseline. For shares and penalised costs it is the mean (MetricInfo).
 struct Comparison {
   std::string metric;
   std::string baseline;
   std::string method;
   int pairs = 0;      ///< worlds in which both have a value
   int differing = 0;  ///< pairs whose values differ
-  /// Worlds without a pair: only one of both has a value, or neither.
+  /// Worlds without a pair: only the baseline has a value, only the method has one, or neither has one.
   int only_baseline = 0, only_method = 0, neither = 0;
-  std::optional<double> difference, ci_low, ci_high;  ///< 95 % interval, pairs resampled
+  std::optional<double> difference, ci_low, ci_high;  ///< the aggregate and its 95 % interval
   IntervalKind interval = IntervalKind::kNone;
-  /// Mean of the same differences and its 95 % interval, for every metric.
+  /// The mean of the paired differences and its 95 % interval. It is computed for every metric.
   std::optional<double> mean, mean_low, mean_high;
-  PairedTest signed_rank;        ///< Wilcoxon's; decides if the aggregate is the median
-  PairedTest sign_flip;          ///< of the aggregate; decides if it is the mean
+  PairedTest signed_rank;        ///< Wilcoxon's test; it decides if the aggregate is the median
+  PairedTest sign_flip;          ///< the sign-flip test; it decides if the aggregate is the mean
   std::optional<double> p_holm;  ///< the deciding p, corrected over the scenario's comparisons (Holm)
-  /// Pairs in which the method is better, or worse, by at least the practical threshold.
+  /// The numbers of pairs in which the method is better, or worse, by at least the practical threshold.
   int better = 0, worse = 0;
   double share_better = 0;  ///< share of the pairs in which the method is better; ties count half
-  /// Rank-biserial correlation, −1…1; positive if `method` is better, or, without a direction, larger.
+  /// Rank-biserial correlation, −1…1. It is positive if `method` is better or, for a metric without a direction, if its
+  /// values are larger.
   std::optional<double> effect_size;
   Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
   std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
   std::vector<std::string> notes;            ///< further warnings for readers of the figures
-  Beyond beyond;                             ///< the same comparison for other units like the sampled ones
+  Beyond beyond;                             ///< the comparison for other units like the sampled ones
 };
 
-/// The step of an answer that decided it: success first, then the value, then the tail.
+/// The step that decided an answer. Success is compared first, then the value, then the tail.
 enum class AnswerStep { kNone, kSuccess, kValue, kTail };
 inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", AnswerStep::kNone},
                                                                    {"success", AnswerStep::kSuccess},
                                                                    {"value", AnswerStep::kValue},
                                                                    {"tail", AnswerStep::kTail}}};
 
-/// One verdict on whether a method is better than another under one condition (bench/statistics/answers.h). Every
-/// page, table and program that shows a run uses this verdict.
+/// The verdict on whether a method is better than another under one condition (bench/statistics/answers.h). Every page,
+/// table and program that shows a run uses this verdict.
 struct Answer {
   std::string method;
   std::string baseline = {};      ///< the method that the scenario names, or the strongest rival
@@ -129,16 +130,16 @@ struct Answer {
   Verdict verdict = Verdict::kInconclusive;  ///< for these worlds
   AnswerStep decided_by = AnswerStep::kNone;
   std::optional<Verdict> beyond = {};  ///< the deciding step's verdict for other units; nothing = too few units
-  /// Comparison of `Study::success`, where failed cells count 0; nullopt if no cell has a value.
+  /// The comparison of `Study::success`, in which failed cells count 0; nullopt if no cell has a value.
   std::optional<Comparison> success = {};
-  /// Comparison of the value in the worlds where both succeeded; nullopt if these are all worlds, or none, or if
-  /// success is not a yes or no.
+  /// The comparison of the value in the worlds in which both methods succeeded. Nullopt if both succeeded in all worlds
+  /// or in none, or if success is not a yes or no.
   std::optional<Comparison> both_succeed = {};
-  /// Share of worlds where the method is far better − share where it is far worse.
+  /// The share of worlds in which the method is far better, minus the share in which it is far worse.
   std::optional<Comparison> tail = {};
 };
 
-/// The cost of one stage: the mean reduction of the error, over worlds, if the truth replaces the stage.
+/// The cost of one stage: the mean reduction of the error, over worlds, when the truth replaces the stage.
 struct BudgetShare {
   std::string stage;  ///< one stage, or several that were replaced together
   double mean = 0;
@@ -151,7 +152,7 @@ struct ErrorBudget {
   std::string method;       ///< the method with no stage replaced by the truth, or with the fewest
   bool is_shapley = false;  ///< true: shares are means over all orders of the stages; false: `shares` follow one order
   int worlds = 0;
-  double total = 0, rest = 0;  ///< mean error of that method, and of the method with most stages replaced
+  double total = 0, rest = 0;  ///< mean error of `method`, and of the method with the most replaced stages
   std::vector<BudgetShare> shares;
 };
 
@@ -162,12 +163,12 @@ struct ConditionSummary {
   std::vector<Comparison> rivals;          ///< every method with the strongest other method, on the headline metrics
   std::vector<Answer> answers = {};        ///< every method with its baseline
   std::vector<Answer> rival_answers = {};  ///< every method with the strongest other method
-  /// Budgets of the first headline metric, for methods that differ only in their oracles.
+  /// Error budgets of the first headline metric, for methods that differ only in their oracles.
   std::vector<ErrorBudget> budgets = {};
 };
 
-/// One comparison under every value of the parameters across which a verdict must hold (`across`). If the verdict
-/// depends on a parameter of our own simulation, such as how people learn, it says nothing about the methods.
+/// The verdict of one comparison under every value of the parameters that `across` names. If the verdict depends on a
+/// parameter of our own simulation, e.g. on how people learn, it says nothing about the methods.
 struct AcrossVerdict {
   std::vector<SweptValue> condition;  ///< the values of the other swept parameters
   std::string metric;
@@ -194,7 +195,7 @@ std::string_view ClaimOutcomeName(ClaimOutcome outcome);
 struct ExpectationResult {
   std::string text;  ///< "orientation_error_deg of adaptive below fixed"
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
-  std::string detail;  ///< the figures that decided it
+  std::string detail;  ///< the figures that decided the outcome
 };
 
 struct ScenarioSummary {
@@ -208,8 +209,8 @@ struct ScenarioSummary {
   std::vector<ExpectationResult> expectations;
   int family = 0;  ///< number of comparisons over all conditions and headline metrics that Holm's correction covers
   std::vector<AcrossVerdict> across = {};      ///< empty if no verdict must hold across parameters
-  std::string description = {};                ///< what its worlds are, in a sentence; "" = not described
-  std::vector<std::string> descriptions = {};  ///< what each method is, in a sentence; empty if no method is described
+  std::string description = {};                ///< a sentence about its worlds; "" = not described
+  std::vector<std::string> descriptions = {};  ///< a sentence about each method; empty if no method is described
 };
 
 }  // namespace etude

@@ -8,14 +8,14 @@
 
 namespace etude {
 
-/// The unit that the worlds of a scenario were drawn from. Worlds that share a unit resemble each other, so a claim
-/// beyond these worlds counts units, not worlds.
+/// The unit from which the worlds of a scenario were drawn. Worlds that share a unit resemble each other, so claims
+/// that go beyond these worlds must count units, not worlds.
 enum class SamplingUnit {
-  kWorld,     ///< every world is drawn independently
-  kPerson,    ///< every world has a person of its own
+  kWorld,     ///< each world is its own unit
+  kPerson,    ///< the person in a world; each world has another person
   kClip,      ///< the clip that a world shows first
-  kClipPair,  ///< each clip of a world, in either role: clip left × clip entered
-  kLibrary,   ///< the folder that a world's clips come from
+  kClipPair,  ///< both clips of a world: the clip that is left and the clip that is entered
+  kLibrary,   ///< the folder from which a world's clips come
 };
 inline constexpr std::array<Named<SamplingUnit>, 5> kSamplingUnits = {{{"world", SamplingUnit::kWorld},
                                                                        {"person", SamplingUnit::kPerson},
@@ -24,10 +24,10 @@ inline constexpr std::array<Named<SamplingUnit>, 5> kSamplingUnits = {{{"world",
                                                                        {"library", SamplingUnit::kLibrary}}};
 std::string_view SamplingUnitName(SamplingUnit unit);
 
-/// Returns a count with its noun: "6 clips", "1 person". For kClipPair the noun is "clip".
+/// Returns a number of units with its noun, e.g. "6 clips" or "1 person". For kClipPair the noun is "clip".
 std::string CountUnits(int count, SamplingUnit unit);
 
-/// Returns true if no two worlds share a unit, so that worlds are the units.
+/// Returns true if no two worlds share a unit. Each world then counts as a unit.
 constexpr bool WorldsAreUnits(SamplingUnit unit) {
   return unit == SamplingUnit::kWorld || unit == SamplingUnit::kPerson;
 }

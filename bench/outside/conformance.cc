@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kProblems = 3;
 
-/// The worlds of a task's specimens: two conditions, easy and harder.
+/// The data from which a task's specimens are made. The two conditions are an easy and a harder one.
 struct Recipe {
   const char* task;
   std::vector<std::string> clips;
@@ -51,7 +51,7 @@ const std::vector<Recipe>& Recipes() {
   return recipes;
 }
 
-/// Returns the recipe with recorded people instead of clips and simulated people.
+/// Returns the recipe for worlds of recorded people. It has no clips, and its two conditions are empty.
 Recipe OfRecordings(const Recipe& recipe) { return {recipe.task, {}, {"{}", "{}"}}; }
 
 Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, std::size_t index, const std::string& seat,
@@ -60,7 +60,7 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, std::s
   const std::string condition = recipe.conditions[index];
   const std::string setting_id =
       fmt::format("{} {}{}", kind.name, condition, index == 0 || condition != "{}" ? "" : " again");
-  // Make the task from its clips, its condition and one method.
+  // Make the task from the recipe's clips, the condition and one method.
   ASSIGN_OR_RETURN(auto clips, LoadClips(recipe.clips, {}));
   specimen.clips = std::make_unique<ClipLibrary>(std::move(clips));
   ASSIGN_OR_RETURN(const auto node, ParseYaml(condition, setting_id));
@@ -110,7 +110,7 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, std::s
 
 constexpr int kMaxEndingMs = 2000;
 
-/// A method's result in a comparable form: its answer, or the reason why it gave none.
+/// The result of asking a method once, in a comparable form: its answer, or the reason why it gave none.
 struct Attempt {
   Status status = Status::kFailed;
   std::string said;
@@ -118,7 +118,7 @@ struct Attempt {
   bool was_put = true;  ///< false: the program could not be started, so it was not asked
 };
 
-/// Returns an answer with all angles (numbers below keys that end in "_deg") multiplied by `factor`.
+/// Returns a copy of an answer in which all angles (numbers below keys that end in "_deg") are multiplied by `factor`.
 Json WithAngles(const Json& answer, double factor, bool is_angle = false) {
   if (answer.is_number()) return is_angle ? Json(answer.get<double>() * factor) : answer;
   if (!answer.is_structured()) return answer;
@@ -129,7 +129,7 @@ Json WithAngles(const Json& answer, double factor, bool is_angle = false) {
   return changed;
 }
 
-/// A seated program that is sent additional keys, unknown to it.
+/// A seated program that receives additional keys, which it does not know.
 class ProgramWithUnknownKeys final : public SeatedProgram {
  public:
   using SeatedProgram::SeatedProgram;
@@ -196,7 +196,7 @@ class ConformanceTest {
     return attempt;
   }
 
-  /// Runs a whole session with the program in its seat; the result holds the digest of its answers.
+  /// Runs a whole session with the program in its seat. The attempt contains the digest of the program's answers.
   template <typename Program>
   Attempt Play(const SpecimenProblem& problem, const std::string& id) {
     const auto start = Clock::now();
@@ -241,8 +241,8 @@ class ConformanceTest {
     return {};
   }
 
-  /// For a method that solved nothing: fails if a plain method solves some worlds, and tests whether the method's
-  /// angles are in radians.
+  /// For a method that solved no problem: reports a failed check if a plain built-in method solves some of the
+  /// problems. Also tests whether the method's angles are in radians.
   void CheckAgainstPlain() {
     int plain = 0, in_radians = 0;
     for (std::size_t i = 0; i < first_.size(); ++i) {
@@ -261,7 +261,8 @@ class ConformanceTest {
            fmt::format("solves none of {}; damped-least-squares solves {}{}", first_.size(), plain, unit));
   }
 
-  /// Compares a second attempt at problem `i` of the first setting with the first one; returns the difference, or "".
+  /// Compares a second attempt at problem `i` of the first setting with the first attempt. Returns the difference; ""
+  /// if they are equal.
   std::string Compare(const Attempt& again, std::size_t i) const {
     if (!again.fault.empty()) return again.fault;
     if (again.said == first_[i].said) return "";
@@ -323,7 +324,7 @@ class ConformanceTest {
   const double time_s_;
   const std::vector<Specimen>& specimens_;
   const std::function<void(const ConformanceCheck&)>& report_;
-  std::vector<Attempt> first_;  ///< of the problems of the first setting
+  std::vector<Attempt> first_;  ///< the first attempts at the problems of the first setting
   double slowest_s_ = 0, peak_mb_ = 0;
   int repeated_ = 0;
   bool all_passed_ = true, solves_nothing_ = false;

@@ -26,25 +26,26 @@ struct Specimen {
   bool has_plain_method = false;  ///< method 0 of its worlds is a built-in method that solves them
 };
 
-/// Makes two settings of a task with three problems each, the same in every call. Fails if there is no such task, if
-/// its worlds cannot be made on this machine (no renderer), or if `seat` is not one of its seats ("" if it has none).
-/// With `recordings`, which must outlive them, the worlds are the recorded people, and there is a problem for each of
-/// the first three of them; only task detection has such worlds.
+/// Makes two settings of a task with three problems each. The problems are the same in every call. Fails if there is no
+/// such task, if its worlds cannot be made on this machine (no renderer), or if `seat` is not one of the task's seats
+/// ("" if the task has no seats). With `recordings`, the worlds are the recorded people, with one problem for each of
+/// the first three; only task detection has such worlds. `recordings` must outlive the result.
 Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat,
                                             const LabelledStreams* recordings = nullptr);
 
-/// One requirement for an outside method, and its result.
+/// One requirement for an outside method, and the result of its check.
 struct ConformanceCheck {
   std::string name;  ///< a sentence that is true if the method passes
   bool passed = false;
-  std::string found;  ///< what was observed, passed or not
+  std::string found;  ///< the observation, whether the method passed or not
 };
 
-/// Sends the specimens of its task to a method and calls `report` after every check: it answers the handshake; its
-/// answers can be scored; they depend on the problem alone, not on earlier problems or settings; it accepts long lines;
-/// it ends when its input ends; it solves some problems if a plain built-in method solves some (if not, the report says
-/// if its angles seem to be radians). Stops after a failed handshake or an answer that cannot be scored. Returns true
-/// if all checks passed. Fails as MakeSpecimens does, and if the program cannot be found.
+/// Sends the specimens of the method's task to the method and calls `report` after every check. The checks are: the
+/// method answers the handshake; its answers can be scored; they depend on the problem alone, not on earlier problems
+/// or settings; it accepts long lines; it ends when its input ends; and it solves some problems if a plain built-in
+/// method solves some (if not, the report says if its angles seem to be in radians). Stops after a failed handshake or
+/// an answer that cannot be scored. Returns true if all checks passed. Fails if MakeSpecimens fails, or if the program
+/// cannot be found.
 Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
                               const std::function<void(const ConformanceCheck&)>& report,
                               const LabelledStreams* recordings = nullptr);

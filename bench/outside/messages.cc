@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxNameLength = 200;
 
-/// Parses a line: an object with a text `type`.
+/// Parses a line, which must be a JSON object with a text at `type`.
 Result<Json> ReadMessage(const std::string& line) {
   if (NestingOf(line) > kMaxReplyDepth) {
     return Fail({}, "wrote something nested more than {} levels deep: {}", kMaxReplyDepth, Printable(line));
@@ -27,7 +27,7 @@ Result<Json> ReadMessage(const std::string& line) {
     return Fail({}, "wrote something that is not JSON{}: {}", where,
                 Printable(std::string_view(line).substr(std::min(start, line.size()))));
   }
-  // JSON parsers differ in which of two equal keys they use, so equal keys are refused.
+  // Fail on duplicate keys, because JSON parsers differ in which of the two values they use.
   if (parsed.repeated_key) {
     return Fail({}, "wrote the key {} twice in one object: {}", Printable(*parsed.repeated_key), Printable(line));
   }

@@ -8,41 +8,42 @@
 
 namespace etude {
 
-/// Limits of a reply: longer lines are refused during reading, more deeply nested JSON before parsing.
+/// Limits of a reply. A longer line is refused while it is read; JSON that is nested more deeply is refused before it
+/// is parsed.
 constexpr std::size_t kMaxReplyBytes = std::size_t{16} << 20;
 constexpr int kMaxReplyDepth = 32;
 
-/// Return the lines that Etude sends. `options` and `content` are objects; `files` is the folder of the attachments, ""
-/// if there are none. Fail on NaN and infinity.
+/// These functions return the lines that Etude sends. `options` and `content` are JSON objects. `files` is the folder
+/// of the attachments, or "" if there are none. They fail if a number is NaN or infinite.
 Result<std::string> HelloLine(const std::string& task, const Json& options);
 Result<std::string> SettingLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> ProblemLine(const std::string& id, const Json& content, const std::string& files);
-/// Return the line that begins a session, and the line of its step `number`.
+/// BeginLine returns the line that begins a session, StepLine the line of its step `number`.
 Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> StepLine(const std::string& id, int number, const Json& content, const std::string& files);
 
-/// A program's reply to the handshake. Each function below reads one type of line and fails on anything else: invalid
-/// JSON, another type or problem, a missing field, or a field of the wrong type. The error says what was found. Unknown
-/// fields are ignored.
+/// A program's reply to the handshake. Each function below reads one type of line. It fails on invalid JSON, another
+/// type, another problem, a missing field, or a field of the wrong type; the error says what was found. Unknown fields
+/// are ignored.
 struct HelloReply {
   std::string name;
   std::string version;
 };
 Result<HelloReply> ReadHello(const std::string& line);
 Result<void> ReadReady(const std::string& line);
-/// Returns the message: type "answer" with an object `answer`, or type "no_answer" with a text `reason`.
+/// Returns the message, whose type is "answer" with an object `answer`, or "no_answer" with a text `reason`.
 Result<Json> ReadAnswer(const std::string& line, const std::string& id);
-/// The same for step `number` of a session; an "answer" must repeat the number.
+/// Reads the answer to step `number` of a session, like ReadAnswer. A message of type "answer" must repeat the number.
 Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int number);
 
-/// The problem, and the step of a session, that a line answers; `id` is "" if the line is not an answer.
+/// The problem, and the step of a session, to which a line is the answer. `id` is "" if the line is not an answer.
 struct Answered {
   std::string id;
   std::optional<int> step = {};
 };
 Answered QuestionAnsweredBy(const std::string& line);
 
-/// Returns the first `max_bytes` bytes in single quotes; bytes other than printable ASCII become \xNN.
+/// Returns the first `max_bytes` bytes of a text in single quotes. Bytes that are not printable ASCII become \xNN.
 std::string Printable(std::string_view text, std::size_t max_bytes = 80);
 
 }  // namespace etude

@@ -22,10 +22,10 @@ template <typename T>
 using Outcome = OutsideOutcome<T>;
 
 constexpr int kMaxFailures = 3;
-constexpr int kEndingMs = 500;       // time to end after its input is closed
+constexpr int kEndingMs = 500;       // the time in which a program must end after its input is closed
 constexpr double kMaxLimit_s = 1e9;  // longer than any run; within the clock's range
 
-/// The error of a reply that came before its question was read.
+/// Returns the error for a reply that came before the program had read the question.
 Error TooEarly() { return {{}, "answered before it was asked"}; }
 
 constexpr const char* kHint = " (a fence shows it the system and what its key 'files' lists)";
@@ -34,8 +34,8 @@ tl::unexpected<OutsideFailure> Failed(Status status, std::string reason) {
   return tl::unexpected<OutsideFailure>({status, std::move(reason)});
 }
 
-/// Errors by their cause. BadOutput: the output of the program; OurFailure: a message that cannot be sent; NotAsked:
-/// this machine.
+/// These functions make a failure from an error. BadOutput: the program's output is wrong. OurFailure: our message
+/// cannot be sent. NotAsked: this machine is the cause.
 tl::unexpected<OutsideFailure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
 tl::unexpected<OutsideFailure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
 tl::unexpected<OutsideFailure> NotAsked(const Error& error) {
@@ -69,7 +69,7 @@ struct OutsideMethod::State {
   void EndSession();
   std::string Stop(int patience_ms);
 
-  /// Returns the id that replaces a name in the conversation and reveals nothing about it.
+  /// Returns the id that replaces a name in the messages. It reveals nothing about the name.
   std::string IdOf(char kind, const std::string& name) const {
     return fmt::format("{}{:016x}", kind, RandomStream({options.seed, "exchange", 0}, kind + name).Bits());
   }
@@ -96,7 +96,8 @@ struct OutsideMethod::State {
   std::map<std::string, Failures> failures;  ///< by the name of the step
 };
 
-/// Tries a step that many problems share (the start, a setting), unless it has failed kMaxFailures times in a row.
+/// Runs `act`, a step that many problems share (the start, a setting). After kMaxFailures failures in a row, returns
+/// the last failure without another try.
 template <typename Act>
 Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   Failures& failed = failures[what];
@@ -111,7 +112,7 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   return tl::unexpected(failed.last);
 }
 
-/// Starts the program and sends the setting, if necessary.
+/// Makes the program ready for a problem: starts it and sends the setting, if this has not been done.
 Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, const Payload& setting) {
   EndSession();
   if (!options.seed.IsPlain() && setting_in_force && setting_in_force != setting_id) Stop(kEndingMs);
@@ -162,7 +163,7 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   if (!line) return OurFailure(line.error());
   const auto read = [&](const std::string& said) { return ReadAnswer(said, problem_id); };
   RETURN_IF_ERROR(
-      // Read these lines before `answered` changes: if they have this id, they answer an earlier copy of the problem.
+      // Read these lines before `answered` changes. A line with this id answers an earlier copy of the problem.
       ReadPendingLines(read));
   answered.erase(problem_id);
   auto answer = Exchange(*line, options.time_s, read);
@@ -185,8 +186,8 @@ Outcome<void> OutsideMethod::State::Start() {
     const std::string cure = program.CureOfStart();
     reply.error().reason += cure.empty() ? kHint : cure;
   }
-  // A program that never said anything has not been asked: the set-up of this machine is the cause, and its cells get
-  // no rows.
+  // If a program never replied to any handshake, the set-up of this machine counts as the cause: the program has not
+  // been asked, and its cells get no rows.
   const bool is_silent = ended || (!reply && reply.error().status == Status::kTimeout);
   if (is_silent && program_name.empty()) reply.error().was_asked = false;
   if (!reply) return tl::unexpected(std::move(reply).error());
@@ -205,7 +206,7 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
   return {};
 }
 
-/// Reads the lines that came since the last reply. Repeated answers are ignored; any other line is an error, because
+/// Reads the lines that came since the last reply. Repeated answers are ignored. Any other line is an error, because
 /// its question has not been sent yet.
 template <typename Read>
 Outcome<void> OutsideMethod::State::ReadPendingLines(Read read) {
@@ -243,7 +244,8 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
       const auto again = read(program.WithoutFolder(*said));
       return BadOutput((again ? reply : again).error());
     }
-    // A valid reply must come after the program has read the question.
+    // A valid reply must come after the program has read the question. If more than this question is unread, the reply
+    // came too early.
     if (program.UnreadBytes() > line.size()) return BadOutput(TooEarly());
     RETURN_IF_ERROR(measuring == Measuring::kAlways ? program.Measure() : program.MeasureIfDue());
     if constexpr (std::is_void_v<typename decltype(reply)::value_type>) {
@@ -254,15 +256,15 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
   }
 }
 
-/// Returns true if a line repeats an answer. Such lines are ignored, so that the result is the same if the line arrives
-/// before or after the next question.
+/// Returns true if a line repeats an answer. Repeated answers are ignored, so that the result does not depend on
+/// whether the line arrives before or after the next question.
 bool OutsideMethod::State::RepeatsAnswer(const std::string& line) const {
   const Answered about = QuestionAnsweredBy(line);
   if (session && about.id == session->id) return about.step && *about.step < session->steps - 1;
   return answered.contains(about.id);
 }
 
-/// Ends the session; later lines about it count as repeated.
+/// Ends the session. Later answers to the session count as repeated.
 void OutsideMethod::State::EndSession() {
   if (session) answered.insert(session->id);
   session.reset();
@@ -313,7 +315,7 @@ OutsideReply OutsideMethod::Step(const Payload& step) {
   return reply;
 }
 
-/// Makes the reply, with the resources used. Stops the program after a failure.
+/// Makes the reply and adds the resources that the program used. Stops the program after a failure.
 OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   if (!said) Stop(0);
   OutsideReply reply;

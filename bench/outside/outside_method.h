@@ -19,61 +19,63 @@ struct OutsideOptions {
   std::vector<std::string> command;  ///< program and arguments
   std::string task;                  ///< the kind of task, sent in the handshake
   std::string options_json = {};     ///< an object sent in the handshake; "" = {}
-  double time_s = 300;               ///< per problem, or per step of a session
-  double memory_mb = 4096;           ///< resident, with all processes that the program has started
-  std::string error_file = {};       ///< keeps its standard error, up to 1 MiB; "" = it shares ours
-  /// The time limit of handshake and setting each, if time_s is less: programs load libraries and models then.
+  double time_s = 300;               ///< time limit per problem, or per step of a session
+  double memory_mb = 4096;           ///< limit of resident memory, with all processes of the program
+  std::string error_file = {};       ///< file for its standard error, up to 1 MiB; "" = it shares ours
+  /// The shortest time limit, in seconds, of the handshake and of each setting; `time_s` applies if it is longer.
+  /// Programs load libraries and models then.
   double start_s = 30;
-  Fence fence = {};                     ///< the sandbox in which it runs
-  std::vector<std::string> files = {};  ///< files that the sandbox shows it (ProgramView)
-  /// Keys the ids that replace the names of settings and problems. With a secret seed the program is restarted for
-  /// every setting, so that its memory cannot carry anything from one condition to the next.
+  Fence fence = {};                     ///< the sandbox in which the program runs
+  std::vector<std::string> files = {};  ///< files that the sandbox shows the program (ProgramView)
+  /// Keys the random ids that replace the names of settings and problems. With a secret seed the program is restarted
+  /// for every setting, so that its memory carries nothing from one condition to the next.
   Seed seed = 1;
 };
 
-/// Returns the longest time that Ask may take with the start_s above, seconds: handshake, setting, problem, and
-/// cleaning up.
+/// Returns the longest time that Ask may take with the default start_s, seconds. It covers handshake, setting, problem
+/// and cleaning up.
 double MaxAskSeconds(double time_s);
 
 /// The outcome of one problem, or of one step of a session.
 struct OutsideReply {
   Status status = Status::kFailed;  ///< kOk: `answer` is valid; else `reason` says why there is none
   std::string reason;
-  /// False: the program was not asked, or never replied to its first handshake, because of this machine or its set-up;
-  /// `reason` says why.
+  /// False if this machine or its set-up is the cause: the program was not asked, or never replied to its first
+  /// handshake. `reason` then says why.
   bool was_asked = true;
   JsonPtr answer;         ///< an object with finite numbers
-  double cpu_s = 0;       ///< used by the program since its last reply; 0 if it ended before the first sample
-  double peak_mb = 0;     ///< its largest memory during this problem, sampled 50 times a second
+  double cpu_s = 0;       ///< processor time since the last reply; 0 if the program ended before the first sample
+  double peak_mb = 0;     ///< the program's largest memory during this problem, sampled 50 times a second
   int repeated = 0;       ///< lines ignored before this reply, because they repeat answers to earlier questions
 };
 
 /// A program that answers problems over its standard input and output. It is started for the first problem, kept for
-/// the next ones, and restarted after a failure. Repeated answers are ignored at any time. If its start or a setting
-/// fails three times in a row, it is not tried again: every further reply equals the third.
+/// the next ones, and restarted after a failure. Repeated answers are always ignored. If the start or a setting fails
+/// three times in a row, it is not tried again, and every further reply equals the third.
 class OutsideMethod {
  public:
   explicit OutsideMethod(OutsideOptions options);
   OutsideMethod(OutsideMethod&&) noexcept;
   ~OutsideMethod();
 
-  /// Sends one problem and waits for the reply. `setting_id` names its setting: `setting` is sent first unless it was
-  /// the last setting sent. Its attachments are in a folder until the reply.
+  /// Sends one problem and waits for the reply. `setting` is sent first, unless it was the last setting sent;
+  /// `setting_id` identifies it. The problem's attachments exist in a folder until the reply.
   OutsideReply Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                    const Payload& problem);
 
-  /// Begins a session; ends one in progress. Sent like a problem, but the program replies `ready` and then answers each
-  /// step. kOk: the session is in progress.
+  /// Begins a session, after ending a session in progress. A session is sent like a problem, but the program replies
+  /// `ready` and then answers each step. If the status is kOk, the session is in progress.
   OutsideReply Begin(const std::string& setting_id, const Payload& setting, const std::string& session_id,
                      const Payload& session);
-  /// Sends the next step of the session in progress. Any reply but kOk ends the session, and the program is restarted
-  /// for the next one, except after kUnsolved (the program gave no answer).
+  /// Sends the next step of the session in progress. Any status but kOk ends the session. The program is then restarted
+  /// for the next session, except after kUnsolved (the program gave no answer).
   OutsideReply Step(const Payload& step);
 
-  /// Returns the program's own name: "name version"; "" before its first handshake.
+  /// Returns the name and version that the program stated in its handshake, "name version"; "" before the first
+  /// handshake.
   std::string ProgramName() const;
-  /// Closes its input, waits, and returns how it ended: "exit code 0", "signal 9 (Killed)" if it had to be killed, "not
-  /// running". The next problem starts it again.
+  /// Closes the program's input, waits up to `patience_ms`, and returns how the program ended: "exit code 0", "signal 9
+  /// (Killed)" if it had to be killed, or "not running". The next problem starts it again.
   std::string End(int patience_ms);
 
  private:

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 constexpr std::streamsize kMaxScriptBytes = 4096;
 constexpr int kMaxLinks = 40;
 
-/// Returns the absolute path without a slash at its end.
+/// Returns the absolute, normalised path without a slash at its end.
 fs::path Whole(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error).lexically_normal();
@@ -31,15 +31,16 @@ bool IsSeen(const fs::path& path, const ProgramView& view) {
          std::ranges::any_of(view.shown, [&](const fs::path& one) { return IsWithin(path, one); });
 }
 
-/// Returns true for a folder that must not be shown as a whole: the root, a home folder, a scratch folder, and folders
-/// that contain one of these.
+/// Returns true if the sandbox must not show this folder as a whole: the root, a folder directly below / or /home, and
+/// folders that contain a scratch folder.
 bool IsTooWide(const fs::path& folder) {
   const fs::path above = folder.parent_path();
   return above == "/" || above == "/home" || folder == "/" || Fence::HoldsScratch(folder);
 }
 
-/// Returns the folder of the installation that an unseen path belongs to: the program's folder or the one above, if the
-/// path is below it; else the folder above its `bin`; else its own folder.
+/// Returns the folder of the installation to which an unseen path belongs. If the path is below the program's folder or
+/// the folder above it, this is that folder. Otherwise it is the folder above the path's `bin` folder, or else the
+/// folder that contains the path. Returns the path itself if the folder is too wide.
 fs::path InstallationOf(const fs::path& path, const fs::path& program) {
   fs::path common;
   for (auto [a, b] = std::pair(path.begin(), program.begin()); a != path.end() && b != program.end() && *a == *b;) {
@@ -55,14 +56,15 @@ fs::path InstallationOf(const fs::path& path, const fs::path& program) {
   return IsTooWide(folder) ? path : folder;
 }
 
-/// Adds a path and removes those below it from the list; adds nothing if the list has a folder above it.
+/// Adds a path to the list and removes the paths below it. Adds nothing if the list already contains the path or a
+/// folder above it.
 void AddWidest(const fs::path& path, std::vector<fs::path>& paths) {
   if (std::ranges::any_of(paths, [&](const fs::path& known) { return IsWithin(path, known); })) return;
   std::erase_if(paths, [&](const fs::path& known) { return IsWithin(known, path); });
   paths.push_back(path);
 }
 
-/// Returns the absolute paths that a text names.
+/// Returns the absolute paths that occur in a text.
 std::vector<fs::path> PathsIn(std::string_view text) {
   constexpr std::string_view kEnds = " \t\r\n\"'`:;,=()[]{}<>|&$";
   std::vector<fs::path> found;
@@ -75,7 +77,7 @@ std::vector<fs::path> PathsIn(std::string_view text) {
   return found;
 }
 
-/// Returns the beginning of a script, "" for any other file.
+/// Returns the first 4 KiB of a script (a file that begins with #!); "" for any other file.
 std::string TextOfScript(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text(kMaxScriptBytes, '\0');
@@ -91,7 +93,8 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
   std::error_code error;
   for (const std::string& file : files) view.shown.push_back(Whole(file));
   for (const std::string& word : command) {
-    // A word without '/' is a path only if it is a file: a folder may have the same name by chance.
+    // A word without '/' counts as a path only if it is the name of a file, because a folder may have the same name by
+    // chance.
     const bool is_file = fs::is_regular_file(word, error);
     if (!is_file && (word.find('/') == std::string::npos || !fs::exists(word, error))) {
       view.command.push_back(word);
@@ -101,7 +104,8 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
     view.command.push_back(path.string());
     if (!is_file || Fence::IsOfSystem(path)) continue;
     const fs::path folder = path.parent_path();
-    // The Python of a virtual environment is a link: it cannot be a mount point, and it is shown with its folder.
+    // The Python of a virtual environment is a link, so it cannot be a mount point. It is shown together with its
+    // folder.
     const bool is_shown = fs::is_symlink(path, error) && std::ranges::any_of(view.shown, [&](const fs::path& one) {
                             return std::ranges::mismatch(one, path).in1 == one.end();
                           });
@@ -119,7 +123,7 @@ std::vector<fs::path> FindUnseen(const ProgramView& view, std::string_view words
   std::error_code error;
   const fs::path program = view.command.front();
   std::vector<fs::path> named;
-  // The Python of a virtual environment is a link out of it, and needs the settings beside its folder.
+  // The Python of a virtual environment is a link out of its folder, and needs the file pyvenv.cfg of the environment.
   const fs::path environment = program.parent_path().parent_path();
   if (fs::exists(environment / "pyvenv.cfg", error)) named.push_back(environment / "pyvenv.cfg");
   fs::path target = program;
@@ -127,7 +131,7 @@ std::vector<fs::path> FindUnseen(const ProgramView& view, std::string_view words
     target = Whole(target.parent_path() / fs::read_symlink(target, error));
     named.push_back(target);
   }
-  // The paths that a script and the last words name.
+  // Collect the paths that occur in the script and in the last output.
   for (const std::string& text : {TextOfScript(target), std::string(words)})
     std::ranges::move(PathsIn(text), std::back_inserter(named));
   std::vector<fs::path> unseen;

@@ -7,28 +7,32 @@
 
 namespace etude {
 
-/// A program as it is started, with or without a sandbox, and the files that a sandbox shows it beside the system.
+/// The command of a program, which is the same with and without a sandbox, and the files that a sandbox shows the
+/// program in addition to the system's.
 struct ProgramView {
   std::vector<std::string> command;          ///< program and arguments; files are absolute paths
-  std::vector<std::filesystem::path> shown;  ///< absolute paths of files and folders shown to it
-  std::filesystem::path start;               ///< its working folder; "" = a scratch folder
+  std::vector<std::filesystem::path> shown;  ///< absolute paths of the files and folders that the sandbox shows
+  std::filesystem::path start;               ///< the program's working folder; "" = a scratch folder
 };
 
-/// Makes the view of `command`: a program as returned by FindProgram, and its arguments. The program is shown `files`
-/// and the files that its command names. Without `files` it is shown the folder of its executable or, if that belongs
-/// to the system, of its script (the first file among the arguments). Its working folder is the first shown folder.
+/// Makes the view of `command`: a program as returned by FindProgram, and its arguments. The sandbox shows `files` and
+/// the files that the command names. If `files` is empty, it shows the folder of the program's executable instead or,
+/// if the executable belongs to the system, the folder of its script (the first file among the arguments). The
+/// program's working folder is the first folder shown.
 ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<std::string>& files);
 
-/// Returns the files and folders that a program may lack if it did not start in a fence. Candidates are the target of
-/// its link, the paths in its text if it is a script, and the paths in `words`, its last output; those that the fence
-/// does not show are returned. Each is replaced by the folder of the installation that contains it. Empty = none known.
+/// Returns the files and folders that a program may lack if it did not start in a sandbox. Candidates are the target of
+/// the program's link, the paths in its text if it is a script, and the paths in `words`, its last output. A candidate
+/// that the sandbox does not show is returned as the folder of the installation that contains it. Empty = nothing is
+/// known to be missing.
 std::vector<std::filesystem::path> FindUnseen(const ProgramView& view, std::string_view words);
 
-/// Returns the key `files` that shows a program `unseen` in addition to what it sees: "files: [mine, /home/me/venv]".
+/// Returns the key `files` that shows a program `unseen` in addition to the files it sees already: "files: [mine,
+/// /home/me/venv]".
 std::string FilesThatShow(const std::vector<std::filesystem::path>& unseen, const ProgramView& view);
 
-/// Returns the folder of Etude's Python package, which every program is shown and which is in its PYTHONPATH:
-/// `share/etude/python` beside an installed program, else `python` in a folder above it; "" if there is none.
+/// Returns the folder of Etude's Python package: `share/etude/python` of an installation, else `python` in a folder
+/// above the running program; "" if there is none. Every outside program sees this folder and has it in its PYTHONPATH.
 std::filesystem::path PythonFolder();
 
 }  // namespace etude

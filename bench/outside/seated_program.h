@@ -12,20 +12,20 @@ namespace etude {
 /// An outside method that takes a seat in a world's loop. After its first failure it is not asked again.
 class SeatedProgram : public LiveProgram {
  public:
-  /// `id` names its sessions. `method` and `setting` must outlive it.
+  /// `id` names the program's sessions. `method` and `setting` must outlive this object.
   SeatedProgram(OutsideMethod& method, std::string setting_id, const Payload& setting, std::string id);
 
   bool Begin(const Payload& session) override;
   JsonPtr Step(const Payload& step) override;
 
-  /// Returns its failure, if any.
+  /// Returns the program's first failure; nullopt if it has not failed.
   const std::optional<CellResult>& failure() const { return failure_; }
-  /// Returns false if this machine could not ask it.
+  /// Returns false if the program could not be asked because of this machine.
   bool was_asked() const { return was_asked_; }
   double cpu_s() const { return cpu_s_; }
   double peak_mb() const { return peak_mb_; }
   int repeated() const { return repeated_; }
-  /// Returns the digest of all its answers.
+  /// Returns the digest of all answers of the program.
   std::string AnswersDigest() const { return answers_.Hex(); }
 
  private:

@@ -24,7 +24,7 @@ namespace {
 
 constexpr long kTailBytes = 4096;  // the number of bytes at the end in which the last line is searched
 
-/// Opens a log file for appending; creates its folder. Links are not followed, because a resumed run may come from
+/// Opens a log file for appending, and creates its folder. Links are not followed, because a resumed run may come from
 /// somebody else.
 Result<Descriptor> OpenLog(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
@@ -46,7 +46,7 @@ ErrorLog::~ErrorLog() {
   if (memory_ >= 0) ::close(memory_);
 }
 
-// Without a memory file, the log file itself becomes the program's standard error.
+// If the system cannot make a memory file, the log file itself is the program's standard error.
 std::string ErrorLog::path() const {
   const int file = memory_ < 0 ? unbuffered_.number() : memory_;
   if (memory_ >= 0) ::fchmod(memory_, S_IRUSR | S_IWUSR);  // the last program may have changed the mode
@@ -58,8 +58,8 @@ long ErrorLog::Size() const {
   return memory_ >= 0 && ::fstat(memory_, &status) == 0 ? static_cast<long>(status.st_size) : 0;
 }
 
-// Punching a hole frees memory and loses nothing that the program appends at the same time. Truncating could lose such
-// output, so it is done only when the file comes near the program's size limit.
+// Punching a hole frees memory and cannot lose output that the program appends at the same time. Truncating could lose
+// such output, so it is done only when the file comes near the program's size limit.
 void ErrorLog::Trim() {
   const long end = Size() - kTailBytes;
   if (end <= kMaxBytes) return;
@@ -86,8 +86,7 @@ std::string ErrorLog::LastLine() const {
   return tail.substr(tail.find_last_of('\n') + 1);  // npos + 1 = 0
 }
 
-// The file is created only if there is output. If it cannot be written, the output is lost; that is no reason to fail a
-// cell.
+// The file is created only if there is output. If it cannot be written, the output is lost, but the cell does not fail.
 void ErrorLog::Save() {
   const long size = Size();
   if (size == 0) return;
@@ -102,11 +101,11 @@ void ErrorLog::Save() {
 
 namespace {
 
-// Between samples of resources, and between checks that it still runs.
+// The interval between samples of resources, and between checks that the program still runs.
 constexpr std::chrono::milliseconds kSampleInterval{20};
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
-  // The caller's message already names this machine as the cause, so only the message is passed on.
+  // The caller's message already names this machine as the cause, so the place of the error is left out.
   return tl::unexpected<OutsideFailure>(
       {Status::kFailed, IsOfThisMachine(error) ? error.message : ToString(error), false});
 }
@@ -127,7 +126,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
     if (!made) return NotStarted(made.error());
     attachment_root_.emplace(std::move(*made));
   }
-  // Find the program and the files that it may see.
+  // Find the program and the files that the sandbox shows.
   std::vector<std::string> command = options_.command;
   auto program = FindProgram(command.front());
   if (!program) return NotStarted(program.error());
@@ -140,7 +139,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
     view.shown.push_back(python / "etude");
     environment.push_back("PYTHONPATH=" + python.string());
   }
-  // Start it in its sandbox and its control group.
+  // Start the program in its sandbox and its control group.
   group_ = ControlGroup::Make(options_.fence.groups(), options_.memory_mb);
   const FencedCommand fenced = options_.fence.Around(view.command, view.shown, view.start);
   environment.insert(environment.end(), fenced.environment.begin(), fenced.environment.end());
@@ -193,7 +192,7 @@ OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadli
     if (is_due) {
       RETURN_IF_ERROR(Measure());
       next_sample = Clock::now() + kSampleInterval;
-      over = child_->HasEnded();  // its child processes may keep its output open
+      over = child_->HasEnded();  // the program's child processes may keep its output open
     }
     if (over || watched[0].revents != 0 || watched[1].revents != 0) {
       over = !child_->Receive(kMaxReplyBytes) || over;
@@ -207,7 +206,7 @@ OutsideOutcome<void> WatchedProgram::Measure() {
   errors_.Trim();
   const TreeLoad load = meter_->Count();
   const ScratchUse scratch = options_.fence.MeasureScratch(child_->FirstStarted());
-  // The reported peak has a tolerance of 10 % + 4 MB: below that, an upper bound suffices.
+  // The reported peak has a tolerance of 10 % + 4 MB. Within it, an upper bound is good enough.
   const double held_mb = group_.IsUp() ? group_.HeldMb() + scratch.names_mb
                                        : meter_->HeldMb(scratch.Mb(), std::min(options_.memory_mb, 1.1 * peak_mb_ + 4));
   cpu_s_ = std::max(cpu_s_, load.cpu_s);  // the process may have ended meanwhile
@@ -233,7 +232,7 @@ tl::unexpected<OutsideFailure> WatchedProgram::TooMuchMemory() const {
   return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
 }
 
-/// Returns why the program will send no more lines.
+/// Returns the failure that says why the program will send no more lines.
 OutsideFailure WatchedProgram::HowItEnded() {
   const std::string part = WithoutFolder(std::string(child_->PartOfLine().substr(0, 1000))).substr(0, 100);
   if (child_->PartOfLine().size() > kMaxReplyBytes) {
@@ -252,7 +251,8 @@ OutsideFailure WatchedProgram::HowItEnded() {
   if (const std::string words = WithoutFolder(errors_.LastLine()); !words.empty()) {
     reason += "; its last words: " + Printable(words, 200);
   }
-  // The program itself decides an exit code (an exception, for instance), but a signal may come from the machine.
+  // An exit code is the program's own decision (after an exception, for instance), but a signal may come from the
+  // machine.
   return {end.starts_with("exit code") ? Status::kFailed : Status::kCrashed, std::move(reason)};
 }
 

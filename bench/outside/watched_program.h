@@ -14,22 +14,22 @@
 
 namespace etude {
 
-/// Collects the standard error of one program in memory, and saves it to a file that all workers share. The last line
-/// in memory is always this program's own, while the file mixes lines of all workers.
+/// Collects the standard error of one program in memory, and saves it to a file that all workers share. The memory
+/// contains only this program's lines, while the file mixes the lines of all workers.
 class ErrorLog {
  public:
-  /// The maximum size of the file, and of the output kept between two calls of Save.
+  /// The largest size of the file, and of the output that is kept between two calls of Save, bytes.
   static constexpr long kMaxBytes = 1 << 20;
 
-  /// Collects output for Save, which appends it to `file`; "" collects nothing.
+  /// Save appends the collected output to `file`. If `file` is "", nothing is collected.
   explicit ErrorLog(std::string file);
   ErrorLog(const ErrorLog&) = delete;
   ErrorLog& operator=(const ErrorLog&) = delete;
   ~ErrorLog();
 
-  /// Returns the path to open as the program's standard error; "" if it shares ours.
+  /// Returns the path that must be opened as the program's standard error; "" if the program shares our standard error.
   std::string path() const;
-  /// Discards collected output beyond the limit, except its end.
+  /// Discards the part of the collected output that exceeds the limit, but keeps its end.
   void Trim();
   /// Returns the last non-empty line since the last Save; "" if there is none.
   std::string LastLine() const;
@@ -55,50 +55,52 @@ template <typename T>
 using OutsideOutcome = tl::expected<T, OutsideFailure>;
 OutsideFailure TookTooLong(double seconds);
 
-/// An outside program in its sandbox. While we wait for a line, its time, its memory and its end are monitored. It may
-/// be started again after Stop.
+/// An outside program in its sandbox. While Etude waits for a line, it monitors the program's time, memory and end. The
+/// program may be started again after Stop.
 class WatchedProgram {
  public:
-  /// The options must outlive this.
+  /// The options must outlive this object.
   explicit WatchedProgram(const OutsideOptions& options) : options_(options), errors_(options.error_file) {}
 
-  /// Starts the program. Fails if this machine cannot.
+  /// Starts the program. Fails if this machine cannot start it.
   OutsideOutcome<void> Start();
   bool IsRunning() const { return child_.has_value(); }
-  /// Closes its input, waits `patience_ms`, then kills it. Returns how it ended, or "not running".
+  /// Closes the program's input, waits `patience_ms`, then kills the program. Returns how it ended, or "not running".
   std::string Stop(int patience_ms);
 
-  /// Sends a line. If the program has closed its input, WaitForLine fails. This and the next five functions require a
-  /// running program.
+  /// Sends a line. If the program has closed its input, the next WaitForLine fails. Send and the next five functions
+  /// require a running program.
   void Send(const std::string& line) { child_->Send(line); }
-  /// Reads the output available now; NextLine returns its lines.
+  /// Reads the output that is available now. NextLine then returns its lines.
   void Receive();
   std::optional<std::string> NextLine() { return child_->NextLine(); }
-  /// Waits for a line until `deadline`, which is `seconds` after the question. Fails if the program ends, exceeds the
-  /// limit of a resource, or sends no line in time.
+  /// Waits for a line until `deadline`. `seconds` is the time limit in the error message, counted from the question.
+  /// Fails if the program ends, exceeds the limit of a resource, or sends no line in time.
   OutsideOutcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
-  /// Measures its resources; fails if they exceed the limits. MeasureIfDue does so only 20 ms after the last sample.
+  /// Measures the program's resources. Fails if they exceed the limits. MeasureIfDue measures only if 20 ms have passed
+  /// since the last sample.
   OutsideOutcome<void> Measure();
   OutsideOutcome<void> MeasureIfDue();
-  /// Returns the number of bytes sent that it has not read yet.
+  /// Returns the number of bytes sent to the program that it has not read yet.
   std::size_t UnreadBytes() const { return child_->UnreadBytes(); }
 
-  /// The folder of attachments, which exists from the first start on.
+  /// Returns the folder that holds the folders of attachments. It exists from the first start on.
   const std::filesystem::path& attachment_root() const { return attachment_root_->path(); }
-  /// Replaces the path of the attachments' folder by "FILES" in a text, because the path differs in every run.
+  /// Returns a text in which "FILES" replaces the path of the attachments' folder, because this path differs in every
+  /// run.
   std::string WithoutFolder(std::string text) const;
 
-  /// Returns the processor time between the last samples before this call and before the previous one, seconds.
+  /// Returns the processor time since the previous call, measured at the last sample before each call, seconds.
   double TakeCpuSeconds();
   /// Returns the largest memory measured since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }
   void ForgetPeak() { peak_mb_ = 0; }
-  /// Returns how to show the program what it seems to lack in its fence; "" if nothing is known to be missing.
+  /// Returns advice on how to show the program the files that it seems to lack in its sandbox; "" if none are known.
   std::string CureOfStart() const;
-  /// Saves its standard error.
+  /// Saves the program's standard error.
   void SaveErrors() { errors_.Save(); }
 
-  /// The time in which a program must end after closing its output, milliseconds.
+  /// The time within which a program must end after it has closed its output, milliseconds.
   static constexpr int kMaxDyingMs = 1000;
 
  private:
@@ -108,13 +110,13 @@ class WatchedProgram {
   const OutsideOptions& options_;
   ErrorLog errors_;
   std::optional<TemporaryFolder> attachment_root_;
-  ProgramView view_;    ///< of the child, without attachments and package
-  ControlGroup group_;  ///< of the child; if this machine provides none, `meter_` measures the memory
+  ProgramView view_;    ///< the view of the child, without attachments and package
+  ControlGroup group_;  ///< the child's group; if this machine provides none, `meter_` measures the memory
   std::optional<ChildProcess> child_;
-  std::optional<TreeMeter> meter_;  ///< of the child
+  std::optional<TreeMeter> meter_;  ///< measures the child and its processes
   Clock::time_point last_measured_{};
-  double cpu_s_ = 0;          ///< of the running program, as last measured
-  double cpu_charged_s_ = 0;  ///< the part returned by TakeCpuSeconds before
+  double cpu_s_ = 0;          ///< processor time of the running program at the last sample
+  double cpu_charged_s_ = 0;  ///< the part that TakeCpuSeconds has already returned
   double peak_mb_ = 0;
 };
 

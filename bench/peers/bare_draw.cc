@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// Copies the stored picture of the empty room.
+// This shader copies the stored picture of the empty room.
 constexpr const char* kBackdrop = R"glsl(
 uniform sampler2D kept_room;
 uniform sampler2D kept_extra;
@@ -27,7 +27,8 @@ void main() {
 }
 )glsl";
 
-// Projects a capsule's bounding box from the lamp onto the floor or the wall, where kShadow then draws its shadow.
+// This shader projects a capsule's bounding box from the lamp onto the floor or the wall. kShadow then draws the shadow
+// there.
 constexpr const char* kShadowPlace = R"glsl(
 uniform vec3 eye;
 uniform vec3 lamp;
@@ -76,7 +77,7 @@ void main() {
   float inside = 1.0 - gap / capsule_start.w;
   if (inside <= 0.0) discard;
 
-  // Softer the farther the shadow falls.
+  // The shadow is softer the farther it falls.
   float softness = clamp(0.2 * distance(point, capsule_start.xyz), 0.15, 0.6);
   colour = RoomInShadow(hit, point, inside, softness);
   label = 1u;
@@ -176,7 +177,7 @@ Result<std::unique_ptr<BareDraw>> BareDraw::Create(const Room& room, const Camer
 void BareDraw::Draw(const std::vector<Figure>& figures) {
   State& s = *state_;
   const GlFunctions& gl = s.gl;
-  // The empty room.
+  // Draw the empty room.
   s.capsules.Upload(MakeInstances(figures, s.camera.p_WC));
   constexpr GLfloat kFarthest[] = {1};
   gl.ClearBufferfv(GL_DEPTH, 0, kFarthest);
@@ -185,7 +186,7 @@ void BareDraw::Draw(const std::vector<Figure>& figures) {
   gl.BindVertexArray(s.vertices);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 
-  // Shadows: the darkest one counts (GL_MIN).
+  // Draw the shadows. Where they overlap, the darkest one counts (GL_MIN).
   gl.Enable(GL_CULL_FACE);
   gl.Enablei(GL_BLEND, 0);
   s.Use(s.shadow);
@@ -195,7 +196,7 @@ void BareDraw::Draw(const std::vector<Figure>& figures) {
   }
   gl.Disablei(GL_BLEND, 0);
 
-  // Capsules.
+  // Draw the capsules.
   gl.Enable(GL_DEPTH_TEST);
   s.Use(s.body);
   SetLights(gl, s.body, LightsOf(s.room));

@@ -9,8 +9,9 @@
 
 namespace etude {
 
-/// The baseline for times of sim/render: draws the same capsules and shadows with the same shaders into one framebuffer
-/// (colour and labels) and reads it back. It stores only the picture of the empty room and does no tiling or culling.
+/// A baseline for the drawing times of sim/render. It draws the same capsules and shadows with the same shaders into
+/// one framebuffer (colour and labels) and reads it back. It stores only the picture of the empty room, and does no
+/// tiling or culling.
 class BareDraw {
  public:
   static Result<std::unique_ptr<BareDraw>> Create(const Room& room, const Camera& camera);

@@ -1,4 +1,4 @@
-// Times the pictures of bench/micro/render_bench's `capsules_vga_labels` drawn by OSMesa or EGL alone.
+// Times the pictures of `capsules_vga_labels` in bench/micro/render_bench, drawn by OSMesa or EGL without our renderer.
 #include <benchmark/benchmark.h>
 
 #include "bench/peers/bare_draw.h"

@@ -1,5 +1,5 @@
-// Times reading and writing BVH, and resampling, on clips of Debian's assimp-testmodels. assimp's importer reads the
-// same bytes in the same run.
+// Times the reading, writing and resampling of BVH files, on clips of Debian's assimp-testmodels. assimp's importer
+// reads the same bytes in the same run.
 #include <assimp/scene.h>
 #include <benchmark/benchmark.h>
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMaxDofs = 32, kMaxEffectors = 4, kRows = 6 * kMaxEffectors;
 
-// The same values as in jacobian_solvers.cc.
+// These constants have the values of jacobian_solvers.cc.
 constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9, kMinMu = 1e-9;
 constexpr double kMinProgress = 0.7, kSettledProgress = 1 - 1e-5;
 constexpr int kMaxPatience = 6, kMaxPasses = 4;
@@ -32,7 +32,8 @@ inline Vector Cross(Vector a, Vector b) {
 }
 Vector From(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// Dot product of rows, from the start of the SIMD vector that contains row `from`. Eight partial sums hide the latency.
+// Returns the dot product of rows, from the start of the SIMD vector that contains row `from`. Eight partial sums hide
+// the latency.
 constexpr int kSums = 8;
 inline double DotRows(const double* a, const double* b, int from = 0) {
   double sums[kSums] = {};
@@ -151,9 +152,9 @@ class DensePeer final : public IkPeer {
     best_.cost = std::numeric_limits<double>::infinity();
   }
 
-  // Computes forward kinematics, and the cost.
+  // Computes the forward kinematics and the cost of a pose.
   void Place(Pose& pose) {
-    // Joints: translate and rotate from the parent, then turn about each axis.
+    // For each joint: translate and rotate from the parent, then turn about each axis.
     for (std::size_t n = 1; n < joints_.size(); ++n) {
       const Joint& joint = joints_[n];
       const Frame& parent = frames_[joint.parent];
@@ -170,7 +171,7 @@ class DensePeer final : public IkPeer {
         pose.dof_points[d] = frame.position;
       }
     }
-    // Effectors: squared distances, and squared chords between axes.
+    // For each effector: add the squared distance and the squared chords between the axes.
     pose.cost = 0;
     double farthest = 0, longest = 0;
     for (int e = 0; e < ends_; ++e) {
@@ -193,7 +194,7 @@ class DensePeer final : public IkPeer {
     is_met_ = farthest < squared_goal_ && longest < squared_chord_;
   }
 
-  // Computes J, e and JJᵀ. A column of J is zero except in the rows of effectors that its angle moves.
+  // Computes J, e and JJᵀ. A column of J is zero except in the rows of the effectors that its angle moves.
   void Linearise() {
     for (int e = 0; e < ends_; ++e) {
       const Goal& goal = goals_[e];
@@ -237,8 +238,8 @@ class DensePeer final : public IkPeer {
     }
   }
 
-  // Solves (JJᵀ without the fixed angles + μI) y = duals_ in place: elimination on the upper triangle, in whole
-  // vectors.
+  // Solves (JJᵀ without the fixed angles + μI) y = duals_ in place. Gaussian elimination works on the upper triangle,
+  // in whole SIMD vectors.
   bool SolveDuals(double mu) {
     std::memcpy(factor_, gram_, sizeof(gram_));
     for (int d = 0; d < dofs_; ++d) {
@@ -263,8 +264,9 @@ class DensePeer final : public IkPeer {
     return true;
   }
 
-  // Computes the step; returns its largest change of an angle, 0 on failure.
+  // Computes the step and returns its largest change of an angle, radians; 0 on failure.
   double FindStep(double mu) {
+    // Active-set passes: solve with some angles fixed at their limits, until the set of fixed angles stays the same.
     std::memset(sides_, 0, sizeof(sides_));
     bool is_exact = false;
     for (int pass = 0; pass < kMaxPasses && !is_exact; ++pass) {
@@ -285,6 +287,7 @@ class DensePeer final : public IkPeer {
         step_[d] = std::clamp(best, lower, upper);
       }
     }
+    // Shorten the step if an angle would turn too far, and apply it to the trial pose.
     double largest = 0;
     for (int d = 0; d < dofs_; ++d) largest = std::max(largest, std::abs(step_[d]));
     const double share = largest > kMaxTurn ? kMaxTurn / largest : 1;
@@ -305,8 +308,8 @@ class DensePeer final : public IkPeer {
     return gain;
   }
 
-  // Descends from the current pose until the problem is solved, or until the cost has not fallen to `progress` times
-  // its value for some steps.
+  // Descends from the current pose until the problem is solved, or until the cost has not fallen below `progress` times
+  // its last value for kMaxPatience steps.
   void Descend(double progress) {
     double fallen_to = pose_.cost, factor = 1, growth = 2;
     bool has_moved = true;
@@ -327,7 +330,7 @@ class DensePeer final : public IkPeer {
         factor *= growth;
         growth *= 2;
       }
-      // Count the steps without progress.
+      // Count the steps since the cost last fell enough.
       if (pose_.cost < progress * fallen_to) {
         fallen_to = pose_.cost;
         left = kMaxPatience;

@@ -1,7 +1,7 @@
-// Times our inverse kinematics, one by one and in batches, and that of other libraries, with the same problems and
-// accuracy in one process. In every round, every method solves every problem; the fastest round of each problem counts.
-// A problem is solved if our forward kinematics puts every effector's position and axes within the goals, and all
-// angles within the limits.
+// Times our inverse kinematics, for single problems and in batches, and the inverse kinematics of other libraries. All
+// methods solve the same problems to the same accuracy in one process. In every round, every method solves every
+// problem; the fastest round of each problem counts. A problem is solved if, by our forward kinematics, every
+// effector's position and axes are within the goals, and all angles are within their limits.
 //
 //     ik_peers_bench [--trials=50] [--rounds=3] [--only=parts of methods' names, commas between]
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ const KinematicTree& Body() {
   return tree;
 }
 
-// The tight goals: 10⁻³ cm and 10⁻³°.
+// Returns options with the tight goals: 10⁻³ cm and 10⁻³°.
 IkOptions Tightly(int max_iterations) {
   IkOptions options;
   options.weights = WeightRule::kAdaptivePower;
@@ -46,14 +46,14 @@ IkOptions Tightly(int max_iterations) {
   return options;
 }
 
-// Returns processor time, so that other processes do not count.
+// Returns the thread's processor time in microseconds. Other processes do not affect it.
 double ThreadTimeUs() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-// Returns the duration of reading the clock, which matters if a solution takes microseconds.
+// Returns the time that it takes to read the clock, microseconds. It matters if a solution takes only microseconds.
 double ClockTimeUs() {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 10000; ++i) {
@@ -68,7 +68,7 @@ struct Outcome {
   double us = std::numeric_limits<double>::infinity();
 };
 
-/// `solve` solves all problems once; `outcomes` keeps the shortest time of each problem.
+/// One method of the comparison. `solve` solves all problems once; `outcomes` keeps the shortest time of each problem.
 struct Method {
   std::string name;
   std::function<void(std::span<const IkWorld> worlds, std::vector<Outcome>& outcomes)> solve;
@@ -96,7 +96,7 @@ Method Ours(const std::string& solver, int max_iterations, const SolverSettings&
   });
 }
 
-// The plain version, without SIMD.
+// Returns our plain version, without SIMD.
 Method Plain() {
   return OneByOne(kCompared, [options = Tightly(200)](const IkProblem& problem) {
     IkSolution solution = SolveGaussNewtonPlainly(Body(), problem, options);
@@ -104,7 +104,7 @@ Method Plain() {
   });
 }
 
-// One problem after the other, with a tree prepared once, like the rivals' models.
+// Returns the method that solves one problem after the other, with a tree prepared once, like the rivals' models.
 Method Single(const std::string& target) {
   SetBatchTarget(target);
   const auto solver = std::make_shared<GaussNewtonSolver>(Body());
@@ -115,7 +115,8 @@ Method Single(const std::string& target) {
   });
 }
 
-// A batch gives every problem the same time: the batch's time divided by the number of problems.
+// Returns the method that solves all problems in one batch. Every problem gets the same time: the batch's time divided
+// by the number of problems.
 Method Batch(const std::string& target, Precision precision) {
   const std::string name =
       fmt::format("gauss-newton, batch in {}, {}", precision == Precision::kFloat ? "float" : "double", target);
@@ -136,7 +137,8 @@ Method Batch(const std::string& target, Precision precision) {
           }};
 }
 
-// Ends the program if the peer's model is not our tree, because it would then solve different problems.
+// Returns the method of another library. Ends the program if the library's model differs from our tree, because the
+// library would then solve different problems.
 Method Peer(const std::string& name, std::shared_ptr<IkPeer> peer, int max_iterations) {
   constexpr double kRounding = 1e-9;
   for (int trial = 0; trial < 20; ++trial) {
@@ -270,7 +272,8 @@ void Compare(const Condition& condition, const std::vector<Method>& methods, int
   for (std::size_t m = 0; m < methods.size(); ++m) PrintRow(methods[m], worlds, outcomes[m], compared);
 }
 
-// Reads the number after `key` in `argument`; returns false if it is another argument or invalid.
+// Reads the number after `key` in `argument`. Returns false if the argument does not begin with `key`, or if the number
+// is invalid.
 bool Read(std::string_view argument, std::string_view key, int& number) {
   if (!argument.starts_with(key)) return false;
   argument.remove_prefix(key.size());

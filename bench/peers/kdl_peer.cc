@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-constexpr double kUnlimitedSpeed = 1e3;  // of effectors; limits on angles alone gave better results
+constexpr double kUnlimitedSpeed = 1e3;  // speed limit of effectors; limits on angles alone gave better results
 
 KDL::Vector ToVector(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 KDL::Rotation ToRotation(const glm::dmat3& m) { return {ToVector(m[0]), ToVector(m[1]), ToVector(m[2])}; }
@@ -23,9 +23,9 @@ LimbFrame FromFrame(const KDL::Frame& f) {
 
 std::string SegmentName(int joint, int axis) { return std::to_string(joint) + "xyz"[axis]; }
 
-// Makes one KDL segment per degree of freedom. This is the smallest possible number, because KDL's recursion over names
-// is slow. A joint's offset and rest rotation are in its first segment, an effector's offset in the last segment of its
-// limb.
+// Makes one KDL segment per degree of freedom. This is the smallest possible number; KDL's recursion over names is
+// slow. The first segment of a joint contains the joint's offset and rest rotation; the last segment of a limb contains
+// its effector's offset.
 KDL::Tree ToKdl(const KinematicTree& tree) {
   KDL::Tree made("root");
   const TreeState rest = StandingState(tree);
@@ -127,7 +127,7 @@ class KdlNewton final : public KdlPeer {
 
   IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) override {
     Take(problem);
-    // KDL compares each component of a twist, in metres or radians, with the same limit.
+    // KDL compares every component of a twist, in metres or radians, with a single limit.
     const double goal = std::min(options.position_goal, options.axis_goal) / std::sqrt(3.0);
     if (goal != goal_) {
       const int steps = settings_.restarts > 0 ? kStepsPerTry : options.max_iterations;
@@ -135,7 +135,7 @@ class KdlNewton final : public KdlPeer {
                                                              steps, goal);
       goal_ = goal;
     }
-    // If the solver is stuck, restart it from another pose, as TRAC-IK does for chains.
+    // If the solver is stuck, restart it from another pose. TRAC-IK does this for chains.
     for (int restart = 1; solver_->CartToJnt(q_, targets_, found_) < 0 && restart <= settings_.restarts; ++restart) {
       ScatterAround(problem.start.angles, problem.limits, restart, scattered_);
       std::ranges::copy(scattered_, q_.data.data());

@@ -16,8 +16,9 @@ struct Buffers {
   cv::Mat labels, stats, centroids, changed;
 };
 
-/// Fills the holes of at most `max_hole_px` pixels in a mask, given its two-level contours (outlines and holes). The
-/// contour of a hole lies on the person's pixels around it.
+/// Fills each hole of at most `max_hole_px` pixels in the mask `person`, given its two-level contours (outlines and
+/// holes). `outline` is the index of the person's contour. The contour of a hole lies on the person's pixels around the
+/// hole.
 void FillSmallHoles(const std::vector<std::vector<cv::Point>>& contours, const std::vector<cv::Vec4i>& hierarchy,
                     int outline, int max_hole_px, cv::Mat& person) {
   for (int i = hierarchy[static_cast<std::size_t>(outline)][2]; i >= 0; i = hierarchy[static_cast<std::size_t>(i)][0]) {
@@ -53,7 +54,8 @@ void KeepPersonByLabels(const cv::Mat& changed, int max_hole_px, Buffers& b, Mas
   }
 }
 
-/// The same by contours alone: draws the contour of the largest area, then fills its small holes.
+/// Finds the contour with the largest area, draws it, and fills its small holes. No labels are computed, unlike in
+/// KeepPersonByLabels.
 void KeepPersonByContours(const cv::Mat& changed, int max_hole_px, Mask& out) {
   std::vector<std::vector<cv::Point>> contours;
   std::vector<cv::Vec4i> hierarchy;
@@ -68,7 +70,7 @@ void KeepPersonByContours(const cv::Mat& changed, int max_hole_px, Mask& out) {
   }
   if (best < 0) return;
   cv::Mat person(out.height, out.width, CV_8U, out.pixels.data());
-  // maxLevel 1 also draws the holes, which are its children.
+  // With maxLevel 1, the children of the contour, its holes, are drawn too.
   cv::drawContours(person, contours, best, 1, cv::FILLED, cv::LINE_8, hierarchy, 1);
   FillSmallHoles(contours, hierarchy, best, max_hole_px, person);
 }
@@ -86,7 +88,7 @@ struct OpenCvPerson::State {
   Buffers buffers;
 
   void Chroma(const cv::Mat& rgb) {
-    // (2R − G − B, G − B): whole numbers in floats. Grey gets the hue of red.
+    // The rows compute 2R − G − B and G − B, which are whole numbers in floats. Grey gets the hue of red.
     static const cv::Matx23f kToChroma(2, -1, -1, 0, 1, -1);
     rgb.convertTo(tmp, CV_32F);
     cv::transform(tmp, chroma, kToChroma);

@@ -6,16 +6,16 @@
 
 namespace etude {
 
-// The peers in OpenCV as its users would write them: OpenCV's functions, reused buffers, one thread.
+// The peers use OpenCV as its users would: with OpenCV's functions, reused buffers and one thread.
 
-/// Finds a person by hue in pictures of one camera: the largest changed piece, with its small holes filled. The
-/// background's part is computed once.
+/// Finds a person by hue in pictures of one camera: the largest changed piece, with its small holes filled. Everything
+/// that depends on the background alone is computed once.
 class OpenCvPerson {
  public:
   enum class Kind {
     kSameHue,      ///< the paper's hue by OpenCV's arithmetic on whole pictures; gives the same masks as ours
     kHsv,          ///< the hue of cvtColor, in 180 steps: faster
-    kHsvContours,  ///< the same, but finds the largest piece by contours instead of labels
+    kHsvContours,  ///< kHsv, but the largest piece is found by contours instead of labels
   };
   OpenCvPerson(const ColourImage& background, double hue_threshold, int max_hole_px, Kind kind);
   ~OpenCvPerson();
@@ -29,7 +29,8 @@ class OpenCvPerson {
   std::unique_ptr<State> state_;
 };
 
-/// OpenCV's background models MOG2 and KNN with shadow detection; then the largest piece with small holes filled.
+/// Finds a person with OpenCV's background models MOG2 and KNN with shadow detection. The person is the largest piece,
+/// with small holes filled.
 class OpenCvModel {
  public:
   enum class Kind { kMog2, kKnn };

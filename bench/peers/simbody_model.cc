@@ -25,7 +25,7 @@ SimbodyModel::Frame FromTransform(const SimTK::Transform& t) {
 }  // namespace
 
 struct SimbodyModel::Parts {
-  // An angle; all are in the order of the joints.
+  // An angle of the model. Angles are in the order of the joints.
   struct Angle {
     SimTK::MobilizedBody body;
     int axis;
@@ -42,7 +42,8 @@ struct SimbodyModel::Parts {
   SimTK::Markers* markers = nullptr;  // owned by the assembler
   SimTK::OrientationSensors* sensors = nullptr;
 
-  // Gimbal rotates by Rx Ry Rz and Universal by Rx Ry, like our joints. Pin rotates about Z, so our X becomes its Z.
+  // Gimbal rotates by Rx Ry Rz and Universal by Rx Ry, like our joints. Pin rotates about Z, so our X axis becomes its
+  // Z axis.
   void AddJoint(const Joint& joint) {
     using SimTK::MobilizedBody;
     if (joint.parent < 0 || joint.dof_count == 0) {
@@ -73,14 +74,14 @@ struct SimbodyModel::Parts {
 SimbodyModel::SimbodyModel(const std::vector<Joint>& joints, const std::vector<Effector>& effectors,
                            const SimbodySettings& settings)
     : parts_(std::make_unique<Parts>()) {
-  // The multibody system, with angles as coordinates.
+  // Build the multibody system, with angles as coordinates.
   for (const Joint& joint : joints) parts_->AddJoint(joint);
   parts_->effectors = effectors;
   parts_->state = parts_->system.realizeTopology();
   parts_->matter.setUseEulerAngles(parts_->state, true);
   parts_->system.realizeModel(parts_->state);
 
-  // A marker and a sensor per effector.
+  // Add a marker and an orientation sensor for each effector.
   parts_->assembler = std::make_unique<SimTK::Assembler>(parts_->system);
   SimTK::Assembler& assembler = *parts_->assembler;
   parts_->markers = new SimTK::Markers();
@@ -90,11 +91,11 @@ SimbodyModel::SimbodyModel(const std::vector<Joint>& joints, const std::vector<E
     parts_->markers->addMarker(limb, ToVec(effector.offset));
     parts_->sensors->addOSensor(limb, SimTK::Rotation());
   }
-  // Weights of single markers are relative to each other; this is the weight of all markers relative to all sensors.
+  // Weights of single markers are relative to each other. This is the weight of all markers relative to all sensors.
   assembler.adoptAssemblyGoal(parts_->markers, settings.position_weight);
   assembler.adoptAssemblyGoal(parts_->sensors);
   assembler.setAccuracy(settings.accuracy);
-  // Limits.
+  // Set the limits of the angles.
   std::size_t next = 0;
   for (const Joint& joint : joints) {
     for (int axis = 0; axis < joint.dof_count; ++axis, ++next) {
@@ -129,7 +130,7 @@ std::vector<double> SimbodyModel::Assemble(const double* start, const std::vecto
   try {
     parts_->assembler->track();
   } catch (const std::exception&) {
-    // The Assembler failed; its last state is judged like any other answer.
+    // If the Assembler failed, its last state is judged like any other answer.
   }
   const SimTK::State& found = parts_->assembler->getInternalState();
   std::vector<double> angles;

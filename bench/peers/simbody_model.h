@@ -7,12 +7,12 @@
 namespace etude {
 
 struct SimbodySettings {
-  double accuracy = 1e-5;      ///< of its optimiser; smaller values change nothing
+  double accuracy = 1e-5;      ///< accuracy of the optimiser; smaller values change nothing
   double position_weight = 3;  ///< weight of a square metre relative to a square radian
 };
 
-/// Simbody's model of a kinematic tree, with its Assembler. Simbody's headers do not compile as C++20, so this class is
-/// C++17 and has only plain types in its interface.
+/// Simbody's model of a kinematic tree, with its Assembler. Simbody's headers do not compile as C++20. This class is
+/// therefore compiled as C++17, and its interface has only plain types.
 class SimbodyModel {
  public:
   struct Frame {
@@ -21,7 +21,7 @@ class SimbodyModel {
   };
   struct Joint {
     int parent = -1;
-    Frame base;  ///< in the parent limb's frame at angle zero; for the root: in the world
+    Frame base;  ///< the joint's frame in the parent limb's frame at angle zero; for the root, in the world
     int dof_count = 0;
     double lower[3] = {}, upper[3] = {};
   };
@@ -34,7 +34,7 @@ class SimbodyModel {
                const SimbodySettings& settings);
   ~SimbodyModel();
 
-  /// Returns the effectors by Simbody's forward kinematics; `angles` are in the order of the joints.
+  /// Returns the effectors' frames by Simbody's forward kinematics. `angles` are in the order of the joints.
   std::vector<Frame> Effectors(const double* angles);
   /// Returns the angles that the Assembler finds from `start`, or the last angles that it tried if it fails.
   std::vector<double> Assemble(const double* start, const std::vector<Frame>& targets);

@@ -13,10 +13,11 @@
 
 namespace etude {
 
-/// The extras of task `capture`: what a recording holds beside its tracks "truth" and "recovered" (both at 30 Hz; frame
-/// k of the tracks is frame k here), enough to draw the stereo views again. To show frame k of camera c: render the
-/// truth, dressed in `colours` (or as its stage dresses it), in Room{texture_seed, brightness[k], casts_shadows} as
-/// seen by cameras[c].truth, draw masks[k] over it, and project the recovered joints with MatrixOf(cameras[c].truth).
+/// The extras of task `capture`: the data of a recording that is needed, in addition to its tracks "truth" and
+/// "recovered", to draw the stereo views again. The tracks have 30 Hz; frame k of the tracks is frame k here. To show
+/// frame k of camera c: render the truth, dressed in `colours` (or as its stage dresses it), in Room{texture_seed,
+/// brightness[k], casts_shadows} from cameras[c].truth, draw masks[k] over the picture, and project the recovered
+/// joints with MatrixOf(cameras[c].truth).
 ///
 /// As JSON (the content of `Recording::extras_json`):
 ///
@@ -45,22 +46,22 @@ struct CaptureExtras {
 
   struct Mark {
     glm::dvec2 a{0}, b{0};  ///< pixels
-    Rgb8 colour{};          ///< the limb's
+    Rgb8 colour{};          ///< the limb's colour
   };
-  /// A frame for which every stage can be shown.
+  /// A frame at which the intermediate results of every stage are recorded.
   struct Moment {
     std::size_t frame = 0;
     BodyPose fixed;                        ///< joints with the known limb lengths, before inverse kinematics
-    std::vector<std::vector<Mark>> marks;  ///< per camera
+    std::vector<std::vector<Mark>> marks;  ///< the marks of each camera
   };
 
   std::uint64_t texture_seed = 1;
   bool casts_shadows = true;
   std::uint64_t stage_seed = 0;    ///< seed of furniture and moving objects (sim/stage), if `scene` > 0
   double scene = 0;                ///< 0 = the studio
-  bool wears_everyday = false;     ///< on that stage, the performer wears everyday clothes
-  bool wears_coded = false;        ///< the performer wears the coded suit
-  std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
+  bool wears_everyday = false;     ///< true: on that stage, the performer wears everyday clothes
+  bool wears_coded = false;        ///< true: the performer wears the coded suit
+  std::array<Rgb8, 16> colours{};  ///< the performer's colours, by Part
   std::vector<double> brightness;  ///< one per frame
   std::vector<View> views;
   std::vector<Moment> moments;
@@ -68,11 +69,11 @@ struct CaptureExtras {
 };
 
 std::string WriteCaptureExtras(const CaptureExtras& extras);
-/// Reads what WriteCaptureExtras writes. Fails, naming what is missing or wrong, if `json` is anything else.
+/// Reads the text that WriteCaptureExtras returns. Fails on any other text, naming what is missing or wrong.
 Result<CaptureExtras> ReadCaptureExtras(std::string_view json);
 
-/// Returns a mask as run lengths in scan order, separated by blanks: the number of 0s, then of 1s, then of 0s, … The
-/// last run of 0s is left out, so an empty mask is the empty text.
+/// Returns a mask as run lengths in scan order, separated by blanks: the number of 0s, then of 1s, then of 0s, and so
+/// on. The last run of 0s is left out, so an empty mask is the empty text.
 std::string EncodeMask(const Mask& mask);
 Result<Mask> DecodeMask(std::string_view text, int width, int height);
 

@@ -8,19 +8,19 @@
 
 namespace etude {
 
-/// The extras of task `evaluation`, whose recordings have no tracks of the twenty joints: both motions on the joints
-/// judged, at the truth's rate.
+/// The extras of task `evaluation`: the truth and the answer with the judged joints only, at the truth's rate.
+/// Recordings of this task have no tracks of the twenty joints.
 ///
 /// As JSON (the content of `Recording::extras_json`):
 ///
 ///     {"rate_hz": 30, "joints": [names], "parents": [indices; −1: none],
 ///      "truth": [[x, y, z of each joint; null where it is not seen], …], "answer": the same}
 struct EvaluationExtras {
-  RawMotion truth, answer;  ///< of the same joints, and as long
+  RawMotion truth, answer;  ///< both have the same joints and number of frames
 };
 
 std::string WriteEvaluationExtras(const EvaluationExtras& extras);
-/// Reads what WriteEvaluationExtras writes. Fails, naming what is wrong, if `json` is anything else.
+/// Reads the text that WriteEvaluationExtras returns. Fails on any other text, naming what is wrong.
 Result<EvaluationExtras> ReadEvaluationExtras(std::string_view json);
 
 }  // namespace etude

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// A JSON type: how to recognise it, and the words for it in complaints.
+/// A JSON type: a function that recognises it, and its name in error messages.
 struct JsonKind {
   bool (Json::*is)() const noexcept;
   const char* complaint;

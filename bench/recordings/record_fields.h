@@ -12,20 +12,20 @@
 
 namespace etude {
 
-/// Encodes one value of a recording as JSON. Instantiated for booleans, numbers, texts, points (three numbers), poses
-/// (sixty numbers), one number per feature (an object by FeatureName), lists of these, and optional ones, which are
-/// null if empty.
+/// Encodes one value of a recording as JSON. It is instantiated for booleans, numbers, texts, points (three numbers),
+/// poses (sixty numbers), one number per feature (an object by FeatureName), lists of these, and optional values, which
+/// are null if empty.
 template <typename Value>
 void EncodeValue(const Value& value, Json& json);
 
-/// Reads what EncodeValue writes. A complaint tells what was found and what is allowed; it begins with a colon, or with
-/// the index of the entry concerned.
+/// Reads JSON that EncodeValue wrote. An error states what was found and what is allowed. It begins with a colon, or
+/// with the index of the entry concerned.
 template <typename Value>
 Result<void> DecodeValue(const Json& json, Value& value);
 
 /// The keys of one JSON object of a recording. Each format is declared once, as a function `Describe(RecordFields&,
-/// Record&)` that names every key, its member and its meaning, in the order of writing; the same function writes and
-/// reads a record, and makes its reference page. Unknown keys are ignored on reading.
+/// Record&)`. The function names every key, its member and its meaning, in the order of writing. It is used to write a
+/// record, to read one, and to make its reference page. Unknown keys are ignored on reading.
 class RecordFields {
  public:
   template <typename Record>
@@ -36,8 +36,8 @@ class RecordFields {
     return TextOf(*json);
   }
 
-  /// Reads a record. Complaints name the position within the object: "events[2].score: \"high\" is not a number (how right
-  /// it looked)".
+  /// Reads a record. Error messages name the position within the object: "events[2].score: \"high\" is not a number
+  /// (how right it looked)".
   template <typename Record>
   static Result<Record> Read(const std::string& text) {
     Record record;
@@ -45,7 +45,7 @@ class RecordFields {
     return record;
   }
 
-  /// Returns the keys of a record and of the objects in it, as a list in Markdown.
+  /// Returns the keys of a record, and of the objects in it, as a Markdown list.
   template <typename Record>
   static std::string Page() {
     std::string page;
@@ -55,10 +55,10 @@ class RecordFields {
     return page;
   }
 
-  /// The keys "format" and "version", which must have these values.
+  /// Declares the keys "format" and "version". On reading, they must have these values.
   void Format(std::string_view name, int version);
 
-  /// A required value.
+  /// Declares a required value.
   template <typename Value>
   void Required(const char* key, Value& value, const char* meaning) {
     Document(key, meaning);
@@ -66,7 +66,7 @@ class RecordFields {
     if (const Json* found = Find(key, /*must=*/true, meaning)) Note(key, DecodeValue(*found, value), meaning);
   }
 
-  /// An optional value; its key is absent if it is empty.
+  /// Declares an optional value. If it is empty, its key is absent.
   template <typename Value>
   void Optional(const char* key, std::optional<Value>& value, const char* meaning) {
     Document(key, meaning);
@@ -74,7 +74,7 @@ class RecordFields {
     if (const Json* found = Find(key)) Note(key, DecodeValue(*found, value.emplace()), meaning);
   }
 
-  /// A value that keeps its default if the key is absent or has another type.
+  /// Declares a value that keeps its default if the key is absent or its value has another type.
   template <typename Value>
   void Tolerated(const char* key, Value& value, const char* meaning) {
     Document(key, meaning);
@@ -83,7 +83,7 @@ class RecordFields {
     if (const Json* found = Find(key); found != nullptr && DecodeValue(*found, read)) value = std::move(read);
   }
 
-  /// A required list of objects, of lists of them, or of values.
+  /// Declares a required list of objects, of lists of objects, or of values.
   template <typename Entry>
   void List(const char* key, std::vector<Entry>& entries, const char* meaning) {
     Document(key, meaning);
@@ -95,7 +95,7 @@ class RecordFields {
     DocumentEntry<Entry>();
   }
 
-  /// An optional list; entries of a wrong type are left out.
+  /// Declares an optional list. On reading, entries of a wrong type are left out.
   template <typename Entry>
   void ToleratedList(const char* key, std::vector<Entry>& entries, const char* meaning) {
     Document(key, meaning);
@@ -176,16 +176,17 @@ class RecordFields {
 
   Json& Added(const char* key);
   void Document(const char* key, const char* meaning);
-  /// While a record is read, returns the value of the key. Complains if a required key is missing.
+  /// Returns the value of a key while a record is read; null otherwise. Adds an error if a key that must exist is
+  /// missing.
   const Json* Find(const char* key, bool must = false, const char* meaning = "");
   void Note(const char* key, const Result<void>& read, const char* meaning);
   Result<void> Finish();
 
   Json* written_;               ///< the object, when a record is written
   const Json* read_;            ///< the object, when one is read
-  std::string* page_;           ///< the page, when the format is documented
+  std::string* page_;           ///< the reference page, when the format is documented
   int depth_ = 0;               ///< nesting depth of the page's list
-  std::optional<Error> error_;  ///< the first complaint
+  std::optional<Error> error_;  ///< the first error
 };
 
 }  // namespace etude

@@ -11,23 +11,24 @@
 
 namespace etude {
 
-// The contents of a cell's recording beside its tracks (`Recording::extras_json`), by task; for task `capture` see
-// CaptureExtras. The keys and their meanings are in task_extras.cc, once for writing, reading and documenting. Frames
-// count from the first of the recording unless stated otherwise.
+// This header declares, for each task, the contents of a cell's recording apart from its tracks
+// (`Recording::extras_json`); for task `capture` see CaptureExtras. The keys and their meanings are in task_extras.cc,
+// where one declaration serves for writing, reading and documenting. Frames count from the recording's first frame,
+// unless stated otherwise.
 
-/// The extras of task `ik`. Its tracks are "truth", "start" and "solution" (one frame per step); each list has one
+/// The extras of task `ik`. The tracks are "truth", "start" and "solution" (one frame per step). Each list has one
 /// entry per frame.
 struct IkExtras {
   std::vector<int> iterations;
   std::vector<double> position_error_max_cm, orientation_error_max_deg;
-  std::vector<double> axis_error_max_deg;  ///< of the worst single axis, by which "solved" is judged
+  std::vector<double> axis_error_max_deg;  ///< the error of the worst single axis, by which "solved" is judged
   std::vector<std::optional<glm::dvec3>> targets_m;
 };
 
-/// The extras of task `transition`: a transition, with some seconds before and after it. Tracks "coach", "left" and
-/// "wanted" (docs/reference/recordings.md), from which the join's metrics can be computed.
+/// The extras of task `transition`: a transition, with some seconds before and after it. The tracks are "coach", "left"
+/// and "wanted" (docs/reference/recordings.md). The join's metrics can be computed from them.
 struct TransitionExtras {
-  /// A transition point: two frames, at which the motion changed clips. Frame numbers are those of the clips.
+  /// A transition point: a pair of frames at which the motion changed clips. Frame numbers are those of the clips.
   struct Point {
     std::string from, to;  ///< clips; "in-between" for the method's own frames
     std::optional<int> from_frame = {}, to_frame = {};
@@ -40,7 +41,7 @@ struct TransitionExtras {
     int from_frame = 0, to_frame = 0;
     double distance = 0;
     std::optional<PerFeature> partials;
-    std::optional<double> cost;  ///< by which the choice ranks, if not by the distance
+    std::optional<double> cost;  ///< the cost by which the choice ranks, if not by the distance
     std::string outcome;         ///< "taken", "too far", "later", "worse"
 
     bool operator==(const Candidate&) const = default;
@@ -53,7 +54,7 @@ struct TransitionExtras {
   std::string why;                      ///< one sentence
   std::optional<int> request_frame;     ///< negative: before the start of the recording
   std::optional<double> wait_s, threshold, natural_limit_cm;
-  std::optional<double> distance;  ///< as `partials`: of the worst transition point
+  std::optional<double> distance;  ///< the distance at the worst transition point, whose terms are in `partials`
   std::optional<PerFeature> weights, partials;
   std::optional<std::int64_t> pairs_seen, pairs_matched;
   std::vector<Point> points;
@@ -61,10 +62,10 @@ struct TransitionExtras {
   std::vector<Candidate> candidates;
 };
 
-/// The extras of task `detection`: a session in front of the sensor. Tracks "truth" and "sensed", as the recogniser saw
-/// it.
+/// The extras of task `detection`: a session in front of the sensor. The tracks are "truth" and "sensed"; "sensed" is
+/// the motion that the recogniser received.
 struct DetectionExtras {
-  /// An angle of a key pose.
+  /// The target of one angle of a key pose.
   struct Target {
     std::string feature;
     double degrees = 0, tolerance_deg = 0;
@@ -87,17 +88,17 @@ struct DetectionExtras {
     int frame = 0;
   };
 
-  std::optional<double> threshold;  ///< of the judgement; absent for an outside method
+  std::optional<double> threshold;  ///< the threshold of judging; absent for an outside method
   std::vector<Move> moves;
   std::vector<Event> events;
   std::vector<Alarm> alarms;
   std::vector<std::string> joint_states;  ///< one letter per joint, one text per frame (StateLetters)
 };
 
-/// The extras of task `coach`: a session with a learner. Tracks "coach", "truth" (the learner's real motion) and
-/// "sensed".
+/// The extras of task `coach`: a session with a learner. The tracks are "coach", "truth" (the learner's real motion)
+/// and "sensed".
 struct CoachExtras {
-  /// An interval of frames in one mode, up to the next one.
+  /// A mode of the session. It lasts from its frame to the frame of the next mode.
   struct Mode {
     std::string mode;
     int begin_frame = 0;
@@ -108,7 +109,7 @@ struct CoachExtras {
     int begin_frame = 0, end_frame = 0;
     std::string faults;
   };
-  /// The text on the screen, up to the next change.
+  /// The text on the screen. It is shown from its frame to the next change.
   struct Words {
     int begin_frame = 0;
     std::string say = {}, hint = {};
@@ -130,7 +131,8 @@ struct CoachExtras {
   std::vector<std::string> joint_states;
 };
 
-/// The extras of task `plausibility`: the faults in the track "answer", which keeps the rate and heights of its file.
+/// The extras of task `plausibility`: the faults in the track "answer". The track has the rate and the heights of its
+/// file.
 struct PlausibilityExtras {
   struct Fault {
     std::string kind, text;              ///< FaultName; MotionFault::text
@@ -140,16 +142,16 @@ struct PlausibilityExtras {
   std::vector<Fault> faults;
 };
 
-/// Writes the extras of a task. `Extras` is one of the types above.
+/// Returns the extras of a task as JSON text. `Extras` is one of the types above.
 template <typename Extras>
 std::string WriteExtras(const Extras& extras);
-/// Reads what WriteExtras writes. Fails, naming the key, if a key is missing or of another kind; in IkExtras and
-/// TransitionExtras such members stay empty, because recordings of older runs and of outside methods hold less. Fails
-/// also if the text is not a JSON object.
+/// Reads the text that WriteExtras returns. Fails if the text is not a JSON object. Fails also, naming the key, if a
+/// key is missing or has a value of another type. In IkExtras and TransitionExtras such members stay empty instead,
+/// because recordings of older runs and of outside methods contain less.
 template <typename Extras>
 Result<Extras> ReadExtras(const std::string& json);
 
-/// Returns the page docs/reference/recordings.md: the keys of all formats, in Markdown.
+/// Returns the page docs/reference/recordings.md, which lists the keys of all formats, in Markdown.
 std::string RecordingsAsMarkdown();
 
 }  // namespace etude

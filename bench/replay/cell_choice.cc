@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// Returns the methods of a run, and why their cells cannot be run again.
+/// Returns the methods of a run, each with the reason why its cells cannot be run again.
 std::vector<MethodRows> MethodsOf(const ReplayOptions& options, const PreparedRun& prepared) {
   const std::optional<ScoredMethod>& scored = prepared.suite.scored;
   std::vector<MethodRows> methods;
@@ -36,7 +36,7 @@ class MethodTable {
   explicit MethodTable(std::vector<MethodRows>& methods) {
     for (MethodRows& method : methods) by_name_[{method.scenario, method.method}] = &method;
   }
-  /// Returns null if the run has no such method.
+  /// Returns the entry of the row's method; null if the run has no such method.
   MethodRows* Find(const Row& row) const {
     const auto found = by_name_.find({row.scenario, row.method});
     return found == by_name_.end() ? nullptr : found->second;
@@ -84,7 +84,7 @@ Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run,
     ASSIGN_OR_RETURN(choice.places, FindCells(options, run, methods));
     return choice;
   }
-  // Count the rows of each method, and choose those with recordings if the options ask for it.
+  // Count the rows of each method. If the options require it, choose all rows with recordings.
   std::optional<std::string> unexpected;
   const auto is_chosen_anyway = [&](const Row& row) { return options.recorded_too && IsRecorded(prepared, row); };
   ForEachRow(run, [&](const Row& row, std::size_t place) {
@@ -104,8 +104,8 @@ Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run,
   });
   if (unexpected)
     return Fail({options.folder}, "contains the cell {}, which its manifest does not contain", *unexpected);
-  // Selection sampling (Knuth, volume 2, algorithm S): take each row with probability (number still to draw) / (number
-  // of rows left).
+  // Draw by selection sampling (Knuth, volume 2, algorithm S): take each row with probability (number still to draw) /
+  // (number of rows left).
   choice.dice = options.dice.value_or(run.seed);
   const std::size_t wanted = std::min(options.sample.value_or(choice.drawable), choice.drawable);
   std::size_t left = choice.drawable;
@@ -135,7 +135,7 @@ std::vector<MissedForgery> WhatIsMissed(const CellChoice& choice) {
 
 double ChanceOfMissing(std::size_t cells, std::size_t drawn, std::size_t forged) {
   if (drawn + forged > cells) return 0;
-  // Exchanging `drawn` and `forged` gives the same probability, so the loop runs over the smaller number.
+  // Exchanging `drawn` and `forged` does not change the probability, so the loop runs over the smaller number.
   const auto [fewer, more] = std::minmax(drawn, forged);
   double chance = 1;
   for (std::size_t i = 0; i < fewer; ++i) {

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr int kPackVersion = 3;
 
-/// Packs clips in order: built-in ones by name, others as files with their content, each file once.
+/// Packs clips in order. A built-in clip is packed as its name, any other clip as its file with content. Each file is
+/// packed once.
 Result<Json> PackClips(const ClipLibrary& library) {
   Json clips = Json::array(), files = Json::array();
   std::map<std::string, std::size_t> number_of;
@@ -46,7 +47,7 @@ Result<Json> PackClips(const ClipLibrary& library) {
   return Json{{"clips", std::move(clips)}, {"files", std::move(files)}};
 }
 
-/// Writes each packed file into a folder of its own, so that it keeps its name. Returns references to the written
+/// Writes each packed file into a folder of its own, so that the file keeps its name. Returns references to the written
 /// clips.
 Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path& folder) {
   std::vector<std::string> paths;
@@ -72,7 +73,7 @@ Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path&
   return references;
 }
 
-/// Packs recordings in order, in the format of PackClips.
+/// Packs recordings in order, in the format that PackClips uses.
 Result<Json> PackStreams(const LabelledStreams& recordings) {
   Json clips = Json::array(), files = Json::array();
   for (const NamedStream& recording : recordings.streams) {
@@ -84,7 +85,8 @@ Result<Json> PackStreams(const LabelledStreams& recordings) {
   return Json{{"clips", std::move(clips)}, {"files", std::move(files)}};
 }
 
-/// Packs a scenario's motions: {"clips": …, "libraries": {name: …}, "streams": … if any}, in the format of PackClips.
+/// Packs a scenario's motions as {"clips": …, "libraries": {name: …}, "streams": … if there are any}, in the format
+/// that PackClips uses.
 Result<Json> PackMotions(const PreparedScenario& scenario) {
   Json motions{{"clips", nullptr}, {"libraries", Json::object()}};
   for (const auto& [name, library] : scenario.libraries()) {
@@ -151,13 +153,13 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   const auto place = FindRow(run, cell);
   if (!place) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
   const Row row = RowAt(run, *place);
-  // No worlds are made, so the key of secret worlds is needed only when the cell is replayed.
+  // Packing makes no worlds, so the key of secret worlds is needed only when the cell is replayed.
   const FilePath manifest = Inside(folder) / "manifest.json";
   ASSIGN_OR_RETURN(SuiteSetup suite, ReadManifest(manifest));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   RETURN_IF_ERROR(CheckClips(manifest, scenarios));
   RETURN_IF_ERROR(CheckStillThere(folder, run));
-  // Pack its scenario only.
+  // Pack the scenario of the cell only.
   const auto prepared = std::find_if(scenarios.begin(), scenarios.end(), [&](const PreparedScenario& scenario) {
     return scenario.scenario().name == row.scenario;
   });

@@ -63,7 +63,7 @@ class CurvesOfRun {
 
 std::string Fingerprint(std::string_view text) { return Digest().Add(text).Hex(); }
 
-/// Compares a row's curves and recording, which are stored in files of their own.
+/// Compares a row's curves and recording with those of the second run. Both are stored in files of their own.
 Result<void> CompareKept(const fs::path& folder, const std::vector<Series>& then, const Row& now, CellCheck& check) {
   ASSIGN_OR_RETURN(const auto curves_then, WriteJson(EncodeSeries(then)));
   ASSIGN_OR_RETURN(const auto curves_now, WriteJson(EncodeSeries(now.result.series)));
@@ -112,7 +112,7 @@ CellCheck CompareRows(const Row& then, const Row& now) {
   const auto differ = [&](const std::string& stage, const std::string& was, const std::string& is) {
     if (check.same && was != is) check = {check.cell, false, stage, was, is};
   };
-  // A cell that a limit of the machine ended has no stages, so the difference is its status.
+  // A cell that the machine ended has no stages. If only one of the runs was ended, the difference is the status.
   const Status was = then.result.status, is = now.result.status;
   if (DependsOnMachine(was) || DependsOnMachine(is)) differ("status", StatusText(was), StatusText(is));
   // Compare stages in the order of the pipeline, because the first difference causes the later ones.
@@ -156,13 +156,13 @@ Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData
     RETURN_IF_ERROR(NoteKey(options.folder, prepared.suite, prepared.scenarios, options.key));
   }
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared.scenarios, options.outside, options.folder, options.key));
-  // A failure's reason quotes the program's standard error, which is kept in a folder.
+  // The reason of a failure quotes the program's standard error, which is collected in a temporary folder.
   std::optional<TemporaryFolder> errors;
   if (!ProgramsOf(prepared.scenarios).empty()) {
     ASSIGN_OR_RETURN(errors, TemporaryFolder::Make("replay"));
   }
   const std::string said = errors ? errors->path().string() : "";
-  // Run the cells; compare each when it arrives.
+  // Run the cells, and compare each one when its row arrives.
   const CurvesOfRun curves(run);
   std::map<std::size_t, CellCheck> checks;
   if (options.on_progress) options.on_progress(0, chosen.size());

@@ -32,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Computes the summary from the rows.
+/// Computes the summary of a run from its rows.
 Result<Json> SummaryOf(const FinishedRun& run, int jobs) {
   std::vector<ScenarioSummary> summaries;
   for (const FinishedScenario& scenario : run.scenarios) {
@@ -51,19 +51,22 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   ASSIGN_OR_RETURN(const auto text, WriteJson(now));
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "summary.json"));
   if (found == text + "\n") return verified;
-  // Numbers are written without rounding, so the parsed values can be compared.
+  // Numbers are written without rounding, so comparing the parsed values is exact.
   ASSIGN_OR_RETURN(const auto again, ReadJson(text, "the summary computed again"));
   const auto differences = CompareManifests(then, again);
   verified.differences = {differences.empty() ? "is written differently" : InWords(differences)};
   return verified;
 }
 
-/// Returns the files that a run of these scenarios may leave, relative to its folder, except those made from results.
+/// Returns the files that a run of these scenarios may leave, relative to its folder. Files made from the results later
+/// are not included.
 Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun& run) {
+  // Add the files that every run may leave.
   std::set<fs::path> files = {"manifest.json", "host.json", "summary.json", kOtherLibrariesFile,
                               kSealFile,       kSignedFile, kSignatureFile, kLockFile};
   ASSIGN_OR_RETURN(const auto scenarios, ScenariosOf(folder));
   if (!run.data.source) files.insert({kCellsFile, kTimingsFile});
+  // Add the files of each scenario: its columns or curves, and the standard error of its programs.
   for (const Scenario& scenario : scenarios) {
     if (run.data.source) {
       ASSIGN_OR_RETURN(const auto index, ReadColumnIndex(folder / kColumnsFolder / scenario.name));
@@ -76,6 +79,7 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
       files.insert(ErrorFileOf("stderr", scenario, role + program.entry->name));
     }
   }
+  // Add the recordings of the cells that keep their motions.
   std::map<std::string, const RecordingSelection*> recorded;
   for (const Scenario& scenario : scenarios) recorded[scenario.name] = &scenario.recordings;
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
@@ -118,7 +122,7 @@ Verified VerifyRows(const FinishedRun& run) {
   return verified;
 }
 
-/// Compares the lines of a file with those that a run would write; `line_of` returns the one for a line.
+/// Compares the lines of a file with the lines that a run would write. `line_of` returns the expected text for a line.
 Result<void> CompareLines(const FilePath& file, const std::function<Result<std::string>(std::string_view)>& line_of,
                           Verified& verified) {
   bool differs = false;
@@ -130,7 +134,8 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   });
 }
 
-/// Compares the lines of timings.jsonl with those of the rows, except their times and memory, which no run repeats.
+/// Compares the lines of timings.jsonl with the lines of the rows. Times and memory are not compared, because no second
+/// run can repeat them.
 Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, Verified& verified) {
   std::size_t row = 0;
   const auto line_of = [&](std::string_view line) -> Result<std::string> {
@@ -151,11 +156,11 @@ Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, 
   return {};
 }
 
-/// Checks the text files for content that this program ignores but other programs may use: duplicate keys, further rows
-/// or curves.
+/// Checks the text files for content that this program ignores but other programs may use: duplicate keys, and
+/// additional rows or curves.
 Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"texts: only those that this program reads", {}};
-  // Keys must not occur twice.
+  // Check that no key occurs twice in an object.
   std::vector<FilePath> files = {folder / "manifest.json", folder / "host.json"};
   for (const FinishedScenario& scenario : run.scenarios) {
     if (run.data.source) files.push_back(folder / kColumnsFolder / scenario.study.scenario / kIndexFile);
@@ -167,7 +172,7 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
       verified.differences.push_back(fmt::format("{}: '{}' appears twice", file.string(), *key));
   }
   if (run.data.source) return verified;
-  // Every line of the rows, then of the curves, must be as a run writes it.
+  // Check that every line of the rows, and then of the curves, is exactly as a run writes it.
   std::size_t row = 0, curves = 0;
   RETURN_IF_ERROR(CompareLines(
       folder / kCellsFile,
@@ -219,8 +224,8 @@ Result<bool> AreSame(const FilePath& a, const FilePath& b) {
   }
 }
 
-/// Writes the columns again from the rows and compares the bytes, because other programs may use numbers that belong to
-/// no row.
+/// Writes the columns again from the rows and compares the bytes. Otherwise a column could contain numbers that belong
+/// to no row but are used by other programs.
 Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"columns: the same bytes as made from the rows", {}};
   std::size_t place = 0;
@@ -280,7 +285,7 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
 Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   const FilePath folder = Inside(options.folder);
   ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored));
-  // The rows come first: without them, no other check makes sense.
+  // Check the rows first, because the other checks make no sense if the rows are wrong.
   VerifyOutcome outcome;
   std::vector<Verified>& all = outcome.checks;
   all.push_back({"seal.json: every file is unchanged since it was sealed", {}});
@@ -294,7 +299,7 @@ Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
     ASSIGN_OR_RETURN(all.emplace_back(), VerifyColumns(folder, run));
   }
   ASSIGN_OR_RETURN(all.emplace_back(), VerifySummary(folder, run, WorkerCount(options.jobs)));
-  // The manifest; with `replays`, also the worlds and the chosen cells.
+  // Check the manifest. With `replays`, also check the worlds and run the chosen cells again.
   if (!replays) {
     ASSIGN_OR_RETURN(const auto suite, ReadManifest(folder / "manifest.json"));
     ASSIGN_OR_RETURN(all.emplace_back(), VerifyManifest(folder, run, suite, {}));

@@ -8,10 +8,10 @@
 
 namespace etude {
 
-/// One check of a result folder.
+/// One check of a result folder, and the differences that it found.
 struct Verified {
   std::string what;                      ///< "summary.json: computed again from 480 rows"
-  std::vector<std::string> differences;  ///< empty if all agrees
+  std::vector<std::string> differences;  ///< the differences found; empty if there are none
 };
 
 struct VerifyOutcome {
@@ -19,11 +19,11 @@ struct VerifyOutcome {
   std::optional<CellChoice> choice;  ///< the cells that were run again; nothing if none were
 };
 
-/// Checks that a result folder is consistent, even if its seal was renewed: the seal; the set of files; the rows, which
-/// must be those of the manifest, written as a run writes them; and the summary with its expectations, computed again
-/// from the rows. With `replays`, it also checks the clips and units of every row, and runs the cells again that
-/// `options` choose; secret worlds need their key. The times and the description of the machine cannot be checked. Fails
-/// if the folder cannot be read.
+/// Checks that a result folder is consistent, even if somebody renewed its seal. It checks the seal, the set of files
+/// and the rows, which must be those of the manifest and written as a run writes them. The summary and its expectations
+/// are computed again from the rows. With `replays`, the clips and units of every row are checked too, and the cells
+/// that `options` choose are run again; secret worlds need their key. The times and the description of the machine
+/// cannot be checked. Fails if the folder cannot be read.
 Result<VerifyOutcome> VerifyRun(const ReplayOptions& options, bool replays);
 
 }  // namespace etude

@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The keys of a manifest that may differ on another machine or in another version; only their types are checked.
+/// The keys of a manifest that may differ on another machine or in another version. Only the types of their values are
+/// checked.
 constexpr std::array kSaidByMachine = {"etude", "compiler", "packages", "glibc", "libraries", "environment"};
 
 bool IsTextOrTexts(const Json& value) {
@@ -25,7 +26,7 @@ bool IsTextOrTexts(const Json& value) {
          (value.is_object() && std::ranges::all_of(value, [](const Json& one) { return one.is_string(); }));
 }
 
-/// Returns true if a scenario, or another text of the suite, mentions this text.
+/// Returns true if a scenario, or another text of the suite, refers to the text called `name`.
 bool IsNamed(const std::string& name, const SuiteSetup& suite) {
   const std::string last = fs::path(name).filename().string();
   return std::ranges::any_of(suite.scenarios,
@@ -38,7 +39,8 @@ bool IsNamed(const std::string& name, const SuiteSetup& suite) {
          });
 }
 
-/// Lists the faults of host.json, or of its part `path` about one shard: missing and unknown keys, and wrong types.
+/// Adds the faults of host.json, or of its part `path` about one shard, to `differences`: missing keys, unknown keys
+/// and wrong types.
 void CheckHost(const Json& host, const std::string& path, std::vector<std::string>& differences) {
   if (!host.is_object()) return differences.push_back(path + " is " + ShowJson(host));
   Json usual = DescribeHost("", 0, 0);
@@ -78,7 +80,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   Verified verified{"manifest.json: as such a run writes it", {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
-  // Copy the values that may differ from the old manifest.
+  // Copy the values that may differ from the old manifest to the new one.
   const auto keep = [](const Json& from, Json& to, const char* key) {
     if (to.contains(key) && from.contains(key) && IsTextOrTexts(from.at(key)) &&
         from.at(key).is_object() == to.at(key).is_object())
@@ -99,7 +101,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
       if (told.at(s).contains(key)) scenario[key] = told.at(s).at(key);
     }
   }
-  // Everything else must have the same bytes, and every text must be used.
+  // Everything else must have the same bytes, and every text of the suite must be used.
   ASSIGN_OR_RETURN(const auto text, WriteJson(now));
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "manifest.json"));
   if (found != text + "\n") {
@@ -109,7 +111,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   for (const auto& [name, _] : suite.sources) {
     if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
   }
-  // `now` also lists metrics read from this manifest itself, so look for those that no scenario defines.
+  // `now` also contains the metrics that were read from this manifest itself. Report those that no scenario defines.
   ASSIGN_OR_RETURN(const auto parsed, ScenariosOf(folder));
   std::set<std::string> own;
   for (const Scenario& scenario : parsed) {

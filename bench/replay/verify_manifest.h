@@ -8,15 +8,16 @@
 
 namespace etude {
 
-/// Returns the scenarios that the manifest of a run's folder describes, without their clips.
+/// Returns the scenarios that the manifest in a run's folder describes. Their clips are not loaded.
 Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder);
 
-/// Compares the manifest with the one that a run of these scenarios would write, except for what describes the machine.
-/// Without `scenarios`, the descriptions of clips are not checked either.
+/// Compares the manifest with the manifest that a run of these scenarios would write, apart from the description of the
+/// machine. If `scenarios` is empty, the descriptions of clips are not compared either.
 Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
                                 std::span<const PreparedScenario> scenarios);
 
-/// Checks keys and kinds of host.json. Its values describe a machine that is not here.
+/// Checks the keys of host.json and the types of their values. The values describe another machine and cannot be
+/// checked.
 Result<Verified> VerifyHost(const FilePath& folder);
 
 }  // namespace etude

@@ -24,14 +24,14 @@ class ScenarioColumns {
     ScenarioColumns columns;
     ASSIGN_OR_RETURN(columns.index_, ReadColumnIndex(own));
     const ColumnIndex& index = columns.index_;
-    // The columns that every row has.
+    // Open the columns that every row has.
     ASSIGN_OR_RETURN(columns.status_, columns.OpenColumn<std::uint8_t>(own, "status"));
     ASSIGN_OR_RETURN(columns.kind_, columns.OpenColumn<std::uint32_t>(own, "kind"));
     for (std::size_t i = 0; i < columns.texts_.size(); ++i) {
       if (!Exists(ColumnFile(own, kTextColumns[i]))) continue;
       ASSIGN_OR_RETURN(columns.texts_[i], columns.OpenColumn<std::uint32_t>(own, kTextColumns[i]));
     }
-    // For each kind, the columns of its metrics, stages and curves, each opened once.
+    // For each kind, open the columns of its metrics, stages and curves. Each column is opened once.
     for (const ColumnIndex::Kind& kind : index.kinds) {
       KindColumns& of_kind = columns.kinds_.emplace_back();
       for (std::size_t i = 0; i < kind.metrics.size(); ++i) {
@@ -53,7 +53,7 @@ class ScenarioColumns {
         of_kind.curves.push_back(&columns.curves_->at(name));
       }
     }
-    // Times are optional.
+    // Open the columns of times, which are optional.
     const FilePath times = folder / kTimesFolder / scenario;
     if (Exists(ColumnFile(times, "cpu_s"))) {
       ASSIGN_OR_RETURN(columns.cpu_s_, columns.OpenColumn<float>(times, "cpu_s"));
@@ -67,7 +67,7 @@ class ScenarioColumns {
 
   void Read(std::size_t at, Row& row) const {
     const std::size_t methods = index_.methods.size(), trials = static_cast<std::size_t>(index_.trials);
-    // The identity follows from the position in the array.
+    // The row's identity follows from its position in the array.
     row.scenario = index_.scenario;
     row.task = index_.task;
     row.condition = index_.conditions[at / (methods * trials)];
@@ -81,7 +81,7 @@ class ScenarioColumns {
     const std::uint32_t number = kind_->Numbers<std::uint32_t>()[at];
     const ColumnIndex::Kind& kind = index_.kinds[number];
     const KindColumns& columns = kinds_[number];
-    // Metrics and digests. `row` is reused for many rows, so its old content is replaced.
+    // Read metrics and digests. `row` is reused for many rows, so its old content is replaced.
     result.metrics.resize(kind.metrics.size());
     for (std::size_t i = 0; i < kind.metrics.size(); ++i) {
       MetricValue& metric = result.metrics[i];
@@ -129,7 +129,8 @@ class ScenarioColumns {
  private:
   enum TextColumn { kReason, kClip, kUnits };
   static constexpr std::array<const char*, 3> kTextColumns = {"reason", "clip", "units"};
-  /// The columns of a kind's metrics, stages and series, in its order; null for a metric without values.
+  /// The columns of a kind's metrics, stages and series, in the kind's order. The column of a metric without values is
+  /// null.
   struct KindColumns {
     std::vector<const NpyFile*> values, digests, curves, ends;
   };
@@ -142,7 +143,7 @@ class ScenarioColumns {
     const std::size_t found = file.template Numbers<Number>().size();
     if (found != index_.row_count())
       return Fail(place, "has {} numbers, but its run has {} rows", found, index_.row_count());
-    // This reader ignores the shape, but NumPy uses it.
+    // This reader does not need the shape, but NumPy does, so a wrong shape is an error.
     if (!file.HasShape(kNpyType<Number>, index_.shape()))
       return Fail(place, "is not an array of condition, trial, method");
     return file;
@@ -159,7 +160,7 @@ class ScenarioColumns {
   /// Fails if a column holds a number that is out of range.
   Result<void> CheckNumbers(const FilePath& folder) const {
     const Place place{folder.string()};
-    // Kinds, statuses and texts must exist.
+    // Kinds, statuses and texts must be valid indices.
     for (const std::uint32_t kind : kind_->Numbers<std::uint32_t>()) {
       if (kind >= kinds_.size())
         return Fail(place, "kind.npy contains {}, but there are {} kinds", kind, kinds_.size());
@@ -173,7 +174,7 @@ class ScenarioColumns {
         if (text >= index_.texts.size()) return Fail(place, "names text {} of {}", text, index_.texts.size());
       }
     }
-    // The ends of curves must ascend to the number of values.
+    // The ends of the curves must ascend to the number of values.
     for (const auto& [name, ends] : *ends_) {
       std::uint64_t last = 0;
       const NpyFile& curve = curves_->at(name.substr(0, name.size() - std::string_view(kCurveEnds).size()));
@@ -189,7 +190,7 @@ class ScenarioColumns {
     return {};
   }
 
-  /// Parses the texts that are lists of units.
+  /// Parses those texts that are lists of units.
   Result<void> ReadUnits(const FilePath& folder) {
     units_.resize(index_.texts.size());
     if (!texts_[kUnits]) return {};
@@ -214,7 +215,7 @@ class ScenarioColumns {
   std::optional<NpyFile> status_, kind_, cpu_s_;
   std::array<std::optional<NpyFile>, kTextColumns.size()> texts_;
   std::vector<std::vector<std::string>> units_;  ///< one list per text; empty unless the text is a list of units
-  // Behind pointers, so that KindColumns stay valid when this object is moved.
+  // The maps are behind pointers, so that pointers in KindColumns stay valid when this object is moved.
   std::unique_ptr<Files> values_ = std::make_unique<Files>(), digests_ = std::make_unique<Files>(),
                          curves_ = std::make_unique<Files>(), ends_ = std::make_unique<Files>();
   std::vector<KindColumns> kinds_;

@@ -20,14 +20,14 @@ namespace fs = std::filesystem;
 constexpr int kColumnsVersion = 2;
 
 Json Encode(const ColumnIndex& index) {
-  // The swept values of each condition.
+  // Encode the swept values of each condition.
   Json conditions = Json::array(), kinds = Json::array(), statuses = Json::array();
   for (const std::vector<SweptValue>& condition : index.conditions) {
     Json values = Json::object();
     for (const SweptValue& swept : condition) values[swept.key] = swept.value;
     conditions.push_back(std::move(values));
   }
-  // Each kind: its metrics with the reasons of missing values, its stages and its curves.
+  // Encode each kind: its metrics with the reasons of missing values, its stages and its curves.
   for (const ColumnIndex::Kind& kind : index.kinds) {
     Json why = Json::array();
     for (const auto& text : kind.why) why.push_back(text ? Json(*text) : Json(nullptr));
@@ -67,7 +67,7 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
     index.trials = json.at("trials").get<int>();
     index.methods = json.at("methods").get<std::vector<std::string>>();
     index.texts = json.at("texts").get<std::vector<std::string>>();
-    // Each kind; reasons are indices of texts.
+    // Decode each kind. Reasons are indices of texts.
     for (const Json& entry : json.at("kinds")) {
       ColumnIndex::Kind& kind = index.kinds.emplace_back();
       kind.metrics = entry.at("metrics").get<std::vector<std::string>>();
@@ -91,7 +91,8 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
   }
   if (index.conditions.empty() || index.trials < 1 || index.methods.empty()) return Fail(place, "contains no cells");
   if (index.texts.empty()) return Fail(place, "contains no texts; the first must be empty");
-  // Other programs may use keys that this one ignores, so all keys must be right.
+  // Encode the result again and compare it with the input: keys that this program ignores must be right too, because
+  // other programs may use them.
   if (nlohmann::json(Encode(index)) != nlohmann::json(json)) return Fail(place, "differs from what a run writes");
   return index;
 }
@@ -112,11 +113,11 @@ Result<std::uint64_t> DigestNumber(const std::string& stage, const std::string& 
   return Fail({}, "the digest of {} is '{}', not 16 hexadecimal digits", stage, hex);
 }
 
-/// Returns everything of a curve but its values.
+/// Returns a curve's identity: everything but its values.
 auto IdentityOf(const Series& series) { return std::tie(series.name, series.axis, series.names); }
 
-/// Returns true if `why` is right for a row's metric: nullopt if it has a value, else the index of its reason or
-/// kOwnReason.
+/// Returns true if `why` describes a row's metric. It must be nullopt if the metric has a value, else the index of the
+/// reason in `texts`, or kOwnReason if the reason is the row's own.
 bool IsWhy(std::optional<int> why, const MetricValue& metric, const Row& row, const std::vector<std::string>& texts) {
   if (!why || metric.value) return !why && metric.value;
   return metric.null_reason ==
@@ -215,7 +216,7 @@ std::uint32_t ColumnWriter::KindOf(const Row& row) {
            std::ranges::equal(kind.stages, result.digests, {}, {}, [](const auto& digest) { return digest.first; }) &&
            std::ranges::equal(kind.series, result.series, {}, IdentityOf, IdentityOf);
   };
-  // Most rows have the kind of the previous row.
+  // Try the kind of the previous row first, because most rows have the same kind.
   if (!index_.kinds.empty() && is_like(index_.kinds[last_kind_])) return last_kind_;
   const auto found = std::ranges::find_if(index_.kinds, is_like);
   last_kind_ = static_cast<std::uint32_t>(found - index_.kinds.begin());

@@ -18,23 +18,25 @@
 
 namespace etude {
 
-/// The folder in which a run of many cells stores its rows as columns, one folder per scenario.
+/// The name of the folder in which a run with many cells stores its rows as columns. It contains one folder per
+/// scenario.
 constexpr const char* kColumnsFolder = "columns";
-/// The folder of the cells' times, with the same layout.
+/// The name of the folder with the cells' times. It has the layout of kColumnsFolder.
 constexpr const char* kTimesFolder = "timings";
-/// The folder of curves. Each curve is two files: the values of all rows, and the index where each row's values end.
+/// The name of the folder with the curves. Each curve is two files: the values of all rows, and the index at which each
+/// row's values end.
 constexpr const char* kSeriesFolder = "series";
 constexpr const char* kCurveEnds = ".ends";
 
-/// Everything about the rows of one scenario that is not a number: columns/SCENARIO/index.json.
+/// Everything about the rows of one scenario that is not a number. It is stored in columns/SCENARIO/index.json.
 struct ColumnIndex {
-  static constexpr int kOwnReason = -1;  ///< the value is missing for the cell's own reason
-  /// The common part of some rows: their metrics, stages and curves, in order, and the reasons of missing values.
+  static constexpr int kOwnReason = -1;  ///< the value is missing for the reason of the row itself
+  /// The data that several rows share: their metrics, stages and curves, in order, and the reasons of missing values.
   struct Kind {
     std::vector<std::string> metrics;
     std::vector<std::optional<int>> why;  ///< one per metric: why it has no value; an index in `texts`, or kOwnReason
     std::vector<std::string> stages;
-    std::vector<Series> series;  ///< without values
+    std::vector<Series> series;  ///< the curves, without their values
   };
 
   std::string scenario, task;
@@ -50,9 +52,9 @@ struct ColumnIndex {
   std::size_t row_count() const { return conditions.size() * static_cast<std::size_t>(trials) * methods.size(); }
 };
 
-/// Fails, naming the path, if the file cannot be written.
+/// Writes index.json. Fails, naming the path, if the file cannot be written.
 Result<void> WriteColumnIndex(const FilePath& folder, const ColumnIndex& index);
-/// Fails, naming the path, if the file is missing or contradicts itself.
+/// Reads index.json. Fails, naming the path, if the file is missing or contradicts itself.
 Result<ColumnIndex> ReadColumnIndex(const FilePath& folder);
 
 FilePath ColumnFile(const FilePath& folder, const std::string& name);
@@ -62,7 +64,7 @@ constexpr const char* kIndexFile = "index.json";
 /// Returns the files of a scenario's columns and times, relative to the run's folder.
 std::set<std::filesystem::path> FilesOfColumns(const ColumnIndex& index);
 
-/// Writes columns of one type of number. A row without a value in a column gets `fill` there.
+/// Writes columns that hold one type of number. A row that has no value in a column gets `fill` there.
 template <typename Number>
 class NpyColumns {
  public:
@@ -85,11 +87,11 @@ class ColumnWriter {
 
   /// Adds the next row, in canonical order.
   Result<void> Add(const Row& row, const CellUsage& usage);
-  /// Writes the rest. Call it after the last row.
+  /// Writes the remaining data. Must be called after the last row.
   Result<void> Finish();
 
  private:
-  /// The values of one curve for all rows, one after the other, and the end of each row's values.
+  /// The values of one curve for all rows, one row after the other, and the end of each row's values.
   struct Curve {
     NpyWriter values, ends;
     Result<void> FillUp(std::size_t rows);
@@ -112,8 +114,8 @@ class ColumnWriter {
   CyclicLookup<Curve> curves_;
 };
 
-/// Opens the columns of a run, from which rows are made one at a time, in canonical order. Fails, naming the file, if a
-/// column is missing or holds an index that is out of range.
+/// Opens the columns of a run. The source makes rows from them one at a time, in canonical order. Fails, naming the
+/// file, if a column is missing or contains an index that is out of range.
 Result<std::shared_ptr<const RowSource>> OpenColumns(const std::filesystem::path& folder,
                                                      const std::vector<std::string>& scenarios);
 

@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns a file name for "scenario/condition/trial/method". A long one is shortened, with a digest to keep it unique.
+/// Returns a file name for a cell "scenario/condition/trial/method". A long name is shortened, with a digest to keep it
+/// unique.
 std::string FileNameOf(std::string cell) {
   constexpr std::size_t kMaxNameLength = 200;  // bytes; file systems allow 255, the extension included
   std::replace(cell.begin(), cell.end(), '/', '~');
@@ -30,7 +31,7 @@ std::string FileNameOf(std::string cell) {
   return cell + ".json";
 }
 
-/// Calls `use(json, place)` for every line; stops at the first error.
+/// Calls `use(json, place)` for every line of a file. Stops at the first error.
 template <typename Use>
 Result<void> ForEachJson(const FilePath& path, Use use) {
   return ForEachLine(path, [&](std::string_view line, const Place& place) -> Result<void> {
@@ -96,7 +97,7 @@ Result<void> LoadManifest(const FilePath& folder, RunData& run) {
   ASSIGN_OR_RETURN(const auto host, ReadJsonFile(folder / "host.json"));
   Place place{(folder / "manifest.json").string(), 0, 0};
   try {
-    // The manifest: schema, metrics, seed, versions.
+    // Read the manifest: schema, metrics, seed, versions.
     const int schema = manifest.at("schema").get<int>();
     if (schema != kResultSchema) return Fail(place, "schema {}; this program reads {}", schema, kResultSchema);
     run.suite = manifest.at("suite").get<std::string>();
@@ -108,7 +109,7 @@ Result<void> LoadManifest(const FilePath& folder, RunData& run) {
     run.key_digest = keyed.Digest();
     run.program_version = manifest.at("etude").get<std::string>();
     run.system = SystemOf(manifest);
-    // host.json. If any shard ran without a fence, the run counts as without one.
+    // Read host.json. If any shard ran without a sandbox, the run counts as a run without one.
     place.file = (folder / "host.json").string();
     run.fence = host.value("fence", "");
     for (const Json& shard : host.value("shards", Json::array())) {
@@ -128,7 +129,7 @@ Result<void> LoadManifest(const FilePath& folder, RunData& run) {
   return {};
 }
 
-/// Returns the seal, which differs between runs, because it holds the digests of their times.
+/// Returns the text of the seal. It differs between any two runs, because it contains the digests of their times.
 std::string SealText(const FilePath& folder) { return ReadWholeFile(folder / kSealFile).value_or(""); }
 
 }  // namespace
@@ -215,7 +216,7 @@ Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
   RunData run;
   const FilePath folder = Inside(path);
   const Place place{path.string(), 0, 0};
-  // Only a finished run can be read.
+  // Fail if the run has not finished.
   std::error_code error;
   if (!fs::is_directory(path, error)) return Fail(place, "no such folder; a run writes one (etude run)");
   if (Exists(folder / kJournalFile)) {
@@ -227,7 +228,7 @@ Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
   if (!Exists(folder / "manifest.json")) {
     return Fail(place, "is not a run, because it contains no manifest.json, which etude run writes");
   }
-  // The manifest, and the seal over all files.
+  // Read the manifest, and check the seal over all files.
   run.seal = SealText(folder);
   RETURN_IF_ERROR(LoadManifest(folder, run));
   if (auto sealed = CheckSeal(path); !sealed) {
@@ -237,7 +238,7 @@ Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
     }
     run.unsealed = ToString(sealed.error());
   }
-  // The summary and, if there are any, the columns.
+  // Read the summary and, if there are any, the columns.
   ASSIGN_OR_RETURN(const auto summary, ReadJsonFile(folder / "summary.json"));
   ASSIGN_OR_RETURN(run.scenarios, DecodeSummaries(summary, {(folder / "summary.json").string(), 0, 0}));
   if (Exists(folder / kColumnsFolder)) {

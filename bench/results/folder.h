@@ -18,25 +18,29 @@
 
 namespace etude {
 
-/// The version of the layout of a result folder (docs/results.md); raised if old readers would fail.
+/// The version of the layout of a result folder (docs/results.md). It is raised when older programs could no longer
+/// read the folder.
 constexpr int kResultSchema = 4;
 
-/// The rows, and their times, as lines of text.
+/// The names of the files with the rows and with their times, one line of text per row.
 constexpr const char *kCellsFile = "cells.jsonl", *kTimingsFile = "timings.jsonl";
-/// Present in a result folder while its run is in progress, and after an interruption.
+/// The name of a file that exists in a result folder while its run is in progress, and after an interruption.
 constexpr const char* kJournalFile = "journal.jsonl";
-/// Present only if a run was resumed or merged although libraries had changed; lists the changes.
+/// The name of a file that lists changed libraries. It exists only if a run was resumed or merged although libraries
+/// had changed.
 constexpr const char* kOtherLibrariesFile = "other_libraries.json";
 
-/// Runs with more cells store them as columns (columns.h) instead of lines of text.
+/// The largest number of cells that a run stores as lines of text. Runs with more cells store them as columns
+/// (columns.h).
 constexpr std::size_t kMaxRowsAsText = 100'000;
-/// The approximate number of rows of such a run that LoadRun holds.
+/// The approximate number of rows that LoadRun loads of a run stored as columns.
 constexpr std::size_t kMaxRowsHeld = 20'000;
 
-/// Writes a run's results row by row. All files but the times have the same bytes for any number of workers.
+/// Writes a run's results row by row. All files except the times have the same bytes for any number of workers.
 class ResultWriter {
  public:
-  /// Begins a folder for the rows of these studies; with more than `most_as_text` rows they become columns.
+  /// Begins a result folder for the rows of these studies. If there are more than `most_as_text` rows, they are stored
+  /// as columns.
   static Result<ResultWriter> Begin(const std::filesystem::path& folder, std::span<const Study> studies = {},
                                     std::size_t most_as_text = kMaxRowsAsText);
 
@@ -52,34 +56,36 @@ class ResultWriter {
   Result<void> AddAsText(const Row& row, const CellUsage& usage);
 
   std::filesystem::path folder_;
-  std::optional<AtomicFile> cells_, timings_;  ///< if rows are text
-  std::vector<Study> studies_;                 ///< if rows are columns
+  std::optional<AtomicFile> cells_, timings_;  ///< used if rows are stored as text
+  std::vector<Study> studies_;                 ///< used if rows are stored as columns
   std::string scenario_;                       ///< the scenario of the current rows
   std::optional<AtomicFile> series_;
   std::optional<ColumnWriter> columns_;
 };
 
-/// What a reader does with a folder whose seal is broken (seal.h).
+/// The action of a reader if a folder's seal is broken (seal.h).
 enum class Sealing {
-  kRequired,  ///< fails
-  kIgnored,   ///< reads it, and sets `RunData::unsealed`
+  kRequired,  ///< fail
+  kIgnored,   ///< read the folder, and set `RunData::unsealed`
 };
 
-/// Reads a result folder. Fails with file:line if a file is missing, incomplete or of another schema, if the run has
-/// not ended, if the seal is broken, or if another run replaced the folder meanwhile (CheckStillThere).
+/// Reads a result folder. Fails, with file and line if possible, if a file is missing, incomplete or of another schema,
+/// if the run has not ended, if the seal is broken, or if another run replaced the folder during reading
+/// (CheckStillThere).
 Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
-/// Reads all but rows, series and recordings.
+/// Reads a result folder without rows, series and recordings.
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// Fails if another run has replaced the folder since `run` was loaded.
 Result<void> CheckStillThere(const std::filesystem::path& folder, const RunData& run);
 
-/// Detects whether a folder is replaced while it is read.
+/// Detects if a folder is replaced while it is read.
 class FolderBegun {
  public:
   explicit FolderBegun(const std::filesystem::path& folder);
-  /// Returns the result of reading. If reading failed and the folder was replaced, the error says so instead.
+  /// Returns the result of reading. If reading failed and the folder was replaced, the returned error says that it was
+  /// replaced.
   template <typename Value>
   Result<Value> Tell(Result<Value> read) const {
     if (read || IsThere()) return read;
@@ -91,17 +97,17 @@ class FolderBegun {
   tl::unexpected<Error> WasReplaced() const;
 
   std::filesystem::path folder_;
-  std::pair<std::uint64_t, std::uint64_t> number_;  ///< device and inode
+  std::pair<std::uint64_t, std::uint64_t> number_;  ///< device and inode of the folder
 };
 
 /// Returns the path of the recording of a cell (Row::Id), whether or not it exists.
 FilePath RecordingFile(const std::filesystem::path& folder, const std::string& cell);
 
-/// Passes every row of a result folder to `write`, as a line of cells.jsonl; columns are converted.
+/// Passes every row of a result folder to `write`, as a line of cells.jsonl. Columns are converted.
 Result<void> WriteRows(const std::filesystem::path& folder, Sealing sealing,
                        const std::function<Result<void>(std::string_view line)>& write);
 
-/// Fails unless the rows are those that summary.json summarises: the same number per scenario, none twice.
+/// Fails unless the rows are those that summary.json summarises: the same number per scenario, and no duplicate row.
 Result<void> CheckRowsAgainstSummary(const std::filesystem::path& folder, const RunData& run);
 
 }  // namespace etude

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The types of number in columns, by their NumPy names.
+/// The NumPy names of the types of number that columns contain.
 template <typename Number>
 constexpr std::string_view kNpyType = {};
 template <>
@@ -37,7 +37,7 @@ class NpyWriter {
     return file_.Write({reinterpret_cast<const char*>(&number), sizeof number});
   }
   std::size_t count() const { return count_; }
-  /// Ends the file as an array of this shape, whose product is count(); empty = one dimension.
+  /// Ends the file as an array of this shape. The product of the shape is count(); an empty shape = one dimension.
   Result<void> Finish(std::vector<std::size_t> shape = {});
 
  private:
@@ -48,20 +48,20 @@ class NpyWriter {
   std::size_t count_ = 0;
 };
 
-/// Installs a handler of SIGBUS for the process. When another program cuts a mapped file short, reading the missing part
+/// Installs a handler of SIGBUS for the process. If another program cuts a mapped file short, reading the missing part
 /// then ends the process with a sentence on standard error and exit code 3, instead of a crash.
 void EndWhenMappedFilesAreCut();
 
 /// An .npy file mapped into memory: the system reads the parts that are used (EndWhenMappedFilesAreCut).
 class NpyFile {
  public:
-  /// Fails, naming the path, unless NpyWriter wrote the file with numbers of this type.
+  /// Opens a file that NpyWriter wrote with numbers of this type. Fails, naming the path, on any other file.
   static Result<NpyFile> Open(const FilePath& path, std::string_view type);
   NpyFile(NpyFile&& other) noexcept;
   NpyFile& operator=(NpyFile&& other) noexcept;
   ~NpyFile();
 
-  /// Returns true if the head of the file declares this type and shape.
+  /// Returns true if the header of the file declares this type and shape.
   bool HasShape(std::string_view type, std::span<const std::size_t> shape) const;
 
   template <typename Number>

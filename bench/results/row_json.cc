@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kDigestPrefix = "digest_";
 
-/// Returns a swept value as a number, if it is one, so that tables can plot it; else as text.
+/// Returns a swept value as a number if its text is a number, so that tables can plot it; otherwise as text.
 Json ValueAsJson(const std::string& text) {
   if (const auto number = ParseFinite(text)) return *number;
   return text;
@@ -40,7 +40,7 @@ Json EncodeRow(const Row& row) {
   json["task"] = row.task;
   json["condition"] = CompactLabel(row.condition);
   for (const SweptValue& swept : row.condition) {
-    // A swept parameter with the name of a metric (wait_s) is left out, because the measured value has that key.
+    // A swept parameter with the name of a metric (wait_s) is left out, because the metric's value has that key.
     if (FindMetric(swept.key) == nullptr) json[swept.key] = ValueAsJson(swept.value);
   }
   json["trial"] = row.trial;
@@ -62,7 +62,7 @@ Json EncodeRow(const Row& row) {
 Result<Row> DecodeRow(const Json& json, const Place& place) {
   Row row;
   try {
-    // The identity, status and reason.
+    // Read the identity, status and reason.
     row.scenario = json.at("scenario").get<std::string>();
     row.task = json.at("task").get<std::string>();
     row.condition = SplitCondition(json.at("condition").get<std::string>());

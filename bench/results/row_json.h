@@ -5,8 +5,8 @@
 
 namespace etude {
 
-/// Encodes a row as a line of cells.jsonl: one flat object. The identity comes first, then the metrics by their ids; a
-/// missing value is null, with its reason in "null_reasons". Stage digests are "digest_<stage>".
+/// Encodes a row as a line of cells.jsonl: one flat object. The identity comes first, then the metrics with their ids
+/// as keys. A missing value is null, and its reason is in "null_reasons". Stage digests have keys "digest_<stage>".
 Json EncodeRow(const Row& row);
 Result<Row> DecodeRow(const Json& json, const Place& place);
 
@@ -22,7 +22,7 @@ constexpr int kRecordingVersion = 2;
 Result<Json> EncodeMotions(const Recording& recording);
 /// Encodes the file of a recording: version, names of the joints in order, unit, up axis, and the motions.
 Result<Json> EncodeRecording(const Recording& recording);
-/// Fails if the version, the joints or their order, the unit or the up axis is another.
+/// Reads the JSON of EncodeRecording. Fails if the version, the joints or their order, the unit or the up axis differs.
 Result<Recording> DecodeRecording(const Json& json, const Place& place);
 Result<Recording> ReadRecording(const std::string& text, const std::string& file);
 

@@ -9,23 +9,23 @@
 
 namespace etude {
 
-/// The seal of a whole run: the digests of all files that the run or merge wrote.
+/// The name of the file that seals a complete run: it holds the digests of all files that the run or merge wrote.
 constexpr const char* kSealFile = "seal.json";
-/// Present if the owner has signed the run (signature.h).
+/// The names of the files that exist if the owner has signed the run (signature.h).
 constexpr const char *kSignedFile = "signed.b2", *kSignatureFile = "signed.b2.minisig";
-/// The lock of the process that writes into the folder; not a result.
+/// The name of the file that the process writing into the folder locks. It is not a result.
 constexpr const char* kLockFile = "lock";
 
-/// Returns true for a part of a result folder that is made from results and is not sealed: `report`, `video`.
+/// Returns true if a part of a result folder is made from results and therefore not sealed: `report`, `video`.
 bool IsMadeFromResults(std::string_view part);
 
-/// Writes `seal.json`: the XXH3 digest of every file in the folder except itself, signatures, the journal and parts
-/// that are made from results. It detects accidental changes; it is not a signature.
+/// Writes `seal.json`, which holds the XXH3 digest of every file in the folder except `seal.json`, signatures, the
+/// journal and parts that are made from results. A seal detects accidental changes; it is not a signature.
 ///
 ///     {"format": "etude-seal", "version": 1, "files": {"cells.jsonl": "0123456789abcdef", …}}
 Result<void> SealRun(const std::filesystem::path& folder);
 
-/// Fails, naming the file, at the first file that is changed, missing or new, and if there is no seal.
+/// Fails, naming the file, at the first file that is changed, missing or additional. Fails also if there is no seal.
 Result<void> CheckSeal(const std::filesystem::path& folder);
 
 /// Returns the names of the sealed files, sorted. Fails if there is no seal.

@@ -19,9 +19,10 @@ namespace fs = std::filesystem;
 
 using Bytes = std::vector<unsigned char>;
 
-// Sizes in minisign's files, bytes (https://jedisct1.github.io/minisign/#signature-format). A public key has the
-// algorithm (2), the key's number and the key. A secret key has the algorithms of signature, password and checksum (2,
-// 2, 2), salt and costs (32, 8, 8; zero without a password), the number, the key and a checksum.
+// These are sizes in minisign's files, in bytes (https://jedisct1.github.io/minisign/#signature-format). A public key
+// consists of the algorithm (2), the key's number and the key. A secret key consists of the algorithms of signature,
+// password and checksum (2, 2, 2), salt and costs (32, 8, 8; zero without a password), the number, the key and a
+// checksum.
 constexpr std::size_t kNumber = 8, kBeforeSecret = 54, kSum = 32;
 constexpr std::size_t kSecretSize = kBeforeSecret + kNumber + crypto_sign_SECRETKEYBYTES + kSum;
 constexpr std::size_t kPublicSize = 2 + kNumber + crypto_sign_PUBLICKEYBYTES;
@@ -36,7 +37,7 @@ std::string Encode(std::span<const unsigned char> bytes) {
   return text;
 }
 
-/// Returns nothing if the text does not encode exactly `size` bytes.
+/// Decodes base64. Returns no bytes if the text does not encode exactly `size` bytes.
 Bytes Decode(std::string_view text, std::size_t size) {
   Bytes bytes(size + 3);
   std::size_t length = 0;
@@ -101,7 +102,7 @@ Result<std::string> ListDigests(const fs::path& folder) {
   return text;
 }
 
-/// Returns a key's number as minisign shows it: the last byte first.
+/// Returns a key's number as minisign shows it: in hexadecimal digits, the last byte first.
 std::string NumberOf(std::span<const unsigned char> bytes) {
   std::string text;
   for (std::size_t i = kNumber; i-- > 0;) text += fmt::format("{:02X}", bytes[i]);
@@ -113,7 +114,7 @@ std::string NumberOf(std::span<const unsigned char> bytes) {
 Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(secret_key));
   const std::vector<std::string> lines = LinesOf(text);
-  // The secret key.
+  // Read the secret key.
   Bytes key = Decode(lines.size() < 2 ? "" : lines[1], kSecretSize);
   if (key.empty() || key[0] != 'E' || key[1] != 'd') {
     return Fail({secret_key}, "is not a secret key of minisign; minisign -G -W makes one");
@@ -123,7 +124,7 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
                 "is a secret key with a password, which this program cannot ask for; minisign -G -W makes one without "
                 "a password");
   }
-  // Sign the digest of signed.b2, then that signature together with the trusted comment.
+  // Sign the digest of signed.b2, and then that signature together with the trusted comment.
   ASSIGN_OR_RETURN(const auto digests, ListDigests(folder));
   const unsigned char* const number = key.data() + kBeforeSecret;
   const unsigned char* const secret = number + kNumber;
@@ -146,7 +147,7 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
 }
 
 Result<std::string> CheckSignature(const fs::path& folder, const std::string& public_key) {
-  // The public key, from a file or as text.
+  // Read the public key, from a file or as text.
   std::string key_text = public_key;
   if (std::error_code none; fs::exists(public_key, none)) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(public_key));
@@ -157,7 +158,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   if (key.empty() || key[0] != 'E' || key[1] != 'd') {
     return Fail({public_key}, "is neither a public key of minisign nor a file with one");
   }
-  // The signature; it must be of this key.
+  // Read the signature. It must be a signature of this key.
   const FilePath path = Inside(folder) / kSignatureFile;
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   const std::vector<std::string> lines = LinesOf(text);
@@ -172,7 +173,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
     return Fail({path.string()}, "was made with key {}, but the given key is {}",
                 NumberOf(std::span(signature).subspan(2, kNumber)), NumberOf(number));
   }
-  // Both signatures must hold.
+  // Both signatures must be valid.
   ASSIGN_OR_RETURN(const auto signed_text, ReadWholeFile(Inside(folder) / kSignedFile));
   const Blake digest = DigestOf(signed_text);
   const Bytes all = Concat(std::span(signature).subspan(2 + kNumber), lines[2].substr(kTrusted.size()));
@@ -181,7 +182,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
       crypto_sign_verify_detached(over_all.data(), all.data(), all.size(), holder) != 0) {
     return Fail({path.string()}, "does not match: {} or it was changed", kSignedFile);
   }
-  // The files must be the signed ones; else name the first that differs.
+  // The files must equal the signed ones; otherwise name the first file that differs.
   ASSIGN_OR_RETURN(const auto found, ListDigests(folder));
   if (found == signed_text) return NumberOf(number);
   const std::vector<std::string> then = LinesOf(signed_text), now = LinesOf(found);

@@ -12,7 +12,7 @@ namespace {
 
 enum class When { kAlways, kIfAny };
 
-/// A key of a record, and the member that holds its value. With kIfAny, an empty value is left out.
+/// A key of a record in the JSON, and the member that holds its value. With kIfAny, an empty value is not written.
 template <typename Record, typename Value>
 struct Key {
   constexpr Key(const char* key, Value Record::*held, When stands = When::kAlways)
@@ -23,7 +23,7 @@ struct Key {
   When when;
 };
 
-/// The keys of each record in order, for writing and reading.
+/// The keys of each type of record, in the order of writing. They are used for writing and reading.
 template <typename Record>
 constexpr std::tuple<> kKeys = {};
 

@@ -28,7 +28,7 @@ std::optional<std::size_t> IndexInCatalogue(const std::string& id) {
   return static_cast<std::size_t>(FindMetric(id) - AllMetrics().data());
 }
 
-/// Returns the reason why this cell cannot be written as it is; "" if it can.
+/// Returns the reason why a result cannot be written as JSON, or "".
 std::string FindBadValue(const CellResult& result) {
   for (const MetricValue& metric : result.metrics) {
     if (FindMetric(metric.id) == nullptr) return "the metric '" + metric.id + "' is not in the catalogue";
@@ -70,14 +70,14 @@ class LineWriter {
   std::string text_;
 };
 
-/// Reads a line, part by part. After the first unexpected part, all further reads fail.
+/// Reads the parts of a line in order. After the first unexpected part, all further reads fail.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
 
   bool is_good() const { return good_; }
   bool IsNext(std::string_view text) const { return good_ && Rest().starts_with(text); }
-  /// Skips `text` if it is next, and returns whether it was.
+  /// Skips `text` if it comes next. Returns true if it was skipped.
   bool Skip(std::string_view text) {
     if (!IsNext(text)) return false;
     at_ += text.size();
@@ -111,7 +111,7 @@ class LineReader {
     if (!text.is_string()) Refuse();
     return good_ ? text.get<std::string>() : "";
   }
-  /// Reads what LineWriter::AddList writes.
+  /// Reads a list that LineWriter::AddList wrote.
   template <typename ReadOne>
   void ReadList(std::string_view key, const ReadOne& read_one) {
     if (!Skip(key)) return;
@@ -119,7 +119,7 @@ class LineReader {
     while (Skip(","));
     Expect("]");
   }
-  /// The unread part, which ends before the checksum.
+  /// Returns the part of the line that has not been read yet, without the checksum.
   std::string_view Rest() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
 
  private:
@@ -171,7 +171,7 @@ bool HasRightSum(std::string_view line) {
 
 std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
   CellResult& result = finished.row.result;
-  // A cell that JSON cannot represent becomes bad_output.
+  // A result that JSON cannot represent becomes bad_output.
   std::string recording, bad = FindBadValue(result);
   if (bad.empty() && result.recording) {
     const auto encoded = EncodeRecording(*result.recording);
@@ -184,7 +184,7 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
   }
   if (!bad.empty()) result = CellResult::Ended(Status::kBadOutput, bad);
 
-  // The identity, status and usage.
+  // Write the identity, status and usage.
   LineWriter line;
   line.AddText(finished.is_measured || !bad.empty() ? kCellBegin : kAnsweredBegin);
   line.Add(R"({},"status":"{}")", cell, StatusName(result.status));
@@ -196,7 +196,7 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
   line.Add(R"(,"usage":[{},{},{})", usage.wall_s, usage.cpu_s, usage.peak_mb);
   if (usage.world_wall_s > 0) line.Add(",{},{}", usage.world_wall_s, usage.world_cpu_s);
   line.AddText("]");
-  // The values of the metrics, then the reasons of the missing ones, in the same order.
+  // Write the values of the metrics, and then the reasons of the missing values, in the same order.
   std::vector<const std::string*> why;
   line.AddList("values", result.metrics, [&](const MetricValue& metric) {
     const auto index = IndexInCatalogue(metric.id);
@@ -211,7 +211,7 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
     line.AddText(",");
     line.AddString(digest.second);
   });
-  // Curves, and the recording.
+  // Write the curves and the recording.
   line.AddList("series", result.series, [&](const Series& series) {
     line.AddText("[");
     line.AddString(series.name);
@@ -249,7 +249,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
     cell.is_measured = head.is_measured;
     result.reason = reader.Skip(R"(,"reason":)") ? reader.ReadString() : "";
     cell.usage = ReadUsage(reader);
-    // The metrics: a number is an index in the catalogue, a text the id of a scenario's own metric.
+    // Read the metrics. A number is an index in the catalogue, a text is the id of a scenario's own metric.
     std::vector<std::size_t> missing;
     reader.ReadList(R"(,"values":[)", [&] {
       std::string id;
@@ -270,7 +270,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
         result.Measure(id, reader.ReadNumber<double>());
       }
     });
-    // The reasons of the missing values, in order.
+    // Read the reasons of the missing values, in order.
     std::size_t told = 0;
     reader.ReadList(R"(,"why":[)", [&] {
       std::string reason = reader.ReadString();
@@ -281,7 +281,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
       reader.Expect(",");
       result.digests.emplace_back(std::move(stage), reader.ReadString());
     });
-    // Each curve: name, axis, values, names of categories.
+    // Read each curve: name, axis, values, names of categories.
     reader.ReadList(R"(,"series":[)", [&] {
       Series& series = result.series.emplace_back();
       reader.Expect("[");

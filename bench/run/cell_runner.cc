@@ -40,7 +40,7 @@ double ReadPeakMemoryMb() {
   return 0;
 }
 
-/// Returns true if memory ran out. An impossible array length is a bug instead.
+/// Returns true if the exception means that memory ran out. An impossible array length is a bug, not a shortage.
 bool IsShortage(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr &&
          dynamic_cast<const std::bad_array_new_length*>(&error) == nullptr;

@@ -15,33 +15,37 @@ namespace etude {
 struct FinishedCell {
   Row row;
   CellUsage usage;
-  /// False: the method has answered, but other programs have yet to measure its answer (CellRunner::Measure).
+  /// False if the method has answered, but other programs must still measure its answer (CellRunner::Measure).
   bool is_measured = true;
-  /// Why this machine could not ask the method; there is no row then; "" = no fault.
+  /// The reason why this machine could not ask the method; the cell then gets no row. "" = no fault.
   std::string why_not_run = {};
 };
 
-/// Scores an outside answer, and adds its digest to those of the cell. Fails like TaskWorld::Judge.
+/// Scores an outside method's answer, and adds the answer's digest to the digests of the result. Fails if
+/// TaskWorld::Judge fails.
 Result<CellResult> JudgeAnswer(TaskWorld& world, const Json& answer);
 
-/// Runs cells, world after world. Each world is built once; outside methods keep running between worlds.
+/// Runs the cells of one world after another. Each world is built once. Outside methods keep running between worlds.
 class CellRunner {
  public:
-  /// Outside methods run in `fence`. Their standard error goes to files in `error_folder`; "" = to our own.
+  /// Outside methods run in `fence`. Their standard error goes to files in `error_folder`; "" = to our standard error.
   CellRunner(const PreparedScenario& scenario, std::string error_folder, const Fence& fence);
   ~CellRunner();
 
-  /// Builds the world. If that fails, every cell of the world reports the failure.
+  /// Builds the world. If that fails, all cells of the world end with that failure.
   void Open(int condition, int trial);
-  /// Runs a method in the open world. An exception gives a failed row. If memory runs out, the cell is `out_of_memory`
-  /// if it held more than the scenario allows; otherwise the machine has too little, and the cell is not run. Metric
-  /// programs do not measure here, because they would learn the truth of the world before all methods have answered.
+  /// Runs a method in the open world. An exception gives a row of status `failed`. If memory runs out and the cell held
+  /// more memory than the scenario allows, its status is `out_of_memory`; if it held less, the machine has too little
+  /// memory, and the cell is not run. Metric programs are not asked here, because they would learn the truth of the
+  /// world before all methods have answered.
   FinishedCell Run(std::size_t method);
-  /// Lets programs measure an answered cell. A run does so when all methods have answered (RunOrders).
+  /// Asks the metric programs to measure an answered cell. A run calls this after all methods have answered
+  /// (RunOrders).
   FinishedCell Measure(int condition, FinishedCell answered);
 
  private:
-  /// The peak resident size of this process. Reading it takes as long as a short cell, so the value is cached briefly.
+  /// Measures the peak resident size of this process. Reading it takes as long as a short cell, so the value is cached
+  /// for 5 ms.
   class PeakMemory {
    public:
     void Begin();
@@ -53,18 +57,19 @@ class CellRunner {
     double mb_ = 0;
   };
 
-  /// Returns the result of a cell that ended with an exception, or sets `why_not_run_`.
+  /// Returns the result of a cell that ended with an exception. Sets `why_not_run_` instead if this machine is the
+  /// cause.
   CellResult Thrown(const std::string& when, const std::exception& error);
-  /// Removes the motion of a measured cell unless it is to be recorded, and adds the metrics that the cell does not
+  /// Removes the motion of a measured cell if it must not be recorded, and adds the metrics that the cell does not
   /// report.
   void Complete(int condition, Row& row) const;
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
-  /// Returns why an outside method was not asked, with its name.
+  /// Returns the name of an outside method and the reason why it was not asked.
   std::string WhyNotAsked(std::size_t method, const std::string& reason) const;
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
   std::size_t IndexInTask(std::size_t method) const;
-  /// Returns the message that precedes the first problem, or the result of the cell if it cannot be made.
+  /// Returns the setting, which is sent before the first problem. If it cannot be made, returns the result of the cell.
   tl::expected<const Payload*, CellResult> OpenSetting();
   std::string SettingId() const;
 
@@ -75,11 +80,11 @@ class CellRunner {
   int condition_ = 0, trial_ = 0;
   std::unique_ptr<TaskWorld> world_;
   CellResult why_no_world_;
-  std::string why_not_run_;        ///< of the current cell
-  std::string why_world_not_run_;  ///< of all cells, if the world could not be built
+  std::string why_not_run_;        ///< why the current cell could not be run
+  std::string why_world_not_run_;  ///< why no cell could be run, if the world could not be built
   CellUsage world_usage_;
   PeakMemory peak_memory_;
-  std::unique_ptr<Payload> setting_, problem_;  ///< of the open world; null until needed
+  std::unique_ptr<Payload> setting_, problem_;  ///< setting and problem of the open world; null until needed
   int condition_of_setting_ = -1, trial_of_setting_ = -1;
 };
 

@@ -34,7 +34,7 @@ void Add(const Node& node, Digest& digest) {
   }
 }
 
-/// Does one yardstick, a fixed amount of arithmetic, on 4 KB, which fit into the first-level cache.
+/// Runs one yardstick: a fixed amount of arithmetic on 4 KB, which fit into the first-level cache.
 void DoOneYardstick(std::array<double, 512>& values) {
   constexpr std::size_t kPasses = 400, kStride = 7;
   for (std::size_t pass = 0; pass < kPasses; ++pass) {
@@ -44,7 +44,7 @@ void DoOneYardstick(std::array<double, 512>& values) {
   }
 }
 
-/// Does yardsticks until `seconds` have passed. Returns their number, the wall time and the processor time, as JSON.
+/// Runs yardsticks until `seconds` have passed. Returns their number, the wall time and the processor time, as JSON.
 std::string DoYardsticks(double seconds) {
   std::array<double, 512> values{};
   const auto start = Clock::now();

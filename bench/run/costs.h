@@ -11,16 +11,16 @@
 
 namespace etude {
 
-/// Returns a digest of all that decides the cost per trial of a scenario: its worlds and methods, but not its question,
-/// expectations, names or number of trials.
+/// Returns a digest of everything that determines the cost per trial of a scenario: its worlds and methods. The
+/// question, expectations, names and number of trials do not affect it.
 std::string WorkOf(const Scenario& scenario);
 
-/// The processor time of a scenario, in yardsticks: units of fixed arithmetic (MeasurePace).
+/// The measured processor time of a scenario, in yardsticks. A yardstick is a fixed amount of arithmetic (MeasurePace).
 struct KeptCost {
-  double once = 0;    ///< for start-up, preparation of conditions, and statistics
-  double trial = 0;   ///< for one world of every condition, with all methods
+  double once = 0;    ///< cost of start-up, preparation of conditions, and statistics
+  double trial = 0;   ///< cost of one world of every condition, with all methods
   double spread = 0;  ///< ScenarioForecast::spread; 0 = not measured
-  /// ScenarioForecast::units of these trials with this seed; 0: not kept, because worlds are the units.
+  /// ScenarioForecast::units for this number of trials and this seed; 0 = not stored, because each world is a unit.
   int units = 0;
   int trials = 0;
   std::uint64_t seed = 0;
@@ -31,16 +31,16 @@ struct KeptCost {
   }
 };
 
-/// Reads the kept costs of shipped scenarios, by WorkOf; empty if nothing is shipped. Fails if the table is invalid.
+/// Reads the stored costs of shipped scenarios, by WorkOf. Empty if no table is shipped. Fails if the table is invalid.
 Result<std::map<std::string, KeptCost>> ReadKeptCosts();
 
 /// The speed of this machine under its present load.
 struct Pace {
-  double yardsticks_per_s = 0;  ///< wall clock, all workers together
+  double yardsticks_per_s = 0;  ///< yardsticks per second of wall time, all workers together
   double yardstick_ms = 0;      ///< processor time of one yardstick; 0.5 ms on an AMD EPYC
 };
 
-/// Measures the speed: one copy of this process per worker does fixed arithmetic for an eighth of a second.
+/// Measures the speed of this machine: one copy of this process per worker runs yardsticks for an eighth of a second.
 Result<Pace> MeasurePace(int workers);
 
 }  // namespace etude

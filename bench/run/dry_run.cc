@@ -34,7 +34,8 @@ int CountUnitsOf(const PreparedScenario& prepared) {
   return static_cast<int>(units.size());
 }
 
-/// Returns a step that visits all conditions in an order without a trend, because costs change along a sweep.
+/// Returns a step with which all conditions are visited in an order without a trend. An order with a trend would bias
+/// the measured cost, because costs change along a sweep.
 int StepOver(int conditions) {
   constexpr double kGolden = 0.618;
   int step = std::max(1, static_cast<int>(std::lround(kGolden * conditions)));
@@ -42,22 +43,23 @@ int StepOver(int conditions) {
   return step;
 }
 
-/// Returns true if no option of the command line replaces the clips or recordings that the file names, or how they are
-/// read.
+/// Returns true if no option of the command line replaces the clips or recordings of the scenario file, or changes how
+/// they are read.
 bool IsAsShipped(const RunOptions& options) {
   return options.clips.empty() && options.libraries.empty() && options.streams.empty() && options.labels.empty() &&
          options.joint_map.empty() && options.clip_facts.empty() && options.from.empty();
 }
 
-/// Returns true if every reference names clips that come with the program or a package, and they exist.
+/// Returns true if every reference names existing clips that come with the program or with a package.
 bool AreInstalled(const std::vector<std::string>& references, const Place& place) {
   return std::ranges::all_of(references, [&](const std::string& one) {
     return (one.starts_with("builtin:") || one.starts_with("assimp:")) && ExpandReference(one, place);
   });
 }
 
-/// Returns true if a kept scenario needs no preparation: everything that it names comes with the program, as when its
-/// cost was measured, so its input is valid; and its number of units is known.
+/// Returns true if a scenario with a stored cost can be forecast without preparation. Everything that it names must
+/// come with the program, so that its input is as valid as when the cost was measured. Its number of units must be
+/// known.
 bool IsKnown(const Scenario& scenario, const ScenarioSetup& setup, const KeptCost& cost) {
   const bool names_no_file = setup.streams.empty() && setup.labels.empty() && setup.files.empty() &&
                              ProgramsIn(scenario).empty() &&
@@ -70,7 +72,7 @@ bool IsKnown(const Scenario& scenario, const ScenarioSetup& setup, const KeptCos
          (WorldsAreUnits(scenario.unit) || cost.UnitsOf(setup.trials, setup.seed));
 }
 
-/// Returns ScenarioForecast::spread of the cells in a table.
+/// Returns ScenarioForecast::spread, computed from the cells in a table.
 double SpreadOf(const Study& study, const ScenarioTable& table, const std::string& metric) {
   const auto asked = std::ranges::find_if(study.methods, [](const auto& one) { return one.name != one.against; });
   if (asked == study.methods.end()) return 0;
@@ -86,8 +88,8 @@ double SpreadOf(const Study& study, const ScenarioTable& table, const std::strin
   return deviations.empty() ? 0 : Quantile(deviations, 0.5);
 }
 
-/// Returns the mean time of the first worlds, measured until the time is up; their cells go into `table`. The very
-/// first world includes one-time costs, so it counts only if there is no other.
+/// Runs worlds until the clock reaches `until`, at least one, and returns their mean time, seconds. Adds their cells to
+/// `table`. The first world includes one-time costs, so it is left out if there are others.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
                               Clock::time_point start, ScenarioTable& table) {
   const Scenario& scenario = prepared.scenario();
@@ -111,16 +113,16 @@ double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fen
   return world == 1 ? first : others / (world - 1);
 }
 
-/// Replaces a secret key, so that the programs that are asked here learn nothing of the real run.
+/// Replaces a secret key, so that the outside programs asked by a dry run learn nothing about the real run.
 void ThrowOtherDice(SuiteSetup& suite) {
   constexpr Words256 kDryRun = {0x0064'7279'2d72'756e};
   suite.seed = Seed::Secret(Encrypt(suite.seed.key(), kDryRun));
   for (ScenarioSetup& scenario : suite.scenarios) scenario.seed = suite.seed;
 }
 
-/// Returns how many of the `count` worlds from number `first` of the plan on are in the shard.
+/// Returns the number of worlds in the shard, among the `count` worlds of the plan that begin with number `first`.
 std::size_t CountIn(const Shard& shard, std::size_t first, std::size_t count) {
-  const auto before = [&](std::size_t end) {  // of all worlds before `end`
+  const auto before = [&](std::size_t end) {  // counts the worlds of the shard before `end`
     const auto step = static_cast<std::size_t>(shard.count), offset = static_cast<std::size_t>(shard.index - 1);
     return end <= offset ? 0 : (end - offset - 1) / step + 1;
   };
@@ -130,14 +132,14 @@ std::size_t CountIn(const Shard& shard, std::size_t first, std::size_t count) {
 }  // namespace
 
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
-  // Check all input as a run does. Scenarios whose cost is kept were valid when it was measured.
+  // Check all input like a run. Scenarios with a stored cost were valid when it was measured.
   ASSIGN_OR_RETURN(auto suite, ReadSuiteToRun(options));
   if (!suite.seed.IsPlain()) ThrowOtherDice(suite);
   ASSIGN_OR_RETURN(const auto kept, ReadKeptCosts());
   std::vector<ScenarioForecast> told;
   std::vector<Study> studies;
   std::vector<const KeptCost*> costs;
-  std::vector<std::optional<std::size_t>> prepared_at;  // of each scenario that is prepared
+  std::vector<std::optional<std::size_t>> prepared_at;  // the index of each scenario that is prepared
   std::vector<ScenarioSetup> unknown;
   for (ParsedSuite parsed(suite); const ScenarioSetup& setup : suite.scenarios) {
     ASSIGN_OR_RETURN(const Scenario scenario, parsed.Find(setup));
@@ -164,7 +166,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   ASSIGN_OR_RETURN(const auto prepared, PrepareToRun(suite, options));
   Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs), .pace = {}};
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared, options.outside, "", options.key));
-  // The speed of this machine, by which kept costs are scaled.
+  // Measure the speed of this machine, by which stored costs are scaled.
   ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));
   const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // for one worker
   const auto start = Clock::now();
@@ -177,11 +179,11 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
     const Study& study = studies[i];
     one.is_kept = costs[i] != nullptr;
     one.metric = ValueMetricOf(study).empty() ? study.success : ValueMetricOf(study);
-    // The scenario's worlds in the shard.
+    // Count the scenario's worlds in the shard.
     const std::size_t all = one.conditions * one.worlds, in_shard = CountIn(options.shard, first_world, all);
     first_world += all;
     forecast.cells += in_shard * one.methods;
-    // The cost per world and the spread: kept, or measured.
+    // Find the cost per world and the spread: stored, or measured.
     const auto worlds = static_cast<double>(in_shard);
     if (one.is_kept) {
       if (worlds > 0) total += seconds_per_yardstick * costs[i]->once;

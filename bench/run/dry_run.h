@@ -9,36 +9,36 @@
 
 namespace etude {
 
-/// A scenario as it would be run: its size, its time, and the number of units and comparisons.
+/// The forecast of a scenario: its size, its time, and its numbers of units and comparisons.
 struct ScenarioForecast {
   std::string name, task;
-  std::size_t worlds = 0;  ///< per condition
+  std::size_t worlds = 0;  ///< worlds per condition
   std::size_t conditions = 0;
   std::size_t methods = 0;
-  std::string work = {};  ///< WorkOf
+  std::string work = {};  ///< the result of WorkOf
   bool is_kept = false;   ///< true: the time comes from ReadKeptCosts; false: it was measured on the first worlds
-  double seconds_per_world = 0;  ///< all methods of a world, wall clock, on one worker
-  int comparisons = 0;           ///< tested together, with one Holm correction
+  double seconds_per_world = 0;  ///< wall time of a world with all methods, on one worker
+  int comparisons = 0;           ///< number of comparisons under one Holm correction
   SamplingUnit unit = SamplingUnit::kWorld;
-  int units = 0;            ///< number of units in the first condition; that of worlds if each is a unit
+  int units = 0;            ///< number of units in the first condition; worlds, if each is a unit
   std::string metric = {};  ///< the metric whose differences answers compare (ValueMetricOf), or success
-  /// The standard deviation over worlds of that metric's differences between the method in question (the first one that
-  /// is compared with another) and its baseline, in its unit: the median over conditions. Kept, or of the worlds that
-  /// were run to measure the time; 0 = fewer than kMinSample pairs.
+  /// The standard deviation over worlds of the differences in `metric` between two methods, in the metric's unit: the
+  /// first method that is compared with another, and its baseline. It is the median over conditions. It is stored, or
+  /// comes from the worlds that were run to measure the time. 0 = there are fewer than kMinSample pairs.
   double spread = 0;
 };
 
 struct Forecast {
   std::vector<ScenarioForecast> scenarios;
-  std::size_t cells = 0;  ///< of the shard, or of the whole run
-  double seconds = 0;     ///< wall clock of these cells, on `workers`
+  std::size_t cells = 0;  ///< cells of the shard, or of the whole run
+  double seconds = 0;     ///< wall time of these cells, on `workers` workers
   int workers = 1;
   Pace pace;
 };
 
-/// Checks all input as Run does, writes nothing, and estimates the time. For a shipped scenario with its own clips and
-/// recordings, the kept cost is scaled by this machine's speed; its clips are not read and its recognisers not taught.
-/// For any other, the first worlds are run until `sample_seconds` have passed, at least one per scenario.
+/// Checks all input like Run, estimates the time, and writes nothing. For a shipped scenario with its own clips and
+/// recordings, the stored cost is scaled by this machine's speed; clips are not read and recognisers are not trained.
+/// For any other scenario, the first worlds are run until `sample_seconds` have passed, at least one per scenario.
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds);
 
 }  // namespace etude

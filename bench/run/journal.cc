@@ -44,14 +44,14 @@ Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
   return head;
 }
 
-/// The position of a line.
+/// The position of a cell's line.
 struct LineInFile {
   std::uint32_t file;
   std::uint64_t offset;
   std::size_t length;
 };
 
-/// Adds a cell. Returns false if it has a line already.
+/// Adds a cell to `cells`. Returns false if the cell already has a line. Fails if the cell is not in the shard.
 Result<bool> AddCell(const CellLineHead& head, const LineInFile& line, const Place& place, const Plan& plan,
                      const Shard& shard, CellTable& cells) {
   const std::size_t cell = head.cell;
@@ -109,7 +109,7 @@ Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
 
 Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
   const std::size_t size = std::clamp(kMemory / sources_.size(), kMinPartBytes, kMaxPartBytes);
-  // Lines are in order of completion, so the line of the next cell may come a little before this one: begin reading
+  // Lines are in order of completion, so the line of the next cell may come shortly before this one. Begin reading
   // earlier.
   source.begin = place.offset - std::min<std::uint64_t>(place.offset, size / 2);
   source.part.resize(std::max<std::size_t>(size, place.offset - source.begin + place.length));
@@ -192,7 +192,7 @@ Result<void> Journal::Sync() {
 
 namespace {
 
-/// Returns the first undamaged copy of the head, from the lines at the beginning of the file.
+/// Returns the first undamaged copy of the head. The copies are the first lines of the file.
 Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
   std::string line;
   int read = 0;
@@ -226,13 +226,13 @@ Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, Cel
     ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
     if (!has_line || !lines.had_end()) break;  // an incomplete last line
     if (number <= kHeads) continue;
-    // A changed line is damaged.
+    // A line with a wrong checksum is damaged.
     const auto cell = ReadCellLineHead(line);
     if (!cell) {
       content.damaged.push_back(number);
       continue;
     }
-    // A second line of a cell is damaged, too.
+    // A second line of a cell counts as damaged, too.
     if (!cell->is_measured && answered == nullptr) continue;
     const LineInFile place{cell->is_measured ? file : answered_file, offset, line.size()};
     ASSIGN_OR_RETURN(const bool counts, AddCell(*cell, place, {path.string(), number}, plan, content.head.shard,

@@ -15,8 +15,8 @@
 
 namespace etude {
 
-/// The position of each finished cell's line, by the cell's number in the plan of a run or shard. Lines stay on the
-/// disk until they are read, so a run of any size fits into memory.
+/// The positions of the lines of finished cells, by the cell's number in the plan of a run or shard. Lines stay on the
+/// disk until they are read, so runs of any size fit into memory.
 class CellTable {
  public:
   explicit CellTable(std::size_t cells) : places_(cells) {}
@@ -25,24 +25,24 @@ class CellTable {
   bool Has(std::size_t cell) const { return places_[cell].length > 0; }
   std::vector<bool> Done() const;
 
-  /// Adds a file that holds lines of cells, and returns its number for Put.
+  /// Adds a file that holds lines of cells. Returns the file's number, which Put needs.
   std::uint32_t AddFile(const FilePath& file);
   void Put(std::size_t cell, std::uint32_t file, std::uint64_t offset, std::size_t length);
-  /// Stores a line in memory.
+  /// Stores the line of a cell in memory.
   void Put(std::size_t cell, std::string line);
 
-  /// Reads a cell, which must be there. Fast if cells are read in roughly the order of their lines.
+  /// Reads a cell. The cell must have a line. Reading is fast if cells are read in roughly the order of their lines.
   Result<FinishedCell> Read(std::size_t cell, const Plan& plan);
-  /// Reads its line, which is valid until the next call.
+  /// Reads the line of a cell. The result is valid until the next call.
   Result<std::string_view> ReadLine(std::size_t cell);
 
  private:
   struct LinePlace {
-    std::uint64_t offset = 0;  ///< in the file, or the index in `lines_`
+    std::uint64_t offset = 0;  ///< the offset in the file, or the index in `lines_`
     std::uint32_t length = 0;  ///< 0 = no line
     std::uint32_t file = 0;
   };
-  /// A file, and the part of it that was read last, beginning at offset `begin`.
+  /// A file, and the part of it that was read last. The part begins at offset `begin` of the file.
   struct Source {
     FilePath file;
     std::uint64_t begin = 0;
@@ -58,33 +58,33 @@ class CellTable {
   std::vector<std::string> lines_;
 };
 
-/// The identity of a journal's run. Cells can be combined only if they have the same build, suite and seed.
+/// The identity of a journal's run. Cells can be combined only if their runs have the same build, suite and seed.
 struct JournalHead {
   std::string manifest;  ///< digest of manifest.json
   std::string build;     ///< digest of the program
   Shard shard;
 };
 
-/// The maximum age and size of lines that are not yet on the disk; the first limit reached counts.
+/// The maximum age and size of lines that are not yet synchronised to the disk. The limit that is reached first counts.
 struct JournalLag {
   double seconds = 1;
   double mebibytes = 1;
 };
 
-/// The append-only record of a run in progress. A finished shard leaves nothing else. It is a file of JSON Lines: the
-/// head (twice, because nothing can be read without it), then one line per cell (cell_line.h) in order of completion.
-/// Each line is written at once, and synchronised to the disk in groups. A cell that programs measure has two lines:
-/// the answered one, with its motion, and the finished one.
+/// The append-only record of a run in progress, and of a finished shard. It is a file of JSON Lines. First comes the
+/// head, twice, because nothing can be read without it. Then comes one line per cell (cell_line.h), in order of
+/// completion. Each line is written at once; lines are synchronised to the disk in groups. If outside programs measure
+/// a cell, it has two lines: an answered one with its motion, and a finished one.
 class Journal {
  public:
   static Result<Journal> Begin(const std::filesystem::path& folder, const JournalHead& head,
                                const JournalLag& sync = {});
-  /// Continues a journal that `ReadJournal` has read; cuts off an incomplete last line.
+  /// Continues a journal that `ReadJournal` has read. An incomplete last line is cut off.
   static Result<Journal> Continue(const std::filesystem::path& folder, const JournalLag& sync = {});
 
   /// Appends the line of a cell (cell_line.h), and returns its offset in the file.
   Result<std::uint64_t> Append(std::string_view line);
-  /// Returns true if a limit of JournalLag is reached.
+  /// Returns true if a limit of JournalLag has been reached.
   bool IsSyncDue() const;
   Result<void> Sync();
 
@@ -96,7 +96,7 @@ class Journal {
   FilePath path_;
   Descriptor file_;
   JournalLag sync_;
-  std::uint64_t end_ = 0;  ///< of the file
+  std::uint64_t end_ = 0;  ///< the offset of the file's end
   std::size_t unsynced_bytes_ = 0;
   Clock::time_point synced_at_ = Clock::now();
 };
@@ -110,14 +110,15 @@ struct JournalContent {
   std::size_t answered = 0;  ///< cells that are answered but not yet measured
 };
 
-/// Reads the finished cells of a journal into `cells`, and those that are answered but not measured into `answered`
-/// (unless null); both have one entry per cell of `plan`. An incomplete last line, left by a kill, is ignored. If a
-/// line was changed (a flipped bit, an edit), only its own cell is lost. If a cell has two lines, the second is
-/// ignored. Fails with file:line at a valid line whose cell is not in the plan or shard.
+/// Reads the finished cells of a journal into `cells`, and the cells that are answered but not measured into `answered`
+/// (unless null). Both tables have one entry per cell of `plan`. An incomplete last line, left by a kill, is ignored.
+/// If a line was changed (a flipped bit, an edit), only its own cell is lost. If a cell has two lines of one kind, the
+/// second is ignored. Fails, with file and line, at a valid line whose cell is not in the plan or shard.
 Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells,
                                    CellTable* answered = nullptr);
 
-/// Lines of cells in a temporary file, to save memory while this process runs. It is created with the first line.
+/// Stores lines of cells in a temporary file, to save memory. The file is created with the first line and exists as
+/// long as this object.
 class TemporaryLines {
  public:
   explicit TemporaryLines(std::size_t cells) : cells_(cells) {}
@@ -127,7 +128,7 @@ class TemporaryLines {
  private:
   CellTable cells_;
   std::optional<TemporaryFolder> folder_;
-  std::optional<Journal> journal_;  ///< in the folder; file 0 of `cells_`
+  std::optional<Journal> journal_;  ///< the journal in `folder_`; it is file 0 of `cells_`
 };
 
 }  // namespace etude

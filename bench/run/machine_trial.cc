@@ -25,7 +25,8 @@ bool Draws(const PreparedScenario& prepared) {
   return IsFilmed(scenario) || FindTaskKind(scenario.task)->platform != nullptr;
 }
 
-/// Makes a renderer in a copy of this process, because Mesa ends the process if memory is short.
+/// Makes a renderer in a forked copy of this process. Mesa ends the process if memory is short; the copy keeps this
+/// process alive.
 Result<void> TryRendererInACopy() {
   constexpr int kNotLoaded = 2;
   ASSIGN_OR_RETURN(ForkedCopy copy, ForkedCopy::Start([](int) {
@@ -39,7 +40,8 @@ Result<void> TryRendererInACopy() {
   return Fail({}, "drawing is impossible: Mesa gets no memory, or provides no context");
 }
 
-/// Fails if the fence is missing only for lack of processes, memory or files.
+/// Fails if there is no fence because processes, memory or files are short. Any other reason for having no fence is
+/// accepted.
 Result<void> CheckFence(const Fence& fence) {
   for (const int shortage : {EAGAIN, ENOMEM, EMFILE, ENFILE}) {
     if (!fence.IsUp() && fence.description().find(std::strerror(shortage)) != std::string::npos) {

@@ -8,11 +8,11 @@
 
 namespace etude {
 
-/// Tries what these scenarios need, so that a fault of this machine is reported before anything is written: processes,
-/// the renderer and, for outside methods, their programs, temporary files and the fence.
+/// Tries everything that these scenarios need from the machine: processes, the renderer and, for outside methods, their
+/// programs, temporary files and the fence. A fault of this machine is thus reported before anything is written.
 Result<void> TryMachine(std::span<const PreparedScenario> scenarios, const Fence& fence);
 
-/// Makes the renderer of this process if the scenario's worlds are drawn. Fails if nothing can be drawn.
+/// Makes the renderer of this process if the scenario's worlds are drawn. Fails if this machine cannot draw.
 Result<void> TryRenderer(const PreparedScenario& scenario);
 
 }  // namespace etude

@@ -50,7 +50,8 @@ Json DescribeClips(const ClipLibrary& library) {
   return clips;
 }
 
-/// Lists the files of a task that judges files: for each world the truth, if there is one, then all its answers.
+/// Lists the files of a task that judges files. Each world has its truth first, if there is one, and then all its
+/// answers.
 Json DescribeFiles(const PreparedScenario& scenario) {
   Json files = Json::array();
   std::map<std::string, Result<std::string>> known;  // several worlds may lie in one file
@@ -96,10 +97,10 @@ std::string DigestOf(const std::vector<std::string>& texts) {
   return digest.Hex();
 }
 
-/// The libraries that affect results, by the beginnings of their file names: C and C++, the renderer and its compiler,
-/// Ceres with its linear algebra and orderings, image codecs. Eigen, GLM, Random123 and, on Debian 12, Ceres are
-/// compiled into the program, whose build the head of a journal names. Libraries that only draw pages, read fonts or
-/// train are not listed, so their updates do not change the identity of a run.
+/// The libraries that affect results, given by the beginnings of their file names: C and C++, the renderer and its
+/// compiler, Ceres with its linear algebra and orderings, image codecs. Eigen, GLM, Random123 and, on Debian 12, Ceres
+/// are compiled into the program, whose build is stated in the head of a journal. Libraries that only draw pages, read
+/// fonts or train are not listed, so their updates do not change the identity of a run.
 constexpr std::array kDecisiveLibraries = {
     "libc.",        "libm.",       "libstdc++.",   "libOSMesa.", "libEGL_mesa.", "libgallium", "swrast_dri.",
     "libglapi.",    "libLLVM",     "libblas.",     "libceres.",  "liblapack.",   "libatlas",   "libopenblas",
@@ -107,10 +108,10 @@ constexpr std::array kDecisiveLibraries = {
     "libmetis.",    "libhwy.",     "libjpeg.",     "libpng",     "libz.",        "libzip.",    "libOpenEXR",
     "libImath",     "libIex",      "libtinygltf.", "libstb."};
 
-/// Returns the builds of the decisive libraries: name and first half of the build ID.
+/// Returns the builds of the libraries in kDecisiveLibraries: the name and the first half of the build ID.
 Result<Json> DescribeLibraries() {
   constexpr std::size_t kToldDigits = 20;
-  // If the renderer is not installed, it is simply not in the list.
+  // If the renderer is not installed, it is left out of the list.
   if (auto loaded = LoadRenderer(); !loaded && IsOfThisMachine(loaded.error())) return tl::unexpected(loaded.error());
   Json libraries = Json::object();
   for (const auto& [name, build] : LoadedLibraries()) {
@@ -121,7 +122,8 @@ Result<Json> DescribeLibraries() {
   return libraries;
 }
 
-/// Adds the differences at or below `path` to `found`.
+/// Adds the differences between `then` and `now` to `found`. `path` is the place of the two values within their
+/// manifests.
 void CompareJson(const std::string& path, const Json& then, const Json& now, std::vector<JsonDifference>& found) {
   if (then == now) return;
   if (then.is_object() && now.is_object()) {

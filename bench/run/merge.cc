@@ -20,12 +20,13 @@ namespace fs = std::filesystem;
 struct Shards {
   int count = 0;
   std::map<int, fs::path> folders;
-  std::string manifest;              ///< the text of the manifest that all of them have
+  std::string manifest;              ///< the text of the shards' common manifest
   std::vector<std::string> missing;  ///< for messages: shards that no folder holds, and folders without a shard
   std::vector<JsonDifference> other_libraries = {};
 };
 
-/// Fails unless a shard's manifest equals the earlier ones. `other_libraries` allows and collects other libraries.
+/// Fails unless a shard's manifest equals those of the earlier shards. With `other_libraries`, differing libraries are
+/// allowed and collected.
 Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool other_libraries, Shards& shards) {
   if (head.manifest == Digest().Add(std::string_view(shards.manifest)).Hex()) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(shards.manifest, shards.folders.begin()->second.string()));
@@ -64,7 +65,8 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   return {};
 }
 
-/// Finds the shards in the folders. Fails unless they belong to one run and each is there once.
+/// Finds the shards in the folders and lists the missing ones. Fails if shards belong to different runs or builds, or
+/// if a shard occurs twice.
 Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_libraries) {
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
   Shards shards;
@@ -83,7 +85,8 @@ Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_li
   return shards;
 }
 
-/// Describes the missing cells of a shard: "2/4 in DIR lacks 3 of 40 cells, the first ik/…"; "" if none is missing.
+/// Describes the missing cells of a shard, e.g. "2/4 in DIR lacks 3 of 40 cells, the first ik/…"; "" if none is
+/// missing.
 std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& folder, const CellTable& cells) {
   std::size_t wanted = 0, lacking = 0;
   std::string first;
@@ -102,7 +105,7 @@ std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& fold
 
 Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress) {
   const Clock::time_point start = Clock::now();
-  // Find the shards, and prepare their run.
+  // Find the shards and prepare the run to which they belong.
   ASSIGN_OR_RETURN(auto shards, FindShards(options.folders, options.other_libraries));
   if (shards.folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards.missing, "; "));
   ASSIGN_OR_RETURN(const auto prepared,
@@ -116,7 +119,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
     on_progress(share);
     return options.stop == nullptr || !*options.stop;
   };
-  // Read every journal, and list what is missing.
+  // Read every journal and list the missing cells.
   std::size_t read = 0;
   for (const auto& [index, folder] : shards.folders) {
     if (!goes_on(0.5 * static_cast<double>(read) / static_cast<double>(cells.size()))) {

@@ -24,7 +24,7 @@ struct Measured {
   Status status = Status::kOk;  ///< kOk: a number, or null with a reason; kUnsolved: no answer; else: a failure
   MetricValue value;
 
-  /// Returns true if the program itself said that there is no value.
+  /// Returns true if the program itself said that the cell has no value.
   bool IsNull() const { return !value.value && (status == Status::kOk || status == Status::kUnsolved); }
 };
 

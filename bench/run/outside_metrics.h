@@ -8,31 +8,32 @@
 
 namespace etude {
 
-/// The metrics of a scenario that other programs measure. Each program is started for its first cell and then kept. It
-/// receives the recording of the cell, including the truth, which outside methods never receive.
+/// The metrics of a scenario that outside programs measure. Each program is started for its first cell and then kept
+/// running. It receives the recording of the cell, including the truth, which outside methods never receive.
 class OutsideMetrics {
  public:
-  /// The arguments are those of CellRunner. The scenario must outlive this object.
+  /// The arguments are those of CellRunner's constructor. The scenario must outlive this object.
   OutsideMetrics(const PreparedScenario& scenario, const std::string& error_folder, const Fence& fence);
 
   bool empty() const { return programs_.empty(); }
-  /// Adds every metric's value, or the reason why it has none, to a cell with a recording; adds nothing to other cells.
-  /// Returns why this machine could not ask a program; "" = no fault.
+  /// Adds every metric's value, or the reason why it has none, to the result of a cell with a recording. Does nothing
+  /// for a cell without a recording. Returns the reason why this machine could not ask a program; "" = no fault.
   std::string Measure(const std::string& cell, CellResult& result);
-  /// Asks for every test vector. Fails at the first wrong value, and names the expected and the found value.
+  /// Lets the programs measure every test vector. Fails at the first wrong value, naming the expected and the found
+  /// value.
   Result<void> CheckVectors();
 
  private:
   OutsideReply Ask(std::size_t metric, const std::string& id, const Payload& cell);
 
   const PreparedScenario& scenario_;
-  std::vector<OutsideMethod> programs_;  ///< by metric
+  std::vector<OutsideMethod> programs_;  ///< one program per metric
   std::vector<Payload> settings_;
 };
 
 Result<void> CheckMetricVectors(std::span<const PreparedScenario> scenarios, const Fence& fence);
 
-/// Returns the file in `folder` that gets the standard error of a program of a scenario. Returns "" if `folder` is "":
+/// Returns the file in `folder` to which a scenario's program writes its standard error. Returns "" if `folder` is "":
 /// the program then writes to our standard error. Programs of one scenario must have different names.
 std::string ErrorFileOf(const std::string& folder, const Scenario& scenario, const std::string& program);
 

@@ -42,14 +42,14 @@ bool Holds(const fs::path& folder, const fs::path& path) {
   return std::ranges::mismatch(folder, path).in1 == folder.end();
 }
 
-/// Returns true if a folder below a system folder belongs to Etude, such as /opt/NAME or /usr/src/NAME, and may be
-/// hidden as a whole because it does not hold the program.
+/// Returns true if a folder below a system folder is Etude's own, e.g. /opt/NAME or /usr/src/NAME, and does not contain
+/// the program. It may then be hidden as a whole.
 bool IsOursInSystem(const fs::path& folder, const fs::path& program) {
   const auto depth = std::distance(folder.begin(), folder.end());
   return Fence::IsOfSystem(folder) && depth >= (Holds("/opt", folder) ? 3 : 4) && !Holds(folder, program);
 }
 
-/// Fails if a program of secret worlds would see a file that reveals them.
+/// Fails if a program that runs in secret worlds would see a file that reveals them.
 Result<void> CheckShown(const PreparedScenario& scenario, const ScenarioProgram& program, const ProgramView& view,
                         const fs::path& folder, const std::optional<SecretKey>& key) {
   const std::pair<const char*, fs::path> secrets[] = {
@@ -66,7 +66,7 @@ Result<void> CheckShown(const PreparedScenario& scenario, const ScenarioProgram&
   return {};
 }
 
-/// Fails if a file listed by a program does not exist, or holds a folder that programs write to.
+/// Fails if a file that a program lists does not exist, or if it contains a folder to which programs write.
 Result<void> CheckFiles(const PreparedScenario& scenario, const ScenarioProgram& program) {
   std::error_code error;
   for (const std::string& file : program.entry->files) {
@@ -94,7 +94,7 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
   if (ProgramsOf(scenarios).empty()) return Fence();
   Fence fence = rules.is_fenced ? Fence::Find() : Fence();
   std::error_code error;
-  // Hide the working folder and the folders of the scenarios, if they are below a system folder, and all named pipes.
+  // Hide all named pipes, and the working folder and the scenarios' folders if they are below a system folder.
   std::vector<fs::path> ours = {fs::current_path(error)};
   for (const PreparedScenario& scenario : scenarios) {
     const bool is_secret = !scenario.setup().seed.IsPlain();
@@ -111,7 +111,7 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
           for (const fs::path& pipe : Fence::PipesBelow(shown)) fence.Hide(pipe);
         }
       }
-      // Secret worlds need a working fence that hides their files.
+      // Secret worlds need a working fence, and their files must be hidden.
       if (!is_secret || !rules.is_fenced) continue;
       if (!fence.IsUp()) {
         return Fail({scenario.setup().file},
@@ -122,7 +122,8 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
       RETURN_IF_ERROR(CheckShown(scenario, program, ViewOf(command, program.entry->files), folder, key));
     }
   }
-  // Hide our installed program and scenarios, but not the examples, which methods import; hide clips that anybody has.
+  // Hide our installed program and scenarios, but not the examples, because methods import them. Also hide the clips
+  // that are publicly available.
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   fence.Hide(program);
   fence.Hide(program.parent_path().parent_path() / "share/etude/scenarios");

@@ -12,29 +12,29 @@
 
 namespace etude {
 
-/// How the programs of a run may be run.
+/// The rules for running the outside programs of a run.
 struct OutsideRules {
-  bool is_fenced = true;    ///< use the sandbox, if the kernel allows it
-  bool allow_exec = false;  ///< also run programs that a manifest or a pack names, which may come from a stranger
+  bool is_fenced = true;    ///< true: the sandbox is used, if the kernel allows it
+  bool allow_exec = false;  ///< true: also run programs named by a manifest or a pack, which may come from a stranger
 };
 
-/// Lists every method and metric that is a program: "python3 my_solver.py (ik-weights/mine)".
+/// Lists every method and every metric that is a program, e.g. "python3 my_solver.py (ik-weights/mine)".
 std::vector<std::string> ProgramsOf(std::span<const PreparedScenario> scenarios);
 
-/// Fails if `file` names programs and the rules do not allow them; the message lists the programs.
+/// Fails if the scenarios of `file` contain programs and the rules do not allow programs. The error lists the programs.
 Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScenario> scenarios,
                            const OutsideRules& rules);
 
-/// Makes the fence for the programs of these scenarios, which hides the run's `folder` ("" = none). Without programs,
-/// the fence is empty. Fails if worlds are secret and this machine has no fence, unless the rules ask for none; and if
-/// a program would see a scenario with secret worlds, the run's folder or the key's file.
+/// Makes the fence for the programs of these scenarios. It hides the run's `folder` ("" = none). Without programs, the
+/// fence is empty. Fails if worlds are secret and this machine has no fence, unless the rules switch the fence off.
+/// Fails also if a program would see a scenario with secret worlds, the run's folder or the key's file.
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
                        const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 
-/// Hides the truth that an exported folder or a run holds.
+/// Makes the fence hide the truth in an exported data set or in a run's folder.
 void HideTruthIn(const std::filesystem::path& folder, Fence& fence);
 
-/// Encodes a fence for the set-up of a worker, and decodes it.
+/// EncodeFence writes a fence as JSON, for the set-up of a worker. DecodeFence reads it.
 Json EncodeFence(const Fence& fence);
 Fence DecodeFence(const Json& json);
 

@@ -58,7 +58,7 @@ std::vector<Order> Plan::OrdersFor(const Shard& shard, const std::vector<bool>& 
     if (!order.methods.empty()) orders.push_back(std::move(order));
   }
   if (std::ranges::all_of(scenarios_, [](const auto& one) { return one.setup().seed.IsPlain(); })) return orders;
-  // Shuffle secret trials, so that a method learns nothing by counting them.
+  // Shuffle secret trials. Otherwise a method could learn the trial by counting its problems.
   const auto rank = [this](const Order& order) {
     const World& world = worlds_[order.world];
     const PreparedScenario& scenario = scenarios_[world.scenario];

@@ -31,7 +31,7 @@ struct Shard {
 Result<Shard> ParseShard(const std::string& text);
 std::string ToString(const Shard& shard);
 
-/// A world and those of its methods that are to be run, ascending.
+/// A world, and the indices of those of its methods that must be run, ascending.
 struct Order {
   std::size_t world = 0;
   std::vector<std::size_t> methods;
@@ -51,35 +51,37 @@ class Plan {
   std::size_t MethodCount(std::size_t world) const { return first_cells_[world + 1] - first_cells_[world]; }
   /// Returns the world of a cell. Its method is `cell − CellAt(world, 0)`.
   std::size_t WorldOf(std::size_t cell) const;
-  /// Returns the row without a result.
+  /// Returns the row of a cell without a result.
   Row IdentityOf(std::size_t cell) const;
   bool IsIn(const Shard& shard, std::size_t world) const {
     return world % static_cast<std::size_t>(shard.count) == static_cast<std::size_t>(shard.index - 1);
   }
-  /// Returns the remaining orders of a shard; `done` has one flag per cell.
+  /// Returns the orders that remain to be run in a shard. `done` has one flag per cell.
   std::vector<Order> OrdersFor(const Shard& shard, const std::vector<bool>& done) const;
 
  private:
   std::span<const PreparedScenario> scenarios_;
   std::vector<World> worlds_;
-  std::vector<std::size_t> first_cells_;  ///< one per world; at the end the number of all cells
+  std::vector<std::size_t> first_cells_;  ///< the first cell of each world, and finally the number of all cells
 };
 
-/// The orders that no worker has yet, by condition. The worlds of a condition share data (thresholds, tuned weights),
-/// which every worker prepares for itself. A worker therefore stays with its condition as long as there are orders,
-/// then begins the next new condition, and only then helps with the condition that has most orders left. Conditions
-/// with long worlds get help first: a long world that is begun last leaves all other workers idle.
+/// The orders that no worker has taken yet, by condition. The worlds of a condition share data (thresholds, tuned
+/// weights), which every worker must prepare for itself. A worker therefore stays with its condition as long as it has
+/// orders. Then it begins the next condition that no worker has begun, and only if there is none does it help with the
+/// condition that has the most orders left. Conditions with long worlds are helped first, because a long world that is
+/// begun last leaves all other workers idle.
 class OrderQueue {
  public:
-  /// The condition of a worker that has had no order.
+  /// The condition of a worker that has not had an order yet.
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
-  /// `is_long` returns true if worlds of this scenario are known to take long.
+  /// `is_long` returns true if the worlds of a scenario are known to take long.
   OrderQueue(const Plan& plan, std::vector<Order> orders, std::function<bool(int scenario)> is_long);
 
   bool empty() const { return left_ == 0; }
   std::size_t size() const { return left_; }
-  /// Removes and returns the next order; at least one must be left. Updates the worker's `condition`.
+  /// Removes and returns the next order. At least one must be left. `condition` is the worker's condition; it is
+  /// updated.
   Order Take(std::size_t& condition);
   /// Returns an unfinished order to the front of its condition's queue.
   void PutBack(Order order);

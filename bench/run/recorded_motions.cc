@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the recordings of `cell`: one, or those of all methods if `cell` names a world only.
+/// Returns the recordings of `cell`. If `cell` names a world without a method, returns the recordings of all methods.
 std::vector<FilePath> RecordingsOf(const fs::path& run, const std::string& cell) {
   if (FilePath own = RecordingFile(run, cell); Exists(own)) return {std::move(own)};
   const std::string world = RecordingFile(run, cell + "/").whole().stem().string();
@@ -35,13 +35,13 @@ std::vector<FilePath> RecordingsOf(const fs::path& run, const std::string& cell)
   return found;
 }
 
-/// Returns a reference to a recording's file. Links in a run are refused, because a stranger may have made it.
+/// Returns a reference to a recording's file. Fails if it is a link, because a stranger may have made the run.
 Result<SplitReference> ReferTo(const FilePath& file, const std::optional<std::string>& animation) {
   RETURN_IF_ERROR(OpenFile(file, O_RDONLY));
   return SplitReference{file.string(), animation};
 }
 
-/// Reads both motions of a pair of files, which have the joints that were judged.
+/// Reads the two motions, truth and answer, of a cell of task evaluation. They have the judged joints only.
 Result<ClipFile> ReadPair(const std::string& extras_json, const std::string& path, const OpenOptions& options) {
   const auto pair = ReadEvaluationExtras(extras_json);
   if (!pair) return Fail({path}, "a recording without a motion");
@@ -58,7 +58,7 @@ Result<ClipFile> ReadPair(const std::string& extras_json, const std::string& pat
 class ResultFolders : public RecordedMotions {
  public:
   bool IsRecording(std::string_view text) const override {
-    // The second form is that of version 1.
+    // Recordings of version 1 begin with the second text.
     return text.starts_with(R"({"recording":)") || text.starts_with(R"({"tracks":)");
   }
 

@@ -5,8 +5,8 @@
 namespace etude {
 
 /// Returns the reader of recordings in result folders, for `OpenOptions::recorded`. In "RUN#CELL@NAME", NAME is a track
-/// of that cell's recording, or another method of the same world; CELL may leave out its method. Links inside a run are
-/// refused, because a stranger may have made it.
+/// of the cell's recording or another method of the same world. CELL may leave out its method. Links inside a run are
+/// refused, because a stranger may have made the run.
 const RecordedMotions& MotionsOfRuns();
 
 }  // namespace etude

@@ -31,7 +31,7 @@ fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
   return fmt::format("out/{}-{}{}", suite.suite, seed, part);
 }
 
-/// Fails if the options do not allow writing into the folder.
+/// Examines the folder. Fails if the options do not allow writing into it.
 Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& options) {
   auto state = LookAtFolder(folder);
   if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;
@@ -40,7 +40,8 @@ Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& option
               *state == FolderState::kFinished ? "" : "--resume continues it, ");
 }
 
-/// Fails unless the folder's manifest is this one. With `other_libraries`, libraries may differ, which is recorded.
+/// Fails unless the folder's manifest equals `manifest`. With `other_libraries`, libraries may differ, and the
+/// differences are recorded.
 Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, bool other_libraries) {
   const FilePath path = Inside(folder) / "manifest.json";
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
@@ -114,7 +115,7 @@ class JournalRecorder {
     return {};
   }
 
-  /// Reports the progress once a second even if no more cells are safe, because time has passed.
+  /// Reports the progress once a second, because the elapsed time changes even if no more cells are safe.
   void Wait() {
     const double now = SecondsSince(start_);
     if (now - progress_.seconds < 1) return;
@@ -130,7 +131,7 @@ class JournalRecorder {
   CellTable* answered_;  ///< null if no program measures cells
   Journal journal_;
   std::uint32_t file_, answered_file_;  ///< numbers of the journal in the two tables
-  Progress progress_, unsynced_;        ///< on the disk; written
+  Progress progress_, unsynced_;        ///< the progress that is on the disk, and the progress that is written
   const std::function<void(const Progress&)>& on_progress_;
 };
 
@@ -155,8 +156,8 @@ struct OpenedJournal {
   std::vector<int> damaged;
 };
 
-/// Writes the manifest and begins a journal; with `continues`, reads the cells of the existing journal into `cells`
-/// and, unless null, `answered`, and continues it.
+/// Writes the manifest and begins a journal. With `continues`, reads the cells of the existing journal into `cells`
+/// and, unless null, `answered`, and continues that journal.
 Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& manifest, const JournalHead& head,
                                   bool continues, const RunOptions& options, const Plan& plan, CellTable& cells,
                                   CellTable* answered) {
@@ -183,8 +184,8 @@ Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& man
   return OpenedJournal{std::move(journal), before, std::move(damaged)};
 }
 
-/// Writes the results of a whole run, or only host.json for a shard, which keeps its journal. Returns false if it was
-/// stopped meanwhile. `was_done` means that nothing was left to run.
+/// Writes the results of a whole run. For a shard, which keeps its journal, writes only host.json. Returns false if the
+/// user stopped it. `was_done` is true if nothing was left to run.
 Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, bool was_done,
                           const RunOptions& options, Progress progress,
                           const std::function<void(const Progress&)>& on_progress) {
@@ -218,7 +219,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     RETURN_IF_ERROR(TryMachine(scenarios, fence));
     RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
   }
-  // Everything that identifies the run.
+  // Collect everything that identifies the run.
   const Plan plan(scenarios);
   ASSIGN_OR_RETURN(const auto described, MakeManifest(suite, scenarios, options.program_version));
   ASSIGN_OR_RETURN(const auto manifest, WriteJson(described));
@@ -238,7 +239,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
     if (is_secret && !may_be_used) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   }
-  // Open the journal, then run the cells that it lacks.
+  // Open the journal, and run the cells that are missing in it.
   CellTable cells(plan.cell_count()), answered_cells(HasOutsideMetrics(plan) ? plan.cell_count() : 0);
   CellTable* const answered = answered_cells.size() > 0 ? &answered_cells : nullptr;
   ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells, answered));
@@ -261,7 +262,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                                  if (kept) claimed.Keep();
                                  return kept;
                                });
-  // Report how far the run came.
+  // Report how many cells are done.
   RETURN_IF_ERROR(recorder.Sync());
   const Progress& progress = recorder.progress();
   if (!whole) {
@@ -284,7 +285,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
       if (std::ranges::find(outcome.refused, one) == outcome.refused.end()) outcome.refused.push_back(one);
     }
   }
-  // List the changes that were made to the content of the clips' files, each once.
+  // List the changes that reading made to the content of the clips' files, each once.
   std::set<std::pair<std::string, std::string>> told;
   for (const PreparedScenario& scenario : scenarios) {
     for (const LibraryClip& clip : scenario.clips().clips) {

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns true if a part of a result folder has this name, or if a temporary file of such a part has it.
+/// Returns true if `name` is the name of a part of a result folder, or of a temporary file of such a part.
 bool IsPartOfRun(const fs::path& name) {
   static const std::vector<std::string> parts = {
       "manifest.json", "host.json",  kJournalFile,        kSealFile,   kCellsFile,     kTimingsFile,
@@ -36,7 +36,7 @@ bool IsPartOfRun(const fs::path& name) {
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }
 
-// Names in the temporary folder: the old run, the new folder before the exchange, and files to be deleted.
+// These are names in the temporary folder: the old run, the new folder before the exchange, and files to be deleted.
 constexpr const char *kOldRun = "old", *kNewRun = "new", *kGone = "gone";
 
 bool HoldsMoreThanLock(const fs::path& folder) {
@@ -50,7 +50,8 @@ bool IsWithin(const fs::path& path, const fs::path& folder) {
   return !from.empty() && *from.begin() != "..";
 }
 
-/// Renames `fresh` to `old`, and the previous `old` to `aside`, in one step if the file system can.
+/// Renames `fresh` to `old`, and the previous `old` to `aside`. This is a single step if the file system can exchange
+/// names.
 bool Exchange(const fs::path& fresh, const fs::path& old, const fs::path& aside) {
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) {
     return ::rename(fresh.c_str(), aside.c_str()) == 0;
@@ -61,7 +62,7 @@ bool Exchange(const fs::path& fresh, const fs::path& old, const fs::path& aside)
   return false;
 }
 
-/// Returns true if the journal has a complete first line. Otherwise the run was ended while it began.
+/// Returns true if the journal has a complete first line. If not, the run was ended while it began.
 Result<bool> HoldsWholeLine(const FilePath& journal) {
   if (!Exists(journal)) return false;
   ASSIGN_OR_RETURN(auto lines, FileLines::Open(journal));
@@ -119,7 +120,7 @@ Result<bool> RunFolder::TakeUp() {
   for (TemporaryFolder& one : left) {
     std::error_code error;
     const fs::path old = one.path() / kOldRun, exchanged = one.path() / kNewRun;
-    // The process was killed between the two renames of `Exchange`.
+    // The process was killed between the two renames of `Exchange`, so the old run still has the name of the new one.
     if (!fs::exists(old, error) && HoldsMoreThanLock(exchanged)) fs::rename(exchanged, old, error);
     if (!HoldsMoreThanLock(old)) continue;
     aside_ = std::move(one);
@@ -136,7 +137,7 @@ bool RunFolder::Replace() {
   if (error || IsWithin(fs::current_path(error), old) || !old.has_relative_path()) return false;
   auto aside = TemporaryFolder::MakeKept(old.parent_path(), old.filename().string());
   if (!aside) return false;
-  // Lock the new folder before it gets the name.
+  // Lock the new folder before it gets the name of the old one.
   const fs::path fresh = aside->path() / kNewRun;
   fs::create_directory(fresh, old, error);
   RunFolder successor(fresh, false);
@@ -154,7 +155,7 @@ Result<void> RunFolder::Empty() {
   std::error_code error;
   fs::remove(path_ / "host.json", error);
   if (error) return CannotWrite(path_.string(), "cannot be emptied", error.value());
-  // Try again if a reader writes its report meanwhile.
+  // Try again if another process writes a report into the folder meanwhile.
   constexpr int kMaxTries = 100, kPauseMicroseconds = 10'000;
   for (int tries = 0; tries < kMaxTries; ++tries) {
     error.clear();
@@ -174,7 +175,7 @@ void RunFolder::Keep() {
   if (std::exchange(is_kept_, true)) return;
   is_ours_ = false;
   std::error_code ignored;
-  // After the rename, a kill during the deletion leaves nothing that looks like a run.
+  // After this rename, a kill during the deletion leaves nothing that looks like a run.
   if (aside_) fs::rename(aside_->path() / kOldRun, aside_->path() / kGone, ignored);
   aside_.reset();
   FindLeft();  // deletes what is left of a killed `--overwrite` whose run was resumed
@@ -183,7 +184,7 @@ void RunFolder::Keep() {
 Result<void> RunFolder::Lock() {
   const fs::path file = path_ / kLockFile;
   while (true) {
-    // O_NONBLOCK, because opening a pipe would wait for its other end.
+    // Use O_NONBLOCK, because opening a pipe would otherwise wait for its other end.
     lock_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IWUSR);
     struct stat kind {};
     if (lock_ < 0 ? errno == ENXIO : ::fstat(lock_, &kind) == 0 && !S_ISREG(kind.st_mode)) {
@@ -264,7 +265,7 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   if (is_stopped) return false;
   RETURN_IF_ERROR(results.Finish(summaries));
   RETURN_IF_ERROR(SaveJson(Inside(folder) / "host.json", host, OnDisk::kLater));
-  // The journal is the only other copy of the results: remove it once all of them are on the disk.
+  // The journal is the only other copy of the results. Remove it once all results are on the disk.
   RETURN_IF_ERROR(SealRun(folder));
   RETURN_IF_ERROR(SyncTree(folder));
   RETURN_IF_ERROR(SyncPathTo(folder));

@@ -19,36 +19,37 @@ enum class FolderState {
   kFinished,    ///< holds a whole run: host.json, which is written last, and no journal
 };
 
-/// Examines what a folder holds. Fails if anything in it is not part of a run; such a folder is never written into.
+/// Examines the contents of a folder. Fails if it contains anything that is not part of a run; nothing is ever written
+/// into such a folder.
 Result<FolderState> LookAtFolder(const std::filesystem::path& path);
 
-/// A result folder that this run alone writes into. If the run ends before its first cell, the destructor removes the
-/// folder if this run made it, and restores a run that was to be replaced.
+/// A result folder into which only this run writes. If the run ends before its first cell, the destructor removes the
+/// folder if this run made it, and restores the run that was to be replaced.
 class RunFolder {
  public:
-  /// Makes the folder, and locks it against other runs if the file system has locks. The locked file is not readable,
-  /// so that a method behind the fence cannot open and lock it. Unless `keep_contents`, the folder is empty afterwards:
+  /// Makes the folder, and locks it against other runs if the file system has locks. The lock file is not readable, so
+  /// a method behind the fence cannot open and lock it. Unless `keep_contents` is true, the folder is empty afterwards:
   /// its old content is moved away in a single step. A process that is reading the old run keeps its files. A kill at
-  /// any moment leaves either the whole old run or nothing of it. If the folder cannot be renamed (a mount point, the
-  /// working folder, a parent without write permission), it is emptied in place: first host.json, because a folder
+  /// any moment leaves the whole old run or none of it. If the folder cannot be renamed (a mount point, the working
+  /// folder, a parent without write permission), it is emptied in place. host.json is removed first, because a folder
   /// without it does not count as a run.
   static Result<RunFolder> Claim(const std::filesystem::path& path, bool keep_contents);
   RunFolder(RunFolder&& other) noexcept;
   ~RunFolder();
 
-  /// Declares that the folder now holds results to keep; deletes the replaced run.
+  /// Declares that the folder contains results to keep, and deletes the replaced run.
   void Keep();
-  /// Returns why the folder could not be locked; "" = it is locked.
+  /// Returns the reason why the folder could not be locked; "" = it is locked.
   const std::string& why_unlocked() const { return why_unlocked_; }
 
  private:
   RunFolder(std::filesystem::path path, bool made) : path_(std::move(path)), is_ours_(made) {}
   Result<void> Lock();
-  /// Exchanges this folder for an empty, locked one. Returns false if it cannot be renamed.
+  /// Exchanges this folder for an empty, locked one. Returns false if the folder cannot be renamed.
   bool Replace();
   Result<void> Empty();
-  /// Recovers the old run that a killed `--overwrite` set aside, if this folder holds no whole run. The destructor
-  /// restores it, unless this run calls Keep. Returns false if there is no old run.
+  /// Recovers the old run that a killed `--overwrite` moved aside, if this folder contains no finished run. The
+  /// destructor restores the old run, unless Keep is called. Returns false if there is no old run.
   Result<bool> TakeUp();
   /// Returns the temporary folders of killed `--overwrite` runs.
   std::vector<TemporaryFolder> FindLeft() const;
@@ -62,10 +63,10 @@ class RunFolder {
 };
 
 /// Writes the results of a whole run into its folder: cells, series, recordings, summary, timings, and last host.json.
-/// Then it removes the journal, after which the folder counts as finished. `cells` must be complete. `jobs` processes
-/// share the statistics of large runs. `goes_on` gets the share of this work that is done, after every few thousand rows
-/// and after each part of the statistics; if it returns false, the folder stays unfinished. Returns whether it is
-/// finished.
+/// Then removes the journal, after which the folder counts as finished. `cells` must be complete. `jobs` processes
+/// share the statistics of large runs. `goes_on` receives the share of this work that is done, after every few thousand
+/// rows and after each part of the statistics. If it returns false, the folder stays unfinished. Returns true if the
+/// folder is finished.
 Result<bool> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host,
                        int jobs, const std::function<bool(double share)>& goes_on);
 

@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// Returns the texts of the files that a condition names, by key.
+/// Returns the texts of the files that a condition names, by the condition's key.
 Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& condition, const TaskKind& kind,
                                                         const SourceTexts& texts) {
   std::map<std::string, std::string> named_texts;
@@ -60,7 +60,8 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
   return tasks;
 }
 
-/// Returns the sampling units of one world's clips, sorted, each once; empty if every world is a unit of its own.
+/// Returns the sampling units of one world's clips, sorted and without duplicates. Empty if every world is a unit of
+/// its own.
 std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, SamplingUnit unit, const ClipLibrary& library) {
   if (WorldsAreUnits(unit)) return {};
   if (unit == SamplingUnit::kLibrary) {
@@ -75,9 +76,9 @@ std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, Sampling
   return {names.begin(), names.end()};
 }
 
-/// Returns the dice name of every condition. In secret worlds it contains the swept values, so that adding a value
-/// changes no other condition's dice. It begins with the label's length, so that no label can be read as the start of
-/// another.
+/// Returns the dice name of every condition. In secret worlds the name contains the swept values, so adding a value to
+/// a sweep changes no other condition's dice. The label is preceded by its length, so that no label can be read as the
+/// start of another.
 std::vector<std::string> NameDice(const Scenario& scenario, const Seed& seed) {
   std::vector<std::string> names;
   for (const Condition& condition : scenario.conditions) {
@@ -99,7 +100,7 @@ Result<Seed> DecodeSeed(const Json& json, const Place& place) {
 }  // namespace
 
 Json EncodeSetup(const SuiteSetup& setup) {
-  // Each scenario: the keys that all have, then those that are not empty.
+  // Encode each scenario: first the keys that all scenarios have, then the lists that are not empty.
   Json scenarios = Json::array();
   for (const ScenarioSetup& scenario : setup.scenarios) {
     scenarios.push_back({{"name", scenario.name},
@@ -123,7 +124,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
       scenarios.back()["libraries"].push_back({{"name", library.name}, {"clips", library.clips}});
     }
   }
-  // The texts, and the parts that only some suites have.
+  // Encode the texts, and the parts that only some suites have.
   Json sources = Json::object();
   for (const auto& [file, text] : setup.sources) sources[file] = text;
   Json json{{"suite", setup.suite},
@@ -152,7 +153,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
     ASSIGN_OR_RETURN(setup.seed, DecodeSeed(json.at("seed"), place));
     for (const auto& [file, text] : json.at("sources").items()) setup.sources[file] = text.get<std::string>();
     if (json.at("scenarios").empty()) return Fail(place, "names no scenario");
-    // Each scenario; all seeds are plain, or all are the same secret one.
+    // Decode each scenario. All seeds must be plain, or all must be the same secret seed.
     for (const Json& scenario : json.at("scenarios")) {
       ASSIGN_OR_RETURN(const int trials, TrialsOf(scenario, place));
       ASSIGN_OR_RETURN(const Seed seed, DecodeSeed(scenario.at("seed"), place));
@@ -178,7 +179,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
             {library.at("name").get<std::string>(), library.at("clips").get<std::vector<std::string>>()});
       }
     }
-    // The parts that only some suites have.
+    // Decode the parts that only some suites have.
     setup.secret_worlds = json.value("secret_worlds", 1);
     if (json.contains("scored")) {
       const Json& scored = json.at("scored");
@@ -222,7 +223,8 @@ Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, Scena
 
 namespace {
 
-/// Returns null if worlds are not made of recordings. `refused`, unless null, gets the files that are left out.
+/// Loads the recordings from which worlds are made. Returns null if worlds are not made from recordings. Unless
+/// `refused` is null, the files that are left out are added to it.
 Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& setup, const StreamSource& source,
                                                         const ClipLibrary& clips, const SourceTexts& texts,
                                                         std::vector<RefusedClip>* refused = nullptr) {
@@ -241,7 +243,7 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
     if (refused != nullptr) {
       for (const Error& error : loaded.refused) refused->push_back({error.place.file, ToString(error)});
     }
-    // A stream is sensor data, whatever its format: remove the motion, so that no simulated sensor adds its errors
+    // A stream is sensor data, whatever its format. Remove its motion, so that no simulated sensor adds errors to it
     // again.
     for (NamedStream& stream : streams) stream.motion.reset();
   }
@@ -366,7 +368,7 @@ Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) c
   row.trial = trial;
   if (!clips.empty()) row.clip = clips.front();
   row.units = UnitsOf(clips, scenario_.unit, ClipsOf(scenario_.conditions[condition]));
-  // One person may have several files, so the person is the unit.
+  // Several files may show one person, so the person is the unit.
   if (!setup_.files.empty() && !row.units.empty() && !setup_.files[trial].unit.empty()) {
     row.units = {setup_.files[trial].unit};
   }

@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// The maximum number of cells of one run, because 16 bytes per cell are held in memory.
+/// The maximum number of cells of one run. A run keeps 16 bytes per cell in memory.
 inline constexpr std::size_t kMaxCells = 10'000'000;
 
 /// A clip or a recording that a run leaves out because it cannot be read or understood.
@@ -25,31 +25,32 @@ struct RefusedClip {
   friend bool operator==(const RefusedClip&, const RefusedClip&) = default;
 };
 
-/// The inputs of a scenario's worlds. With SuiteSetup::sources, the worlds can be made again anywhere.
+/// The inputs from which a scenario's worlds are made. With SuiteSetup::sources, the same worlds can be made on any
+/// machine.
 struct ScenarioSetup {
   std::string file;  ///< a key of SuiteSetup::sources
   std::string name;  ///< a file may hold several scenarios
   Seed seed = 1;
   int trials = 1;
-  std::vector<std::string> clips;          ///< references: the scenario's own, or those of --clips
+  std::vector<std::string> clips;          ///< references: the scenario's own, or those in --clips
   std::string joint_map;                   ///< a key of SuiteSetup::sources; "" = none
   std::string digest;                      ///< digest of the scenario's texts
-  std::vector<NamedClips> libraries = {};  ///< the scenario's own and those of --library
-  std::vector<std::string> streams = {};   ///< recordings: the scenario's own, or those of --streams
+  std::vector<NamedClips> libraries = {};  ///< the scenario's own libraries, and those in --library
+  std::vector<std::string> streams = {};   ///< recordings: the scenario's own, or those in --streams
   std::vector<std::string> labels = {};    ///< keys of SuiteSetup::sources
   std::vector<RefusedClip> refused = {};   ///< left out of `clips`, `libraries` and `streams`
-  std::vector<JudgedFiles> files = {};     ///< the worlds of a task that judges files, one a trial
-  bool keeps_motions = false;              ///< record every cell (--keep motions), not only those that `video` names
+  std::vector<JudgedFiles> files = {};     ///< the worlds of a task that judges files, one per trial
+  bool keeps_motions = false;              ///< true: record every cell (--keep motions), not only those of `video`
 };
 
-/// A method whose answers are scored instead of being asked for (etude score).
+/// A method whose answers are read from files and scored; it is not run (etude score).
 struct ScoredMethod {
   std::string name;
   bool alone = false;  ///< true: instead of the scenarios' own methods; false: in addition to them
 };
 
-/// The version of how secret worlds are made. Version 2 disguises clips (bench/tasks/base/disguise.h); version 3 has
-/// separate dice for every condition.
+/// The version of the rule that makes secret worlds. Since version 2 clips are disguised (bench/tasks/base/disguise.h);
+/// since version 3 every condition has its own dice.
 inline constexpr int kSecretWorldsVersion = 3;
 
 /// The set-up of a suite. The manifest stores it, and every worker receives it.
@@ -60,16 +61,16 @@ struct SuiteSetup {
   std::vector<ScenarioSetup> scenarios;
   std::optional<ScoredMethod> scored;        ///< an additional method of every scenario
   int secret_worlds = kSecretWorldsVersion;  ///< version; relevant only for a secret seed
-  /// The names that the manifest uses for `sources`, by their names here, if these differ (CanonicalNames). Messages
-  /// show the names as they were given.
+  /// The names of `sources` in the manifest, by their names here. Only names that differ are listed (CanonicalNames).
+  /// Messages show the names as the user gave them.
   std::map<std::string, std::string> canonical = {};
-  /// Scenarios parsed already, by file of `sources`.
+  /// The scenarios that have been parsed already, by file of `sources`.
   std::map<std::string, std::vector<Scenario>> parsed = {};
 };
 
 /// Encodes a set-up. A secret seed is written as its digest only.
 Json EncodeSetup(const SuiteSetup& setup);
-/// Fails if the JSON is not a set-up, names no scenario, or asks for no or too many trials.
+/// Reads a set-up. Fails if the JSON is not a set-up, names no scenario, or states no or too many trials.
 Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place);
 
 /// A scenario with its clips loaded and its tasks made, so that any of its worlds can be run.
@@ -77,7 +78,7 @@ class PreparedScenario {
  public:
   const ScenarioSetup& setup() const { return setup_; }
   const Scenario& scenario() const { return scenario_; }
-  /// Returns the clips; if there are libraries, the clips of all of them.
+  /// Returns the clips of the scenario. If there are libraries, returns the clips of all libraries.
   const ClipLibrary& clips() const { return *clips_; }
   const std::map<std::string, ClipLibrary>& libraries() const { return libraries_; }
   /// Returns the recordings of people from which the worlds are made; null if worlds are not made from recordings.
@@ -85,14 +86,15 @@ class PreparedScenario {
   const Task& task(int condition) const { return *tasks_[condition]; }
   const OpenOptions& opening() const { return *opening_; }
 
-  /// Returns the key of the dice of a trial under a condition. All conditions of open worlds share it. Secret worlds
-  /// have a key per condition, because two worlds with the same dice and different noise would together reveal the
-  /// truth.
+  /// Returns the key of the dice of a trial under a condition. In open worlds, all conditions share this key. In secret
+  /// worlds, each condition has its own key, because two worlds with the same dice and different noise would together
+  /// reveal the truth.
   WorldKey KeyOf(int condition, int trial) const { return {setup_.seed, dice_names_[condition], trial}; }
   /// Returns a cell's row without a result.
   Row IdentityOf(int condition, int trial, std::size_t method) const;
   Row EndedRow(int condition, int trial, std::size_t method, Status status, const std::string& reason) const;
-  /// Adds the metrics that `row` lacks: with the task's value for a failure, or else as missing with the row's reason.
+  /// Adds the metrics that `row` lacks. A metric gets the value that the task defines for a failure; if there is none,
+  /// it is missing with the row's reason.
   void CompleteMetrics(int condition, Row& row) const;
 
  private:
@@ -112,26 +114,27 @@ class PreparedScenario {
   std::vector<std::string> dice_names_;       ///< one per condition: WorldKey::scenario
 };
 
-/// Finds the files of a scenario whose task judges files, and sets its trials to their number; does nothing for other
-/// tasks. Files that are left out are added to `setup.refused`.
+/// Finds the files of a scenario whose task judges files, and sets the number of trials to the number of worlds found.
+/// Does nothing for other tasks. Files that are left out are added to `setup.refused`.
 Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, ScenarioSetup& setup);
 
-/// Returns how the motions of a scenario are opened.
+/// Returns the options with which the motions of a scenario are opened.
 Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts& texts);
 
 /// Returns true if the cameras of task `capture` are the sensor of a task of another kind.
 bool IsFilmed(const Scenario& scenario);
 
-/// Counts the people in a scenario's recordings; nothing if its worlds are not made of recordings. `texts` hold its
-/// labels. Files of its folders and patterns that cannot be read are added to `setup.refused`.
+/// Returns the number of people in a scenario's recordings; nothing if its worlds are not made from recordings. `texts`
+/// contain the labels. If a file of a folder or pattern cannot be read, it is added to `setup.refused`.
 Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
 
-/// Finds the scenarios of a suite, which must outlive this object. Each file is parsed once.
+/// Finds the scenarios of a suite. The suite must outlive this object. Each file is parsed once.
 class ParsedSuite {
  public:
   explicit ParsedSuite(const SuiteSetup& suite) : suite_(suite) {}
-  /// Returns the scenario of `setup`, with its trials and libraries. Fails if the suite's texts do not hold it.
+  /// Returns the scenario that `setup` names, with its trials and libraries. Fails if the suite's texts do not contain
+  /// it.
   Result<Scenario> Find(const ScenarioSetup& setup);
 
  private:
@@ -139,13 +142,15 @@ class ParsedSuite {
   std::map<std::string, std::vector<Scenario>> parsed_;  ///< by file
 };
 
-/// Loads the clips of a scenario (ParsedSuite::Find) and makes its tasks. Fails at an invalid clip or key of a method.
+/// Loads the clips of a scenario (ParsedSuite::Find) and makes its tasks. Fails if a clip or a key of a method is
+/// invalid.
 Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup, Scenario scenario);
 /// Prepares all scenarios of a suite. Fails if there are more than kMaxCells cells.
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite);
 
-/// Adds the method after those of the file, compared with the first of them, or replaces them and drops the
-/// expectations. Fails if its name is in use or is not a plain name.
+/// Adds a scored method after the scenario's own methods; it is compared with the first of them. With `method.alone`,
+/// the scored method replaces all methods, and the expectations are dropped. Fails if its name is in use or is not a
+/// plain name.
 Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario);
 
 }  // namespace etude

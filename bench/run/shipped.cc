@@ -19,7 +19,7 @@ bool HoldsSuites(const fs::path& folder) {
   return fs::is_directory(folder / kScenarioFolder / kSuites[0], none);
 }
 
-/// Returns the *.yaml of a folder, sorted.
+/// Returns the paths of the *.yaml files in a folder, sorted.
 std::vector<fs::path> ScenarioFilesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;

@@ -25,7 +25,7 @@ fs::path TopOf(const fs::path& folder) {
   for (fs::path above = folder; above != above.parent_path(); above = above.parent_path()) {
     if (std::error_code none; fs::exists(above / ".git", none)) return above;
   }
-  // A shipped file keeps its name in the repository, wherever it is installed.
+  // A shipped file has the name that it has in the repository, wherever it is installed.
   const fs::path shipped = ShippedFolder();
   const fs::path inside = folder.lexically_relative(shipped);
   return shipped.empty() || inside.empty() || *inside.begin() == ".." ? fs::path() : shipped;
@@ -40,7 +40,7 @@ std::string SuiteName(const std::vector<std::string>& paths) {
   return name.empty() || name == "." ? "suite" : name;
 }
 
-/// Adds the text of a file that a scenario names to `texts`, so that the manifest alone suffices to repeat the run.
+/// Adds the text of a file that a scenario names to `texts`. The manifest then suffices to repeat the run.
 Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   if (file.empty() || texts.contains(file)) return {};
   ASSIGN_OR_RETURN(auto text, ReadWholeFile(file));
@@ -48,7 +48,7 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Adds the texts of the files that a scenario's conditions name; their content is checked later, by the tasks.
+/// Adds the texts of the files that a scenario's conditions name. The tasks check the content later.
 Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
     for (const NamedFile& file : FilesNamedBy(condition, *FindTaskKind(scenario.task))) {
@@ -60,7 +60,7 @@ Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   return {};
 }
 
-/// Adds the text of a joint map with the additional lines `more`; returns its name in `texts`.
+/// Adds the text of a joint map, extended by the lines `more`, to `texts`. Returns its name there.
 Result<std::string> KeepJointMap(const std::string& file, const std::string& more, SourceTexts& texts) {
   RETURN_IF_ERROR(KeepText(file, texts));
   if (more.empty()) return file;
@@ -70,7 +70,7 @@ Result<std::string> KeepJointMap(const std::string& file, const std::string& mor
   return name;
 }
 
-/// Returns those clips of `references` that can be understood; adds the others to `refused`.
+/// Returns the clips of `references` that can be read and understood. Adds the others to `refused`.
 Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& references, const OpenOptions& how,
                                                 const Place& place, std::vector<RefusedClip>& refused) {
   std::vector<std::string> understood;
@@ -112,7 +112,7 @@ Result<void> LeaveOutRefused(ScenarioSetup& setup, const SourceTexts& texts) {
   return {};
 }
 
-/// Adds the texts of label files; returns their names.
+/// Adds the texts of label files to `texts`. Returns their names.
 Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts& texts) {
   if (path.empty()) return std::vector<std::string>{};
   ASSIGN_OR_RETURN(auto files, LabelFiles(path));
@@ -120,7 +120,7 @@ Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts
   return files;
 }
 
-/// Fails if one of `paths` has no scenario that can use an option. A folder may also hold scenarios that cannot.
+/// Fails if one of `paths` has no scenario that can use an option. Other scenarios in the same folder need not use it.
 Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set<std::string>& with_use,
                            std::string_view why) {
   for (const std::string& path : paths) {
@@ -131,7 +131,7 @@ Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set
   return {};
 }
 
-/// Parses options "NAME=CLIPS"; clips of the same name are combined.
+/// Parses options of the form "NAME=CLIPS". Clips with the same name are combined into one library.
 Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string>& options) {
   std::vector<NamedClips> libraries;
   for (const std::string& option : options) {
@@ -147,7 +147,7 @@ Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string
   return libraries;
 }
 
-/// The files whose scenarios can use clips, or recordings.
+/// The scenario files with a scenario that can use clips, and those with a scenario that can use recordings.
 struct UsersOfFiles {
   std::set<std::string> clips, recordings;
 };
@@ -157,11 +157,11 @@ std::optional<Seed> SeedOf(const RunOptions& options) {
   return options.seed ? std::optional<Seed>(*options.seed) : std::nullopt;
 }
 
-/// Applies the options to a scenario. Adds the texts that it names to `sources`, and its file to `users`.
+/// Applies the options to a scenario. Adds the texts that the scenario names to `sources`, and its file to `users`.
 Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const std::string& digest, int trials,
                             const RunOptions& options, SourceTexts& sources, UsersOfFiles& users) {
   const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
-  // Find the options that apply, and refuse those that contradict the scenario.
+  // Find the options that apply, and refuse options that contradict the scenario.
   if (uses_clips) users.clips.insert(file);
   const bool replaced = !options.clips.empty() && uses_clips;
   if (replaced && !scenario.libraries.empty()) {
@@ -185,7 +185,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   ASSIGN_OR_RETURN(
       const auto joint_map,
       KeepJointMap(options.joint_map.empty() ? scenario.joint_map : options.joint_map, options.clip_facts, sources));
-  // Keep the texts, and look at the clips and recordings.
+  // Keep the texts, and check the clips and recordings.
   RETURN_IF_ERROR(KeepNamedFiles(scenario, sources));
   ScenarioSetup setup{file,   scenario.name,      SeedOf(options).value_or(scenario.seed.value_or(1)),
                       trials, std::move(clips),   joint_map,
@@ -216,7 +216,7 @@ std::map<std::string, std::string> CanonicalNames(const std::string& scenario_fi
   const fs::path top = TopOf(folder);
   std::map<std::string, std::string> names;
   for (const std::string& source : sources) {
-    // The path as an `include` would write it: relative to the scenario's folder, without resolving links.
+    // The name is the path that an `include` would contain: relative to the scenario's folder, without resolving links.
     const fs::path from_folder = fs::absolute(source, error).lexically_normal().lexically_relative(given);
     const fs::path path = (folder / from_folder).lexically_normal();
     names[source] = (top.empty() ? path : path.lexically_relative(top)).generic_string();
@@ -259,21 +259,21 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   UsersOfFiles users;
   std::size_t cells = 0;
   for (const std::string& file : files) {
-    // The file with its includes, and their digest in the order of their canonical names.
+    // Read the file with its includes, and compute their digest in the order of their canonical names.
     SourceTexts texts;
     if (!options.text.empty()) texts[file] = options.text;
     ASSIGN_OR_RETURN(auto scenarios, options.text.empty() ? ReadScenarios(file, texts) : ParseScenarios(file, texts));
     suite.parsed[file] = scenarios;
     std::vector<std::string> names;
     for (const auto& [name, text] : texts) names.push_back(name);
-    // A text that comes from no file has the same name everywhere.
+    // A text that does not come from a file has the same name everywhere.
     const auto canonical =
         options.text.empty() ? CanonicalNames(file, names) : std::map<std::string, std::string>{{file, file}};
     std::map<std::string_view, std::string_view> texts_in_order;
     for (const auto& [name, text] : texts) texts_in_order[canonical.at(name)] = text;
     Digest digest;
     for (const auto& [name, text] : texts_in_order) digest.Add(text);
-    // Each scenario with the options applied. Names are unique, and the number of cells is limited.
+    // Apply the options to each scenario. Names must be unique, and the number of cells is limited.
     for (Scenario& scenario : scenarios) {
       const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
       for (const NamedClips& library : libraries) {

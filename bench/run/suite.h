@@ -9,29 +9,30 @@
 
 namespace etude {
 
-/// Returns the names that the manifest uses for a scenario file and its included files, by the names in `sources`. A
-/// name is the path from the root of the repository (the nearest folder above the scenario with `.git`) or from
-/// ShippedFolder; absolute if neither holds the scenario. These names are the same in every checkout and working
+/// Returns the names that the manifest uses for a scenario file and its included files, by the names in `sources`. The
+/// new name is the path from the root of the repository (the nearest folder above the scenario with `.git`) or from
+/// ShippedFolder. It is absolute if the scenario is in neither. These names are the same in every checkout and working
 /// folder, and includes still find each other.
 std::map<std::string, std::string> CanonicalNames(const std::string& scenario_file,
                                                   const std::vector<std::string>& sources);
 
-/// Returns the scenario files of `paths`: a file itself, the *.yaml of a folder, sorted, or the files of a shipped
-/// suite or scenario ("quick", "full/ik_weights").
+/// Returns the scenario files to which `paths` refer. A path is a file, a folder (its *.yaml files, sorted), or the
+/// name of a shipped suite or scenario ("quick", "full/ik_weights").
 Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths);
 
-/// Reads the scenarios that `options` names, with its seed, trials and clips instead of theirs. Fails if two scenarios
-/// have one name, or if there are more than kMaxCells cells.
+/// Reads the scenarios that `options` names. The seed, trials and clips in `options` replace those of the scenarios.
+/// Fails if two scenarios have the same name, or if there are more than kMaxCells cells.
 Result<SuiteSetup> ReadSuite(const RunOptions& options);
 
-/// Reads the suite from scenario files, or from the manifest `options.from`, which must not be of scored answers.
+/// Reads the suite from scenario files, or from the manifest `options.from`. Fails if that manifest describes scored
+/// answers.
 Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options);
 
 /// Calls PrepareAll. If `options.from` names a manifest, fails if a clip has changed since that run, or if a program
 /// that the manifest names is not allowed to run.
 Result<std::vector<PreparedScenario>> PrepareToRun(const SuiteSetup& suite, const RunOptions& options);
 
-/// Fails if a scenario's task judges files: it has no problems to export, and no predictions to score.
+/// Fails if a scenario's task judges files. Such a task has no problems to export and no predictions to score.
 Result<void> RefuseFiles(const SuiteSetup& suite);
 
 }  // namespace etude

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::uint64_t kComplaint = ~std::uint64_t{0};
 
-/// A forked copy, and the part of its output that is not yet parsed: number, length, text; number, length, text; …
+/// A forked copy of this process, and the part of its output that is not yet parsed. The output is a sequence of
+/// results, each written as its number, its length and its text.
 struct Copy {
   ForkedCopy process;
   std::string said = {};
@@ -41,7 +42,7 @@ int Work(std::size_t first, std::size_t count, std::size_t step, int output,
   return 0;
 }
 
-/// Moves complete answers from a copy's output to `answers`, and counts them.
+/// Moves complete results from a copy's output to `answers`. Adds their number to `taken`.
 Result<void> Take(Copy& copy, std::vector<std::string>& answers, std::size_t& taken) {
   std::size_t at = 0;
   std::array<std::uint64_t, 2> head{};
@@ -100,8 +101,9 @@ class Copies {
   std::vector<Copy> copies_;
 };
 
-/// Encodes the findings of a method as two summaries: comparisons without failures, and with failures counted. For a
-/// question without failures, the second summary has a comparison of zero pairs, which no real question has.
+/// Encodes the findings of a method as two summaries. One has the comparisons without failures, the other has the
+/// comparisons with failures counted. If there is no comparison without failures, a comparison of zero pairs stands for
+/// it; no real comparison has zero pairs.
 Result<std::string> EncodeFindings(const ConditionFindings& findings) {
   ScenarioSummary both;
   ConditionSummary& without = both.conditions.emplace_back(findings.summary);
@@ -160,7 +162,7 @@ Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, st
   const auto measure = [&](std::size_t part) {
     return MeasureMethod(study, conditions[part / methods], part % methods, seed);
   };
-  // Measure every method under every condition, here or in copies of this process.
+  // Measure every method under every condition, in this process or in forked copies of it.
   std::vector<std::string> texts;
   const bool is_shared = parts * static_cast<std::size_t>(study.trials) >= kMinRowsToShare && parts > 1 && jobs > 1;
   if (is_shared) {

@@ -28,9 +28,9 @@ constexpr int kPollMilliseconds = 20;      // a measured memory size or time is 
 constexpr double kAheadS = 0.05;           // seconds of work given to a worker at a time, estimated from earlier worlds
 constexpr double kLongWorldS = 1;          // a longer one at the end delays the run more than preparing twice
 constexpr int kGatherMicroseconds = 2000;  // if all workers have further orders, their answers are collected together
-constexpr int kMaxDeathsInSetup = 3;       // one may be chance (a shortage of memory, a stray kill); a series is not
+constexpr int kMaxDeathsInSetup = 3;       // a single death may be chance (a shortage of memory, a stray kill)
 constexpr double kMaxSetupS = 600;         // clips are loaded during it
-constexpr double kClockPerLimit = 20;      // the maximum wall time per second of processor time that the limit allows
+constexpr double kClockPerLimit = 20;      // the maximum wall time, per second of the limit on processor time
 constexpr double kGraceS = 10;             // time for a worker to end an outside method and report it
 constexpr int kShutdownGraceMs = 3000;     // time for a worker to end all its outside methods
 
@@ -40,24 +40,24 @@ Clock::time_point After(double seconds) {
          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, kMaxSeconds)));
 }
 
-/// A worker process and its current work: its set-up, the building of a world, or a method.
+/// A worker process and its current work: its set-up, the building of a world, or the run of a method.
 struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;       ///< of the current work; if it passes, this machine was too slow
+  Clock::time_point deadline;       ///< deadline of the current work; if it is missed, this machine was too slow
   double cpu_s = 0;                 ///< processor time at the last measurement …
   double cpu_began = 0;             ///< … and at the beginning of the current work
-  bool ready = false;               ///< its set-up is done
+  bool ready = false;               ///< true: its set-up is done
   std::deque<Order> orders;         ///< the current one, with the methods not yet answered, then further ones
-  bool built = false;               ///< its current world is built
-  bool dismissed = false;           ///< it has ended and is not replaced
+  bool built = false;               ///< true: its current world is built
+  bool dismissed = false;           ///< true: it has ended and is not replaced
   Clock::time_point began = {};     ///< start of its current world
   Clock::time_point measured = {};  ///< time of the last measurement
   std::size_t condition = OrderQueue::kNowhere;
 };
 
-/// The time that a scenario's worlds took so far, wall clock.
+/// The wall time that a scenario's worlds have taken so far.
 struct Pace {
   double seconds = 0;
   int worlds = 0;
@@ -66,7 +66,7 @@ struct Pace {
 
 class Supervisor {
  public:
-  /// If `answered` is null, workers run the methods of the orders; otherwise they measure the cells in `answered`.
+  /// If `answered` is null, workers run the methods of the orders. Otherwise they measure the cells in `answered`.
   Supervisor(const Plan& plan, std::vector<Order> orders, CellTable* answered, const SupervisorOptions& options,
              const Deliver& deliver)
       : plan_(plan),
@@ -115,7 +115,7 @@ class Supervisor {
 
   const Limits& LimitsOf(const Order& order) const { return plan_.scenario_of(order.world).scenario().limits; }
 
-  /// Gives a worker further orders, or ends it if there are none.
+  /// Gives more orders to a worker. If there are none, ends the worker.
   Result<void> HandOut(Worker& worker) {
     double ahead_s = 0;
     for (const Order& order : worker.orders) ahead_s += PaceOf(order).SecondsPerWorld().value_or(kAheadS);
@@ -134,7 +134,7 @@ class Supervisor {
     return {};
   }
 
-  /// Adds the lines that a worker receives for an order: the world, or the answered cells one by one.
+  /// Appends the lines that a worker receives for an order to `text`: the world, or the answered cells one by one.
   Result<void> AddText(const Order& order, std::string& text) {
     const World& world = plan_.world(order.world);
     if (answered_ == nullptr) {
@@ -161,7 +161,7 @@ class Supervisor {
     return usage;
   }
 
-  /// Starts the time limits of a worker's next piece of work, which may take `clock_s` of wall time.
+  /// Starts the time limits of a worker's next piece of work, for which `clock_s` seconds of wall time are allowed.
   static void Begin(Worker& worker, double clock_s) {
     constexpr auto kStale = std::chrono::milliseconds(100);
     if (Clock::now() - worker.measured > kStale) Measure(worker);
@@ -169,7 +169,7 @@ class Supervisor {
     worker.deadline = After(clock_s);
   }
 
-  /// Begins the first of a worker's orders. No world is built if the cells are only measured.
+  /// Begins the first of a worker's orders. If the cells are only measured, no world is built.
   Result<void> BeginWorld(Worker& worker) {
     worker.built = answered_ != nullptr;
     worker.began = Clock::now();
@@ -185,7 +185,7 @@ class Supervisor {
     return worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
   }
 
-  /// Begins the next method that has no answer yet.
+  /// Begins the next method of the order that has no answer yet.
   Result<void> StartNextMethod(Worker& worker) {
     const Order& order = worker.orders.front();
     if (order.methods.empty()) return EndWorld(worker);
@@ -218,7 +218,7 @@ class Supervisor {
       const bool has_input = watched[2 * i].revents != 0 || watched[2 * i + 1].revents != 0;
       RETURN_IF_ERROR(WatchOver(workers_[i], has_input));
     }
-    // With no orders left, end idle workers, even during their set-up.
+    // If no orders are left, end the idle workers, even during their set-up.
     std::erase_if(workers_,
                   [&](const Worker& worker) { return worker.dismissed || (orders_.empty() && worker.orders.empty()); });
     const bool nobody_waits =
@@ -229,7 +229,7 @@ class Supervisor {
 
   Result<void> WatchOver(Worker& worker, bool has_input) {
     if (worker.process.broken_by() != 0) return ReplaceEnded(worker);  // it may not have received its orders
-    // Handle its lines, and its end.
+    // Handle the worker's lines, and its end.
     if (has_input) {
       const bool alive = worker.process.Receive();
       for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
@@ -268,9 +268,9 @@ class Supervisor {
     not_run_ += cells;
   }
 
-  /// Handles one line of a worker. Returns false if the line is not an expected one.
+  /// Handles one line of a worker. Returns false if the line was not expected.
   Result<bool> Take(Worker& worker, const std::string& line) {
-    // The set-up is done.
+    // The line says that the set-up is done.
     if (!worker.ready) {
       if (line != kWorkerReady) return false;
       worker.ready = true;
@@ -279,13 +279,13 @@ class Supervisor {
       return true;
     }
     if (worker.orders.empty()) return false;
-    // The world is built.
+    // The line says that the world is built.
     if (!worker.built) {
       worker.built = line == kWorldBuilt;
       if (worker.built) RETURN_IF_ERROR(StartNextMethod(worker));
       return worker.built;
     }
-    // A cell was not run.
+    // The line says that a cell was not run.
     Order& order = worker.orders.front();
     if (line.starts_with(kNotRun)) {
       CountNotRun(1, line.substr(std::string_view(kNotRun).size()));
@@ -293,7 +293,7 @@ class Supervisor {
       RETURN_IF_ERROR(StartNextMethod(worker));
       return true;
     }
-    // A cell is finished or answered.
+    // The line contains a finished or answered cell.
     const auto head = ReadCellLineHead(line);
     if (!head || head->cell != plan_.CellAt(order.world, order.methods.front())) return false;
     const bool may_be_unmeasured =
@@ -317,8 +317,8 @@ class Supervisor {
     return Replace(worker, Status::kCrashed, "its worker ended with " + end);
   }
 
-  /// Ends a worker, reports its current work as lost, and starts another worker while there are orders. No `status`
-  /// means that this machine is the cause; the lost cells then get no rows.
+  /// Ends a worker, reports its current work as lost, and starts another worker if there are orders. Without a
+  /// `status`, this machine is the cause, and the lost cells get no rows.
   Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMaxDeathsInSetup) {
@@ -342,7 +342,7 @@ class Supervisor {
     return {};
   }
 
-  /// Delivers the cell in progress as lost, or all cells if the world was still being built, and returns the other
+  /// Delivers the cell in progress as lost, or all cells of the world if it was still being built. Returns the other
   /// methods to the queue. Without a `status`, the lost cells are only counted.
   Result<void> GiveUp(Order order, bool built, std::optional<Status> status, const std::string& reason) {
     const World& world = plan_.world(order.world);
@@ -370,11 +370,11 @@ class Supervisor {
   std::vector<Worker> workers_;
   std::vector<Pace> paces_;  ///< one per scenario
   int deaths_in_setup_ = 0;  ///< since the last worker became ready
-  std::size_t not_run_ = 0;  ///< cells
-  std::string why_not_run_;  ///< the first reason
+  std::size_t not_run_ = 0;  ///< number of cells that were not run
+  std::string why_not_run_;  ///< the reason of the first of them
 };
 
-/// Returns the part of the orders whose cells are answered, or the part whose cells are not.
+/// Returns those parts of the orders whose cells are answered, or those whose cells are not.
 std::vector<Order> OrdersOf(const Plan& plan, const std::vector<Order>& orders, const CellTable& answered,
                             bool are_answered) {
   std::vector<Order> found;
@@ -386,7 +386,7 @@ std::vector<Order> OrdersOf(const Plan& plan, const std::vector<Order>& orders, 
   return found;
 }
 
-/// Runs all methods, then measures the answered cells.
+/// Runs all methods, and then measures the answered cells.
 Result<bool> RunAndMeasure(const SuiteSetup& setup, const Plan& plan, const std::vector<Order>& orders,
                            const SupervisorOptions& options, const Deliver& deliver) {
   CellTable& answered = *options.answered;

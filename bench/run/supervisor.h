@@ -20,39 +20,39 @@ struct SupervisorOptions {
   Fence fence = {};                         ///< the sandbox of outside methods
   int jobs = 0;                             ///< worker processes; 0 = one per processor
   const std::atomic<bool>* stop = nullptr;  ///< set to true (by Ctrl-C) to end early
-  /// The cells that are answered but not yet measured: those of an earlier attempt, and those that Deliver adds. Null =
-  /// they are kept in a temporary file, and Deliver receives measured cells only.
+  /// The cells that are answered but not yet measured: cells of an earlier attempt, and cells that Deliver adds. Null =
+  /// answered cells are kept in a temporary file, and Deliver receives measured cells only.
   CellTable* answered = nullptr;
-  /// Called again and again while workers work, many times a second.
+  /// Called many times a second while workers work.
   std::function<void()> on_wait = {};
-  /// Called when all methods have answered, before the first measuring program starts.
+  /// Called after all methods have answered and before the first measuring program starts.
   std::function<Result<void>()> on_all_answered = {};
 };
 
-/// A finished or answered cell (CellLineHead::is_measured): its line as the worker wrote it, and the head of that line.
+/// A finished or answered cell (CellLineHead::is_measured): the line that the worker wrote, and the head of the line.
 struct DeliveredCell {
   CellLineHead head;
   std::string_view line;
   Result<FinishedCell> Read(const Plan& plan) const;
 };
 
-/// Called for every cell in order of completion, and again after outside metrics have measured the cell.
+/// Called for every cell in order of completion, and a second time after outside metrics have measured the cell.
 using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
 
-/// Gives worlds to worker processes and collects their cells; short worlds are given several at a time, so that no
-/// worker waits. A worker that dies, or exceeds the scenario's limits of time or memory, is ended. Only the cell in
-/// progress is lost: its row becomes `crashed`, `timeout` or `out_of_memory`, with the reason, and a new worker runs
-/// the world's other methods. If the worker ended while it built the world, all methods of the world get that row. A
-/// worker that dies during its set-up costs no cell. Programs that measure learn the truth, so they are started only
-/// after all methods have answered and these workers, with the methods' programs, have ended.
-/// Returns false if stopped early. Fails with an error of this machine (machine.h) if no worker can start, if several
-/// in a row die during their set-up, or, at the end, if cells could not be run and were not delivered.
+/// Gives worlds to worker processes and collects their cells. Several short worlds are given at a time, so that no
+/// worker waits. A worker that exceeds the scenario's limits of time or memory is ended. If a worker dies or is ended,
+/// only the cell in progress is lost: its row gets the status `crashed`, `timeout` or `out_of_memory`, with the reason,
+/// and a new worker runs the world's other methods. If the worker was still building the world, all cells of the world
+/// get such a row. A worker that dies during its set-up costs no cell. Programs that measure learn the truth. They are
+/// therefore started only after all methods have answered and these workers, with the methods' programs, have ended.
+/// Returns false if the user stopped it early. Fails with an error of this machine (machine.h) if no worker can start,
+/// if several in a row die during their set-up, or, at the end, if cells could not be run and were not delivered.
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver);
 
 bool HasOutsideMetrics(const Plan& plan);
 
-/// Returns the number of workers for `jobs`; 0 = one per processor.
+/// Returns the number of workers for the option `jobs`; 0 = one per processor.
 int WorkerCount(int jobs);
 
 std::string ThisProgram();

@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the path of the list of a key file's uses, with links resolved; "" if the key is not in a regular file.
+/// Returns the path of the list of a key file's uses, with links resolved. Returns "" if the key does not come from a
+/// regular file.
 fs::path ListOf(const SecretKey& key) {
   std::error_code error;
   const fs::path file = key.file.empty() ? fs::path() : fs::canonical(key.file, error);
@@ -37,7 +38,7 @@ Json Encode(const SecretKey& key, const KeyUse& use) {
           {"folder", fs::absolute(use.folder).lexically_normal().string()}};
 }
 
-/// Returns true if both are different shards of one run.
+/// Returns true if `a` and `b` are different shards of one run.
 bool AreOtherShards(const Json& a, const Json& b) {
   const auto shard_of = [](const Json& line) { return ParseShard(line.at("shard").get<std::string>()); };
   const auto of_a = shard_of(a), of_b = shard_of(b);
@@ -45,12 +46,12 @@ bool AreOtherShards(const Json& a, const Json& b) {
          of_a->count == of_b->count && of_a->index != of_b->index;
 }
 
-/// Returns true if `use` repeats the run of this line.
+/// Returns true if `use` is the run that the line records.
 bool IsRepeated(const Json& line, const Json& use) {
   return line.at("command") == "run" && use.at("command") == "run" && line.at("manifest") == use.at("manifest");
 }
 
-/// The list of used keys: open, and locked if the file system has locks.
+/// The file with the uses of a key. It is open, and locked if the file system has locks.
 class UsedKeys {
  public:
   static Result<UsedKeys> Open(const fs::path& list) {
@@ -93,7 +94,7 @@ class UsedKeys {
     const std::string line = json + "\n";
     const bool is_written = ::write(file_, line.data(), line.size()) == static_cast<ssize_t>(line.size());
     if (is_written && ::fdatasync(file_) == 0) return {};
-    // The next reader cuts off an incomplete line.
+    // If the write fails, the next reader cuts off the incomplete line.
     return CannotWrite(path_.string(), "cannot be written", errno);
   }
 
@@ -107,7 +108,7 @@ class UsedKeys {
  private:
   UsedKeys(fs::path path, int file) : path_(std::move(path)), file_(file) {}
 
-  /// Reads all lines. An incomplete last line, which a kill leaves before the key is used, is cut off.
+  /// Reads all lines. An incomplete last line is cut off: a kill left it before the key was used.
   Result<void> Read() {
     std::string text;
     std::array<char, 1 << 14> chunk;
@@ -150,7 +151,7 @@ Result<void> CheckUnused(const SecretKey& key, const KeyUse& use) {
   const fs::path list = ListOf(key);
   if (list.empty()) return {};
   std::error_code none;
-  // Create nothing yet, because other checks may still fail.
+  // Do not create the list yet, because other checks may still fail.
   if (!fs::exists(fs::symlink_status(list, none))) {
     if (use.continues || use.repeats || ::access(list.parent_path().c_str(), W_OK) == 0) return {};
     return UsedKeys::NotWritable(list);

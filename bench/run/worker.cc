@@ -26,12 +26,12 @@
 namespace etude {
 namespace {
 
-/// Fixes the cache sizes that Eigen chooses its block sizes by. The order of its sums depends on these, so fixed sizes
-/// give the same bytes on every machine.
+/// Fixes the cache sizes from which Eigen chooses its block sizes. The order of Eigen's sums depends on the block
+/// sizes, so fixed sizes give the same bytes on every machine.
 void FixEigenBlocking() { Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024); }
 
-/// Keeps up to 64 MiB of freed memory for the next cell: zeroing new pages would take a quarter of the time of reading
-/// files.
+/// Keeps up to 64 MiB of freed memory for the next cell. Otherwise, zeroing new pages would take a quarter of the time
+/// of reading files.
 void KeepFreedMemory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
@@ -64,7 +64,7 @@ Result<void> Measure(const std::string& line, const Plan& plan, std::span<const 
   return Answer(head->cell, runner.Measure(world.condition, std::move(answered)), out);
 }
 
-/// Runs the methods of one order, and answers after each.
+/// Runs the methods of one order, and writes a line after each.
 Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunner>> runners, std::ostream& out) {
   const Json& world = order.at("world");
   const auto scenario = world.at(0).get<std::size_t>();
@@ -81,7 +81,7 @@ Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunn
 }
 
 Result<void> Work(std::istream& in, std::ostream& out) {
-  // Set up: the scenarios, their seeds, a runner for each.
+  // Read the set-up, and make the scenarios, their seeds and a runner for each.
   std::string line;
   if (!std::getline(in, line)) return {};
   const Place place{"a worker's set-up", 1, 0};
@@ -98,7 +98,7 @@ Result<void> Work(std::istream& in, std::ostream& out) {
   }
   std::optional<Plan> plan;  // made only if cells are measured, because it is large
   RETURN_IF_ERROR(Say(kWorkerReady, out));
-  // Then one line per order or per cell to be measured.
+  // Handle one order, or one cell to be measured, per line.
   while (std::getline(in, line)) {
     if (line.starts_with(kAnsweredBegin)) {
       if (!plan) plan.emplace(scenarios);
@@ -122,7 +122,7 @@ int RunWorker(std::istream& in, std::ostream& out) {
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
   std::signal(SIGBUS, SIG_DFL);     // a method's fault is a crash
-  in.exceptions(std::ios::badbit);  // else a shortage of memory for a line would look like the end of input
+  in.exceptions(std::ios::badbit);  // otherwise, a shortage of memory would look like the end of input
   try {
     const auto done = Work(in, out);
     return done ? 0 : GiveUp(done.error());

@@ -12,7 +12,7 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Reads a list of metrics that the task reports, each at most once.
+/// Reads a list of metrics. The task must report each of them, and each may be listed once.
 std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task,
                                         const std::vector<std::string>& known) {
   const char* key = "metrics";
@@ -24,7 +24,7 @@ std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task,
   return metrics;
 }
 
-/// Reads `where`: swept parameters with one of their values each.
+/// Reads `where`: swept parameters, each with one of its values.
 std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
   std::vector<SweptValue> where;
   const Node* node = fields.Raw("where");
@@ -33,7 +33,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
     fields.Complain(node->place, "'where' must map swept parameters to one of their values, found " + Describe(*node));
     return where;
   }
-  // The swept values.
+  // Check the swept parameters and their values.
   std::vector<std::string> known;
   for (const Condition& condition : scenario.conditions) {
     for (const SweptValue& swept : condition.swept) {
@@ -50,7 +50,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
     }
     where.push_back({entry.key, entry.value.scalar});
   }
-  // `together` steps parameters in parallel, so some combinations of known values are no condition.
+  // With `together`, parameters are stepped in parallel, so some combinations of known values are not a condition.
   const auto has = [](const Condition& condition, const SweptValue& swept) {
     return std::find(condition.swept.begin(), condition.swept.end(), swept) != condition.swept.end();
   };
@@ -63,7 +63,8 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
   return where;
 }
 
-/// A key whose value must be one of `known`, which depends on the scenario; `allowed` describes the value for people.
+/// Returns a field whose value must be one of `known`, which depends on the scenario. `allowed` describes the value to
+/// users.
 template <typename Options>
 Field<Options> KnownName(const std::string& key, std::string Options::*member, std::string allowed,
                          const std::vector<std::string>& known, std::string meaning) {

@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// The keys of a sweep, beside the task's parameters.
+/// Returns the keys of a sweep apart from the task's parameters.
 std::vector<KeyInfo> SweepKeys() {
   return {{"together",
            {"a mapping of parameters to lists of equal length, or a list of such mappings", "{}"},
@@ -84,14 +84,14 @@ namespace {
 
 Json Ref(const std::string& definition) { return {{"$ref", "#/definitions/" + definition}}; }
 Json ListOf(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
-/// Returns the schema of the condition that `key` has this value.
+/// Returns the schema that accepts an object in which `key` has this value.
 Json Says(const std::string& key, const std::string& value) {
   return {{"properties", {{key, {{"const", value}}}}}, {"required", {key}}};
 }
 Json Has(const char* key) { return {{"required", {key}}}; }
 Json If(Json condition, Json then) { return {{"if", std::move(condition)}, {"then", std::move(then)}}; }
 
-/// Returns the allowed key names of a scenario: those of every task, of files, and `own`.
+/// Returns the schema of the allowed key names of a scenario: the keys of every task, the keys of files, and `own`.
 Json Names(std::span<const KeyInfo> own) {
   std::vector<std::string> names = NamesOf(CommonScenarioKeys(), &KeyInfo::key);
   for (const std::vector<std::string>& more : {NamesOf(FileKeys(), &KeyInfo::key), NamesOf(own, &KeyInfo::key)}) {
@@ -117,8 +117,8 @@ Json SweepSchema(const TaskKind& kind) {
   return {{"type", "object"}, {"properties", std::move(parameters)}, {"additionalProperties", false}};
 }
 
-/// Returns the schema of a method. A method with `exec` is a program; any other has the keys of its task. A program
-/// with a `seat` has both.
+/// Returns the schema of a method. A method with `exec` is a program and has the keys of programs; a method without it
+/// has the keys of its task. A program with a `seat` has both.
 Json MethodSchema(const TaskKind& kind) {
   std::vector<KeyInfo> keys;
   for (const KeyInfo& common : OutsideMethodFields().Describe()) {
@@ -132,7 +132,7 @@ Json MethodSchema(const TaskKind& kind) {
   return {{"if", std::move(asked_whole)}, {"then", Ref("outside-method")}, {"else", MappingSchema(keys)}};
 }
 
-/// Returns the schema of the keys that a scenario of this task has beside the common ones.
+/// Returns the schema of the keys that a scenario of this task has in addition to the common ones.
 Json TaskSchema(const TaskKind& kind) {
   Json properties = Json::object();
   for (const KeyInfo& key : kind.condition_keys) properties[key.key] = KeySchema(key);
@@ -170,15 +170,15 @@ Json AnyScenarioSchema() {
   return schema;
 }
 
-/// Returns the schema of a file: one scenario, or a list of them. Required keys may come from `defaults` or from an
-/// included file.
+/// Returns the schema of a file, which contains one scenario or a list of scenarios. Required keys may come from
+/// `defaults` or from an included file.
 Json ScenarioSchema() {
   std::vector<std::string> required;
   for (const KeyInfo& key : CommonScenarioKeys()) {
     if (key.IsRequired()) required.push_back(key.key);
   }
   const Json has_defaults{{"anyOf", {Has("defaults"), Has("include")}}};
-  // A scenario in a list: without the keys of the file.
+  // The schema of a scenario in a list, which does not have the keys of the file.
   Json listed{{"allOf", {Ref("scenario"), Has("scenario")}}, {"properties", Json::object()}};
   Json tops = Json::array();
   for (const KeyInfo& key : FileKeys()) listed["properties"][key.key] = false;
@@ -193,7 +193,7 @@ Json ScenarioSchema() {
     tops.push_back({{"if", {{"anyOf", {default_says, Has("include")}}}},
                     {"else", {{"properties", {{"scenarios", ListOf({{"required", {key}}})}}}}}});
   }
-  // A file with `scenarios`.
+  // The schema of a file with `scenarios`.
   Json of_list = MappingSchema(FileKeys());
   of_list["properties"]["scenarios"]["items"] = std::move(listed);
   of_list["properties"]["defaults"] = {{"allOf", {Ref("scenario")}}, {"properties", {{"scenario", false}}}};
@@ -201,7 +201,7 @@ Json ScenarioSchema() {
   Json only_defaults = of_list;  // a file that others include
   for (const char* key : {"required", "allOf"}) only_defaults.erase(key);
   only_defaults["properties"].erase("scenarios");
-  // A file with a single scenario.
+  // The schema of a file with a single scenario.
   Json single{{"allOf", {Ref("scenario"), {{"if", has_defaults}, {"else", {{"required", required}}}}, Has("scenario")}},
               {"properties", only_defaults["properties"]}};
   const Json is_included{{"not", {{"anyOf", {Has("scenario"), Has("question"), Has("task"), Has("methods")}}}},

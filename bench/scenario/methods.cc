@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxMethods = 100;
 constexpr double kMaxTime_s = 86'400;
-/// The keys about a program, which no task reads.
+/// The keys about a program. No task reads them.
 constexpr std::string_view kProgramKeys[] = {"exec", "options", "files", "time_s"};
 
 std::string ReadOptions(Fields& method) {
@@ -38,7 +38,7 @@ void ReadProgram(Fields& method, MethodEntry& entry) {
 }
 
 /// Checks the key names of a built-in method. Its task reads the values, but does not know that `against` and `exec`
-/// may stand beside them.
+/// are also allowed.
 void CheckKeysOfBuiltIn(Fields& method, const TaskKind& kind) {
   for (const char* key : {"options", "files", "time_s"}) {
     const Node* value = method.Raw(key);
@@ -57,7 +57,8 @@ Result<MethodEntry> ReadBuiltIn(const Node& node, const TaskKind& kind) {
   return entry;
 }
 
-/// Reads a program that takes one seat of its task's loop. It also has the task's keys, whose values the task reads.
+/// Reads a program that takes one seat of its task's loop. Its mapping also has keys of the task; the task reads their
+/// values.
 Result<MethodEntry> ReadSeated(const Node& node, const TaskKind& kind) {
   Fields method(node, "a method of task " + kind.name + " with 'exec'");
   MethodEntry entry;
@@ -87,7 +88,7 @@ Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
   if (entry->exec.empty() && node.Find("seat") != nullptr) {
     return Fail(node.Find("seat")->place, "'seat' is only for methods with 'exec'");
   }
-  // The task reads the mapping without the keys that are read here.
+  // The task must not see the keys that are read here.
   entry->node = node;
   std::erase_if(entry->node.entries, [&](const Node::Entry& key) {
     const bool is_outside = std::ranges::find(kProgramKeys, key.key) != std::end(kProgramKeys);

@@ -17,10 +17,10 @@ namespace {
 
 constexpr int kMaxExampleFrames = 10'000;
 constexpr const char* kIdPattern = "^[a-z][a-z0-9_]{0,59}$";
-/// The keys of a row of cells.jsonl beside metrics, which a metric's name must not equal.
+/// The keys of a row of cells.jsonl that are not metrics. A metric must not have one of these names.
 constexpr std::string_view kRowKeys[] = {"cell",  "scenario", "task",   "condition", "trial",        "clip",
                                          "units", "method",   "status", "reason",    "null_reasons", "ok_share"};
-/// Tasks whose cells keep no motion.
+/// The tasks whose cells keep no motion.
 constexpr std::string_view kTasksWithoutMotion[] = {"pose-distance", "evaluation", "plausibility", "inbetween"};
 
 bool IsMetricId(const std::string& name) {
@@ -38,17 +38,17 @@ void ReadName(Fields& metric, OutsideMetric& own) {
                               own.info.id));
 }
 
-/// Replaces `frames` and `joints_m` of a track by `poses`. Joints without positions are at the origin.
+/// Replaces `frames` and `joints_m` of a track by `poses`. A joint without positions is put at the origin.
 Result<void> SpellOut(Json& track, const Place& place) {
   if (!track.is_object()) return Fail(place, "a track must be a mapping, found {}", ShowJson(track));
   if (track.contains("poses")) return {};
-  // The track has the short form: a number of frames, and positions of some joints.
+  // The track has the short form: a number of frames, and the positions of some joints.
   const Json frames = track.value("frames", Json());
   if (!frames.is_number_integer() || frames < 1 || frames > kMaxExampleFrames) {
     return Fail(place, "a track needs 'poses', or 'frames', from 1 to {}, and 'joints_m'; found {}", kMaxExampleFrames,
                 ShowJson(track));
   }
-  // Fill in the positions that it gives.
+  // Fill in the positions of those joints.
   const std::size_t roles = AllRoles().size();
   Json poses(frames.get<std::size_t>(), Json(3 * roles, 0.0));
   const Json joints = track.value("joints_m", Json::object());
@@ -126,7 +126,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
         {{"name", TextKind("a letter, then at most 59 of a…z, 0…9, '_'", kIdPattern), "",
           "Its id in rows and tables; not that of a built-in metric."},
          ReadName}};
-    // The keys about the program are those of an outside method, with their own meanings.
+    // The keys about the program are those of an outside method, but their descriptions differ.
     for (auto& field : FieldsOf<OutsideMetric>(OutsideMethodFields(), &OutsideMetric::program, Keep::kThese,
                                                {"exec", "options", "files", "time_s"})) {
       if (field.info.key == "exec") {
@@ -136,7 +136,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
       if (field.info.key == "time_s") field.info.meaning = "Time limit for one cell, in seconds.";
       fields.push_back(std::move(field));
     }
-    // The keys about the metric.
+    // Add the keys about the metric.
     Append<OutsideMetric>(
         {Key::Text("unit", info(&MetricInfo::unit), "a text", "Unit of its values: `mm`, `deg`.").WhenAbsent("(none)"),
          Key::Name("direction", info(&MetricInfo::direction),
@@ -162,7 +162,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
          Key::Text("label", info(&MetricInfo::label), "a text", "Its name for people.").WhenAbsent("(`name`)"),
          Key::Text("definition", info(&MetricInfo::definition), "a text", "What it measures, in one sentence.")
              .WhenAbsent("(none)"),
-         // Its test vectors.
+         // Add the key of its test vectors.
          {{"vectors", ListKind("a list of test vectors", MappingKind("", MetricExampleFields().Describe())), "[]",
            "Cells of known value; the program must reproduce it before the first cell is run."},
           [](Fields& metric, OutsideMetric& own) {
@@ -181,10 +181,10 @@ ValueKind HeadlineKind() {
 
 std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std::vector<OutsideMetric>& own) {
   const Node* list = fields.Raw("metrics");
-  // Fields::Texts complains if it is not a list.
+  // If the value is not a list, Fields::Texts adds the error.
   if (list != nullptr && list->kind != Node::Kind::kSequence) fields.Texts("metrics");
   if (list == nullptr || list->items.empty()) return kind.default_metrics;
-  // Mappings define the scenario's own metrics. If there are only mappings, the task's metrics come first.
+  // Mappings define the scenario's own metrics. If the list has only mappings, the task's metrics come first.
   const auto is_own = [](const Node& item) { return item.kind == Node::Kind::kMapping; };
   std::vector<std::string> names;
   if (std::ranges::all_of(list->items, is_own)) names = kind.default_metrics;

@@ -8,15 +8,16 @@
 
 namespace etude {
 
-/// The keys of a metric that another program measures, and of one of its test vectors.
+/// Return the keys of a metric that an outside program measures (OutsideMetricFields), and the keys of one of its test
+/// vectors (MetricExampleFields).
 const FieldTable<OutsideMetric>& OutsideMetricFields();
 const FieldTable<MetricExample>& MetricExampleFields();
 
-/// Describes the values of `metrics`: names, and mappings of OutsideMetricFields.
+/// Describes the values of the key `metrics`: names, and mappings of OutsideMetricFields.
 ValueKind HeadlineKind();
 
-/// Reads `metrics`: the headline metrics, or the task's if the file names none of them. Metrics that the scenario
-/// defines are also added to `own` and to the catalogue (AddMetric). Complaints stay in `fields`.
+/// Reads `metrics` and returns the headline metrics; these are the task's if the file names none. Metrics that the
+/// scenario defines are also added to `own` and to the catalogue (AddMetric). Errors are collected in `fields`.
 std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std::vector<OutsideMetric>& own);
 
 }  // namespace etude

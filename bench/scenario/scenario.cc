@@ -61,7 +61,7 @@ std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   return read;
 }
 
-/// Returns the value of `key`; null if it is absent or empty, like the default `streams: []`.
+/// Returns the value of `key`; null if it is absent or an empty list (`streams: []` is a default).
 const Node* FindFilled(Fields& fields, const char* key) {
   const Node* node = fields.Raw(key);
   const bool is_empty =
@@ -69,7 +69,7 @@ const Node* FindFilled(Fields& fields, const char* key) {
   return is_empty ? nullptr : node;
 }
 
-/// Complains of recordings and labels in a scenario that cannot use them.
+/// Adds an error for recordings and labels in a scenario that cannot use them.
 void CheckStreams(Fields& fields, const Scenario& scenario, const TaskKind& kind) {
   for (const char* key : {"streams", "labels", "reading"}) {
     const Node* named = FindFilled(fields, key);
@@ -134,8 +134,8 @@ FieldTable<RecordingSelection> VideoFields(const Scenario& scenario) {
             [&](Fields& video, Selection& selection) { ReadFilmedTrials(video, scenario, selection); }}}};
 }
 
-/// The keys of every scenario. A key is read only if those before it are right, because methods depend on the task and
-/// expectations on methods.
+/// Returns the keys of every scenario, in the order of reading. A key is read only if the keys before it are valid,
+/// because methods depend on the task, and expectations on the methods.
 const FieldTable<Scenario>& ScenarioFields() {
   using Key = Field<Scenario>;
   static const auto when_right = [](auto read) {
@@ -145,7 +145,7 @@ const FieldTable<Scenario>& ScenarioFields() {
   };
   static const Scenario unread;
   static const FieldTable<Scenario> table{
-      // Name, question and task.
+      // The scenario's name, question and task.
       {{{"scenario", PlainNameKind(), "", "The scenario's name, unique in a run."},
         [](Fields& fields, Scenario& s) { s.name = ReadPlainName(fields, "scenario"); }},
        {{"question", TextKind("a text"), "", "The scenario's question, in one sentence."},
@@ -155,7 +155,7 @@ const FieldTable<Scenario>& ScenarioFields() {
            .WhenAbsent("(none)"),
        {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The task that the methods solve."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
-       // The motions that its worlds are made from.
+       // The motions from which its worlds are made.
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, motion files, patterns",
                   "The clips from which worlds are made; trials take them in turn."),
        Key::Texts("streams", Path(&Scenario::streams, &StreamSource::files),
@@ -170,7 +170,7 @@ const FieldTable<Scenario>& ScenarioFields() {
        Key::Text("joint_map", &Scenario::joint_map, "a file",
                  "Assigns the clips' joints to roles if their names do not determine the roles.")
            .WhenAbsent("(names tell)"),
-       // The worlds and conditions.
+       // The worlds and the conditions.
        Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
        Key::Number("seed", &Scenario::seed, {0, kMaxSeed}, "Seed of all worlds; `etude run --seed` overrides it.")
            .WhenAbsent("1"),
@@ -191,7 +191,7 @@ const FieldTable<Scenario>& ScenarioFields() {
           AddLibraries(ReadLibraries(fields, kind), s);
           CheckStreams(fields, s, kind);
         })},
-       // The methods, and how they are compared.
+       // The methods, and the way in which they are compared.
        {{"methods",
          {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"},
          "",
@@ -228,7 +228,7 @@ const FieldTable<Scenario>& ScenarioFields() {
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.expectations = ReadListed(fields, "expect", "an expectation", ExpectationFields(s, MetricsOf(kind, s)));
         })},
-       // What a run keeps and allows, and what the gate checks.
+       // The data that a run keeps, its limits, and the rules of the gate.
        {{"video", MappingKind("a mapping", VideoFields(unread).Describe()), "(no motion is kept)",
          "Which motions are kept for the report's films."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
@@ -311,7 +311,7 @@ Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
   scenario.file = file;
   ScenarioFields().Read(fields, scenario);
   if (const TaskKind* kind = FindTaskKind(scenario.task)) {
-    // Mark the task's keys as known; the task reads their values.
+    // Mark the task's keys as known. The task reads their values.
     for (const KeyInfo& key : kind->condition_keys) fields.Raw(key.key);
   }
   RETURN_IF_ERROR(fields.Finish());

@@ -22,30 +22,30 @@ struct NamedClips {
   std::vector<std::string> clips;  ///< references as written
 };
 
-/// Recordings of people, from which worlds are made instead of from simulated people.
+/// Recordings of people. Worlds are made from them instead of from simulated people.
 struct StreamSource {
   std::vector<std::string> files;  ///< references as written
-  std::string labels;              ///< file, or folder of tag streams, with what was performed in the streams or clips
+  std::string labels;              ///< file, or folder of tag streams, that labels the streams' or clips' performances
   StreamReading reading;
   StreamOptions making;
 };
 
-/// One value of each swept parameter, and the scenario's mapping with those values inserted.
+/// A condition: one value of each swept parameter, and the scenario's mapping with these values inserted.
 struct Condition {
   std::vector<SweptValue> swept;  ///< empty if nothing is swept; the library's name comes first, if there are libraries
   Node node;
   std::string library = {};  ///< the library of its worlds; "" = the scenario's `clips`
 };
 
-/// A value of a condition that names a file.
+/// A value of a condition that is the name of a file.
 struct NamedFile {
   std::string key;
   const Node* node = nullptr;  ///< the scalar within the condition that holds the file's name
 };
-/// Returns the values of `condition` that name files, in the order of the task's keys (ValueKind::names_file).
+/// Returns the values of `condition` that are names of files (ValueKind::names_file), in the order of the task's keys.
 std::vector<NamedFile> FilesNamedBy(const Condition& condition, const TaskKind& kind);
 
-/// The cells that keep their motions for videos.
+/// Selects the cells whose motions are kept for videos.
 struct RecordingSelection {
   std::vector<std::string> methods;
   std::vector<int> trials;
@@ -64,13 +64,14 @@ struct MethodEntry {
   std::string seat = {};          ///< an outside method's seat in the task's loop; "" = it is asked once per world
   std::vector<std::string> files = {};  ///< files that the sandbox shows an outside method; empty = its program's own
                                         ///< folder
-  std::string description = {};         ///< what it is, in a sentence, for readers of the results; "" = not described
+  std::string description = {};         ///< a sentence about the method, for readers of the results; "" = not described
 
-  /// Returns true if the task runs the method: the whole of a built-in one, or the stages around the seat of a program.
+  /// Returns true if the task runs the method: a built-in method as a whole, or, for a program with a seat, the other
+  /// stages.
   bool RunsInTask() const { return exec.empty() || !seat.empty(); }
 };
 
-/// A cell for which a metric's value is known.
+/// A test vector of an outside metric: a cell for which the metric's value is known.
 struct MetricExample {
   std::string title;
   std::string cell_json;           ///< an object with `tracks` and `extras`, as the metric's program receives it
@@ -79,26 +80,26 @@ struct MetricExample {
   Place place;
 };
 
-/// A metric that another program measures on the motions of a cell (docs/outside-methods.md).
+/// A metric that an outside program measures on the motions of a cell (docs/outside-methods.md).
 struct OutsideMetric {
   MetricInfo info;
   MethodEntry program;  ///< its name is the metric's name
   std::vector<MetricExample> vectors;
 };
 
-/// The time and memory that one cell, or the building of one world, may use before it is ended.
+/// The time and memory that one cell, or the building of one world, may use. If it uses more, it is ended.
 struct Limits {
   double time_s = 300;
-  double memory_mb = 4096;  ///< resident; for the worker and for each outside method that it has started
+  double memory_mb = 4096;  ///< resident memory, for the worker and for each outside method that it has started
 };
 
-/// A question that several methods answer in the same worlds (docs/scenarios.md), as its file states it. The task reads
-/// its own keys from each condition's mapping.
+/// A scenario as its file states it: a question that several methods answer in the same worlds (docs/scenarios.md). The
+/// task reads its own keys from each condition's mapping.
 struct Scenario {
   std::string file;
   std::string name;
   std::string question;
-  std::string description;  ///< what its worlds are, in a sentence; "" = not described
+  std::string description;  ///< a sentence about its worlds; "" = not described
   std::string task;
   std::vector<std::string> clips;     ///< references as written
   std::vector<NamedClips> libraries;  ///< instead of `clips`: every condition is repeated for each library
@@ -109,12 +110,12 @@ struct Scenario {
   std::optional<std::uint64_t> seed;
   std::vector<Condition> conditions;                ///< at least one
   std::vector<MethodEntry> methods;                 ///< at least one
-  std::vector<std::string> metrics;                 ///< headline metrics; the task's if the file names none
-  std::string success = {};                         ///< the task's if the file names none
+  std::vector<std::string> metrics;                 ///< headline metrics; the task's default if the file names none
+  std::string success = {};                         ///< metric of success; the task's default if the file names none
   double success_matters = 0.05;                    ///< the smallest difference of success that matters, as a share
-  std::vector<OutsideMetric> outside_metrics = {};  ///< those that other programs measure; also in `metrics`
+  std::vector<OutsideMetric> outside_metrics = {};  ///< metrics that outside programs measure; also in `metrics`
   std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
-  std::string rival;                ///< "" = the best method is found
+  std::string rival;                ///< the method that others must beat; "" = the best method is found
   std::vector<Expectation> expectations;
   RecordingSelection recordings;
   Limits limits;
@@ -123,34 +124,34 @@ struct Scenario {
 
 std::vector<std::string> MethodNames(const Scenario& scenario);
 
-/// A program that a scenario starts.
+/// An outside program that a scenario starts.
 struct ScenarioProgram {
   const MethodEntry* entry = nullptr;
   const char* role = "method";  ///< or "metric"
 };
-/// Returns the methods that are programs, then the metrics.
+/// Returns the methods that are programs, and then the metrics that are programs.
 std::vector<ScenarioProgram> ProgramsIn(const Scenario& scenario);
 
-/// Adds the libraries whose names the scenario does not have yet, and repeats all of its conditions for each.
-/// Conditions without a library are dropped.
+/// Adds the libraries whose names the scenario does not have yet, and repeats all conditions for each of these
+/// libraries. Conditions without a library are dropped.
 void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario);
 
-/// The texts of scenario files and of all included files, by path, as a manifest keeps them.
+/// The texts of scenario files and of all included files, by path. A manifest stores them.
 using SourceTexts = std::map<std::string, std::string>;
 
-/// Reads the scenarios of a file on disk like ParseScenarios; adds the texts of the file and of all included files to
+/// Reads the scenarios of a file on disk (ParseScenarios). Adds the texts of the file and of all included files to
 /// `texts`.
 Result<std::vector<Scenario>> ReadScenarios(const std::string& file, SourceTexts& texts);
 
 /// Parses all scenarios of one file, in order. Checks everything except the values of the tasks' own keys, which the
-/// tasks read (`bench/run`). An undocumented key (bench/scenario/keys.h) is an error.
+/// tasks read later (`bench/run`). A key that is not documented (bench/scenario/keys.h) is an error.
 Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts);
 
-/// Returns the keys that every scenario has, whatever its task.
+/// Returns the keys that scenarios of every task have.
 std::span<const KeyInfo> CommonScenarioKeys();
 const FieldTable<Limits>& LimitFields();
 const FieldTable<StreamSource>& ReadingFields();
-/// The keys of `video`. They name methods of `scenario`, which must outlive the table.
+/// Returns the keys of `video`. They name methods of `scenario`, which must outlive the table.
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 
 }  // namespace etude

@@ -21,7 +21,7 @@ std::size_t CountAll(const Entries& entries) {
   return count;
 }
 
-/// Adds a key, or replaces its value if it exists.
+/// Adds a key with its value. If the key exists, its value is replaced.
 void Put(const Node::Entry& entry, Entries& entries) {
   const auto known =
       std::find_if(entries.begin(), entries.end(), [&](const auto& other) { return other.key == entry.key; });
@@ -36,13 +36,13 @@ bool IsKeyOfFiles(const std::string& key) {
   return std::ranges::any_of(FileKeys(), [&](const KeyInfo& other) { return other.key == key; });
 }
 
-/// Follows `include` and `defaults`, with limits on depth and size.
+/// Collects the scenarios of a file. Follows `include` and `defaults`, with limits on depth and size.
 class Collector {
  public:
   explicit Collector(const TextOf& text_of) : text_of_(text_of) {}
 
   Result<std::vector<Node>> Scenarios(const std::string& file) {
-    // A file of defaults alone is not a scenario file.
+    // A file that contains only defaults is not a scenario file.
     ASSIGN_OR_RETURN(const auto top, Open(file, {file, 0, 0}));
     const Node* list = top.Find("scenarios");
     if (list == nullptr && top.Find("defaults") != nullptr) {
@@ -51,13 +51,13 @@ class Collector {
                   "which a run of this folder does not read");
     }
     ASSIGN_OR_RETURN(auto defaults, DefaultsOf(top, file));
-    // A file with a single scenario.
+    // The file contains a single scenario.
     if (list == nullptr) {
       Node scenario = top;
       std::erase_if(scenario.entries, [](const auto& entry) { return entry.key == "include"; });
       return std::vector<Node>{WithDefaults(std::move(scenario), defaults)};
     }
-    // A file with a list of scenarios: check its keys and size.
+    // The file contains a list of scenarios. Check its keys and size.
     Fields fields(top, "a file of several scenarios");
     for (const KeyInfo& key : FileKeys()) fields.Raw(key.key);
     RETURN_IF_ERROR(fields.Finish());
@@ -71,7 +71,7 @@ class Collector {
       return Fail(list->place, "{} scenarios with defaults of {} values; at most {} values in all", list->items.size(),
                   CountAll(defaults), kMaxFileValues);
     }
-    // Insert the defaults into each.
+    // Insert the defaults into each scenario.
     std::vector<Node> scenarios;
     for (const Node& item : list->items) {
       for (const Node::Entry& entry : item.entries) {
@@ -98,10 +98,10 @@ class Collector {
     return ParseYaml(text, file);
   }
 
-  /// Returns the keys that `include` and `defaults` of a file give to its scenarios.
+  /// Returns the keys that a file's scenarios receive from `include` and `defaults`.
   Result<Entries> DefaultsOf(const Node& top, const std::string& file) {
     Entries found;
-    // Included files come first; a later one replaces keys of an earlier one.
+    // Read the included files first. Keys of a later file replace keys of an earlier one.
     if (const Node* list = top.Find("include")) {
       const auto names = AsTexts(*list);
       if (!names) return Fail(names.error().place, "'include': {}", names.error().message);
@@ -113,7 +113,7 @@ class Collector {
         for (const Node::Entry& entry : *included) Put(entry, found);
       }
     }
-    // The file's own defaults win.
+    // The file's own defaults replace those of included files.
     const Node* own = top.Find("defaults");
     if (own == nullptr) return found;
     if (own->kind != Node::Kind::kMapping) {

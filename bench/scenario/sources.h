@@ -10,15 +10,16 @@
 
 namespace etude {
 
-/// Returns a file's text, or an error at `asked_at`, where its name stands.
+/// Returns the text of a file. `asked_at` is the place at which the file's name stands; an error names this place.
 using TextOf = std::function<Result<std::string>(const std::string& file, const Place& asked_at)>;
 
-/// Returns the mappings of the scenarios of `file`, in order, with defaults inserted for keys that a scenario does not
-/// have. A scenario's own keys win over the file's `defaults`, these over included ones, and a later include over an
-/// earlier one. A key's value is replaced as a whole. Every node keeps its position in its file, for complaints.
+/// Returns the mappings of the scenarios of `file`, in order. Defaults are inserted for keys that a scenario does not
+/// have. A scenario's own keys take precedence over the file's `defaults`, the file's `defaults` over included ones,
+/// and a later include over an earlier one. A key's value is replaced as a whole. Every node keeps its place in its
+/// file, for error messages.
 Result<std::vector<Node>> CollectScenarios(const std::string& file, const TextOf& text_of);
 
-/// Returns the keys at the top of a file of several scenarios.
+/// Returns the keys at the top level of a file that contains several scenarios.
 std::span<const KeyInfo> FileKeys();
 
 }  // namespace etude

@@ -18,7 +18,7 @@ std::vector<std::string> StagesOf(const Node* oracle) {
   return stages;
 }
 
-/// Returns the settings of a built-in method as text: its entry without name, oracle and description.
+/// Returns the settings of a built-in method as text: its mapping without name, oracle and description.
 std::string SettingsOf(const MethodEntry& method) {
   if (!method.exec.empty()) return "";  // the settings of a program are unknown
   Node settings = method.node;
@@ -29,7 +29,8 @@ std::string SettingsOf(const MethodEntry& method) {
   return text ? *text : "";
 }
 
-/// Returns a method's description, or one made from its settings: "solver ccd, weights fixed", "a program".
+/// Returns a method's description. If it has none, returns a description made from its settings, e.g. "solver ccd,
+/// weights fixed" or "a program".
 std::string DescriptionOf(const MethodEntry& method) {
   if (!method.description.empty()) return method.description;
   std::string text = method.exec.empty() ? "" : "a program";
@@ -66,7 +67,7 @@ Study StudyOf(const Scenario& scenario) {
     study.methods.push_back(
         {method.name, method.against, has_oracle, StagesOf(oracle), SettingsOf(method), DescriptionOf(method)});
   }
-  // Each condition, by its swept values alone.
+  // Keep the swept values of each condition only.
   for (const Condition& condition : scenario.conditions) study.conditions.push_back(condition.swept);
   return study;
 }

@@ -23,8 +23,8 @@ double ValueAt(const Steps& steps, std::size_t i) {
   return steps.from + share * (steps.to - steps.from);
 }
 
-/// Writes a number with 12 digits relative to the largest value of the range, so that 0.3 − 3 × 0.1 reads 0 and not
-/// -5.55111512313e-17.
+/// Writes a number with 12 digits, counted from the first digit of the range's largest value. Thus 0.3 − 3 × 0.1 reads
+/// 0 and not -5.55111512313e-17.
 std::string Write(double value, const Steps& steps) {
   const double largest = std::max(std::abs(steps.from), std::abs(steps.to));
   const double unit = std::pow(10, std::floor(std::log10(largest)) - 11);
@@ -47,7 +47,7 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
   if (!std::isfinite(steps.logarithmic ? steps.to / steps.from : steps.to - steps.from)) {
     return Fail(place, "{} and {} are too far apart", steps.from, steps.to);
   }
-  // The number of values: given, or from the step.
+  // Take the given number of values, or compute it from the step.
   if (count) {
     steps.count = *count;
     return steps;
@@ -82,7 +82,7 @@ FieldTable<RangeWords> RangeFields(std::size_t most) {
 
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most) {
   const Node& value = swept.value;
-  // A range.
+  // The values are given as a range.
   if (value.kind == Node::Kind::kMapping) {
     ASSIGN_OR_RETURN(const auto steps, ReadRange(swept, most));
     std::vector<Node> values;
@@ -95,7 +95,7 @@ Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most
     }
     return values;
   }
-  // A list.
+  // The values are given as a list.
   if (value.kind != Node::Kind::kSequence || value.items.empty()) {
     return Fail(value.place,
                 "'{}' needs a list of values to sweep over, or a range such as {{from: 5, to: 20, step: 5}}, "
@@ -116,13 +116,13 @@ Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most
 
 namespace {
 
-/// A point of an axis: the keys that it sets.
+/// One point of an axis: the parameters that it sets, with their values.
 using Point = std::vector<Node::Entry>;
 using Axis = std::vector<Point>;
 
 constexpr const char* kTogether = "together";
 
-/// Returns true for equal values: "1" and "1.0" are the same number, though their texts differ.
+/// Returns true if two values are equal. "1" and "1.0" are equal, because they are the same number.
 bool SameValue(const Node& a, const Node& b) {
   if (a.scalar == b.scalar) return true;
   const auto x = AsNumber(a), y = AsNumber(b);
@@ -134,7 +134,7 @@ bool SamePoint(const Point& a, const Point& b) {
                     [](const Node::Entry& x, const Node::Entry& y) { return SameValue(x.value, y.value); });
 }
 
-/// Returns the condition with the keys of `point` set.
+/// Returns a copy of the condition with the values of `point`.
 Condition At(Condition condition, const Point& point) {
   for (const Node::Entry& entry : point) {
     condition.swept.push_back({entry.key, entry.value.scalar});
@@ -144,7 +144,7 @@ Condition At(Condition condition, const Point& point) {
   return condition;
 }
 
-/// Reads the axis of parameters that are stepped in parallel: the first point has the first value of each.
+/// Reads the axis of parameters that are stepped in parallel: the k-th point has the k-th value of each parameter.
 Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
   Axis axis;
   for (const Node::Entry& parameter : parameters) {
@@ -157,7 +157,7 @@ Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
     }
     for (std::size_t i = 0; i < axis.size(); ++i) axis[i].push_back({parameter.key, parameter.place, values[i]});
   }
-  // No point may occur twice.
+  // Fail if two points are equal.
   for (std::size_t i = 0; i < axis.size(); ++i) {
     const auto repeated = [&](const Point& other) { return SamePoint(axis[i], other); };
     const auto here = axis.begin() + static_cast<std::ptrdiff_t>(i);
@@ -171,7 +171,7 @@ Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
   return axis;
 }
 
-/// Reads the groups of `together`: one mapping, or a list of them.
+/// Reads the groups of `together`, which is one mapping or a list of mappings.
 Result<std::vector<Node>> ReadGroups(const Node& together) {
   const bool is_list = together.kind == Node::Kind::kSequence && !together.items.empty();
   const std::vector<Node> groups = is_list ? together.items : std::vector{together};
@@ -185,7 +185,7 @@ Result<std::vector<Node>> ReadGroups(const Node& together) {
   return groups;
 }
 
-/// Complains of a parameter that is not one of the task's: no other can be swept.
+/// Fails if a parameter is not one of the task's, because only these can be swept.
 Result<void> CheckParameter(const Node::Entry& parameter, const TaskKind& kind, bool in_group) {
   for (const KeyInfo& common : CommonScenarioKeys()) {
     if (common.key != parameter.key) continue;
@@ -204,7 +204,7 @@ Result<std::vector<Axis>> ReadAxes(const Node& sweep, const TaskKind& kind) {
   }
   std::vector<Axis> axes;
   std::vector<std::string> seen;
-  // Each parameter may be swept once.
+  // Add the axis of some parameters. Each parameter may be swept once.
   const auto add = [&](const std::vector<Node::Entry>& parameters, bool in_group) -> Result<void> {
     for (const Node::Entry& parameter : parameters) {
       RETURN_IF_ERROR(CheckParameter(parameter, kind, in_group));
@@ -217,7 +217,7 @@ Result<std::vector<Axis>> ReadAxes(const Node& sweep, const TaskKind& kind) {
     axes.push_back(std::move(axis));
     return {};
   };
-  // Single parameters are axes of their own; each group of `together` is one.
+  // A single parameter is an axis of its own, and so is each group of `together`.
   for (const Node::Entry& swept : sweep.entries) {
     if (swept.key != kTogether) {
       RETURN_IF_ERROR(add({swept}, false));
@@ -242,7 +242,7 @@ std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind) {
     fields.Complain(axes.error().place, axes.error().message);
     return conditions;
   }
-  // The product of the axes, checked for its size before it is built.
+  // Check the size of the product of the axes before it is built.
   const std::size_t values = CountValues(fields.node());
   for (const Axis& axis : *axes) {
     const std::size_t count = conditions.size() * axis.size();
@@ -254,7 +254,7 @@ std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind) {
                                         values, kMaxFileValues));
       return conditions;
     }
-    // Combine every condition so far with every value of this axis.
+    // Combine every condition so far with every point of this axis.
     std::vector<Condition> product;
     for (const Condition& condition : conditions) {
       for (const Point& point : axis) product.push_back(At(condition, point));

@@ -12,8 +12,8 @@
 namespace etude {
 
 /// Returns the values of a swept parameter, from a list or a range: `{from: 5, to: 20, step: 5}`, `{from: 1, to: 100,
-/// count: 5, scale: log}`. A range's values are written with at most 12 digits, so that 0.1 + 2 × 0.1 reads 0.3; their
-/// position, for complaints, is that of the range. At least one value, at most `most`.
+/// count: 5, scale: log}`. A range's values are written with at most 12 digits, so 0.1 + 2 × 0.1 reads 0.3; their place
+/// in the file, for error messages, is that of the range. Fails if there is no value or more than `most`.
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most);
 
 struct RangeWords {
@@ -22,16 +22,16 @@ struct RangeWords {
   std::optional<std::uint64_t> count;
   bool is_logarithmic = false;
 };
-/// The keys of a range of at most `most` values.
+/// Returns the keys of a range with at most `most` values.
 FieldTable<RangeWords> RangeFields(std::size_t most);
 
-/// The largest number of values in all mappings of a file: those of its scenarios and those of their conditions, each
-/// of which is a copy.
+/// The largest total number of values in the mappings of a file's scenarios and conditions. Each condition has a copy
+/// of its scenario's mapping.
 constexpr std::size_t kMaxFileValues = 300'000;
 constexpr std::size_t kMaxConditions = 1000;
 
-/// Reads `sweep`: the product of its axes, the last one varying fastest. An axis is one swept parameter, or several
-/// that are stepped in parallel (`together`). Complaints stay in `fields`.
+/// Reads `sweep`: the product of its axes, of which the last one varies fastest. An axis is one swept parameter, or
+/// several parameters that are stepped in parallel (`together`). Errors are collected in `fields`.
 std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind);
 
 }  // namespace etude

@@ -17,8 +17,8 @@ constexpr std::size_t kAgreementResamples = 1999;
 
 using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, low, high, ICC
 
-/// Returns the standard deviation of a single further difference (Bland and Altman 2007); nothing with fewer than two
-/// units.
+/// Returns the standard deviation of one additional difference between the two measurements (Bland and Altman 2007).
+/// Returns nothing with fewer than two units.
 std::optional<double> DeviationOf(std::span<const AgreementSums> units, const AgreementSums& all) {
   double within = 0, between = 0, squares = 0;
   const double n = all.count, groups = static_cast<double>(units.size()), bias = *BiasOf(all);
@@ -35,13 +35,13 @@ std::optional<double> DeviationOf(std::span<const AgreementSums> units, const Ag
   return std::sqrt(within + std::max(0.0, (between - within) / replicates));
 }
 
-/// Returns the figures over all frames of the units, each of which has at least one frame.
+/// Returns the figures over all frames of the units. Each unit has at least one frame.
 Figures FiguresOf(std::span<const AgreementSums> units) {
   AgreementSums all;
   for (const AgreementSums& unit : units) all = Together(all, unit);
   if (all.count == 0) return {};
   const auto deviation = DeviationOf(units, all);
-  constexpr double kNormal = 1.96;  // as Bland and Altman have it
+  constexpr double kNormal = 1.96;  // the factor that Bland and Altman use
   const double bias = *BiasOf(all);
   Figures figures = {RmsOf(all), bias, std::nullopt, std::nullopt, IccOf(all)};
   if (deviation) figures[2] = bias - kNormal * *deviation;
@@ -49,7 +49,7 @@ Figures FiguresOf(std::span<const AgreementSums> units) {
   return figures;
 }
 
-/// Returns the interval of each figure over units.
+/// Returns the confidence interval of each figure, from resampled units.
 std::array<std::optional<Interval>, kFigures> FigureIntervals(std::span<const AgreementSums> units,
                                                               const Figures& figures, std::uint64_t seed,
                                                               const std::string& purpose) {
@@ -83,7 +83,7 @@ std::array<std::optional<Interval>, kFigures> FigureIntervals(std::span<const Ag
 
 CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<const std::string> units,
                                 std::uint64_t seed, const std::string& purpose) {
-  // Sum each unit's pairs, in the order of units.
+  // Sum the pairs of each unit, in the order of units.
   std::map<std::string, AgreementSums> by_unit;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].count == 0) continue;
@@ -131,7 +131,7 @@ std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
       collected[at->second].units.push_back(row.units.empty() ? row.clip : row.units.front());
     }
   });
-  // Measure the agreement of each angle, with a random stream of its own.
+  // Measure the agreement of each angle. Each angle has a random stream of its own.
   for (const auto& [key, at] : places) {
     found[at].agreement = MeasureAgreement(collected[at].pairs, collected[at].units, run.seed, "agreement/" + key);
   }

@@ -12,25 +12,26 @@
 
 namespace etude {
 
-/// A figure with its 95 % interval over units.
+/// A figure with its 95 % confidence interval, from resampled units.
 struct AgreementFigure {
   std::optional<double> value;
   std::optional<Interval> interval;  ///< nothing: fewer than kMinSample units
 };
 
-/// How well two measurements of one quantity agree over several pairs of curves, in the quantity's unit.
+/// The agreement of two measurements of one quantity over several pairs of curves, in the quantity's unit.
 struct CurveAgreement {
-  int units = 0;  ///< people, or pairs
+  int units = 0;  ///< number of people, or of pairs
   AgreementFigure rmse, bias;
   AgreementFigure low, high;  ///< 95 % limits of agreement; they need two units
   AgreementFigure icc;        ///< ICC(A,1)
 };
 
-/// Measures the agreement over pairs; `units` names the unit to which each pair belongs. RMSE, bias and ICC(A,1) are
-/// those of all frames together. The limits are those for repeated measures where the true value varies (Bland and
-/// Altman 2007, section 3): a one-way analysis of variance of the differences by unit gives the variance within a unit
-/// and that between units, whose sum is that of one more difference; a frame is a replicate. Intervals are BCa
-/// intervals of units drawn with replacement, from a stream keyed by `seed` and `purpose`.
+/// Measures the agreement over pairs of curves. `units` names the unit to which each pair belongs. RMSE, bias and
+/// ICC(A,1) are computed over all frames together. The limits of agreement are those for repeated measures with a
+/// varying true value (Bland and Altman 2007, section 3): a one-way analysis of variance of the differences by unit
+/// gives the variance within units and the variance between units. Their sum is the variance of one additional
+/// difference; a frame is a replicate. Intervals are BCa intervals of units drawn with replacement, from a random
+/// stream keyed by `seed` and `purpose`.
 CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<const std::string> units,
                                 std::uint64_t seed, const std::string& purpose);
 
@@ -41,7 +42,7 @@ struct AngleAgreement {
   CurveAgreement agreement;
 };
 
-/// Measures all angles of which a run's cells keep sums (kAgreementAxis), in the order of the cells.
+/// Measures the agreement of every angle whose sums a run's cells keep (kAgreementAxis), in the order of the cells.
 std::vector<AngleAgreement> AgreementByAngle(const RunData& run);
 
 }  // namespace etude

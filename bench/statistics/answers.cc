@@ -14,7 +14,7 @@ namespace {
 
 bool IsDecided(Verdict verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
 
-/// The definition of a share of worlds by which a step of an answer is judged.
+/// Returns the definition of a share of worlds, by which a step of an answer is judged.
 MetricInfo ShareMetric(const Study& study, const std::string& id) {
   MetricInfo metric = *FindMetric(id);
   metric.direction = Direction::kHigherIsBetter;
@@ -24,8 +24,8 @@ MetricInfo ShareMetric(const Study& study, const std::string& id) {
   return metric;
 }
 
-/// Returns a cell's success: its value, or 0 if it failed without one. Nullopt if it was skipped, or if it was answered
-/// but has no value.
+/// Returns a cell's success: its value, or 0 if the cell failed without a value. Nullopt if the cell was skipped, or if
+/// it was answered but has no value.
 std::optional<double> SuccessAt(const MethodColumns& method, const std::string& success, int trial) {
   const Status status = method.StatusAt(trial).value_or(Status::kSkipped);
   if (status == Status::kSkipped) return std::nullopt;
@@ -33,7 +33,8 @@ std::optional<double> SuccessAt(const MethodColumns& method, const std::string& 
   return status == Status::kOk ? std::nullopt : std::optional(0.0);
 }
 
-/// One pair of methods. A rival may differ between the two halves of the worlds; `other` holds it for each world.
+/// A method and the other method with which it is compared in each world. A rival may differ between the two halves of
+/// the worlds.
 struct Pairing {
   const MethodColumns* method;
   std::vector<const MethodColumns*> other;  ///< by trial
@@ -51,8 +52,8 @@ PairedWorlds SuccessesOf(const Pairing& pairing, const std::string& success) {
   return worlds;
 }
 
-/// Returns a pair for each world with the difference −1, 0 or 1: the method's value is far worse, neither, or far
-/// better.
+/// Returns a pair for each world whose difference is −1 if the method's value is far worse, 1 if it is far better, and
+/// else 0.
 PairedWorlds FarOff(const PairedWorlds& values, const MetricInfo& metric, double times) {
   PairedWorlds far = values;
   const double sign = metric.direction == Direction::kLowerIsBetter ? -1 : 1;
@@ -69,7 +70,7 @@ class Measurer {
   Measurer(const Study& study, const ConditionTable& table, std::uint64_t seed)
       : study_(study), table_(table), seed_(seed) {}
 
-  /// `other` is the name of the other side; `key` keys the random streams.
+  /// `other` is the name of the method on the other side; `key` keys the random streams.
   Answer Measure(const Pairing& pairing, const PairedWorlds& values, const std::string& other,
                  const std::string& key) const {
     Answer answer = MeasureSteps(pairing, values, key);
@@ -102,13 +103,13 @@ class Measurer {
       return PurposeOf(study_.scenario, table_.condition, step, key, method);
     };
     Answer answer{.method = method, .value_metric = value};
-    // Success, counting failures.
+    // Compare success; failures count 0.
     const PairedWorlds successes = study_.success.empty() ? PairedWorlds() : SuccessesOf(pairing, study_.success);
     if (!successes.pairs.empty()) {
       answer.success = Compare(successes, ShareMetric(study_, study_.success), purpose("success"));
     }
     if (value.empty()) return answer;
-    // The value where both succeed.
+    // Compare the value in the worlds in which both succeeded.
     if (!successes.pairs.empty() && AreShares(successes.pairs, ShareMetric(study_, study_.success))) {
       PairedWorlds both;
       for (std::size_t i = 0; i < values.pairs.size(); ++i) {
@@ -123,7 +124,8 @@ class Measurer {
         answer.both_succeed = Compare(both, *FindMetric(value), purpose("both succeed"));
       }
     }
-    // The tail. Shares have none, because every difference of a yes-or-no value would count as far better or worse.
+    // Compare the tail. Shares have no tail, because every difference of a yes-or-no value would count as far better or
+    // worse.
     const MetricInfo& metric = *FindMetric(value);
     if (!values.pairs.empty() && metric.direction != Direction::kNeither && metric.reading == Reading::kAmount) {
       const PairedWorlds far = FarOff(values, metric, study_.gate.tail.times);
@@ -132,8 +134,8 @@ class Measurer {
     return answer;
   }
 
-  /// Returns how many answers compare a method with its baseline; they are judged together. About as many compare a
-  /// method with a rival.
+  /// Returns the number of answers that compare a method with its baseline; these are judged together. The number of
+  /// answers that compare a method with a rival is about as large.
   int CountAnswers() const {
     const auto compared = std::ranges::count_if(
         study_.methods, [](const ComparedMethod& method) { return method.name != method.against; });
@@ -145,8 +147,8 @@ class Measurer {
   const std::uint64_t seed_;
 };
 
-/// Corrects one step's p-values over a family of answers, and judges it. `metric_of` returns the metric by whose
-/// threshold an answer's step is judged.
+/// Corrects the p-values of one step over a family of answers (Holm), and sets its verdicts. `metric_of` returns the
+/// metric whose threshold judges an answer's step.
 template <typename MetricOf>
 void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Answer::*step, SamplingUnit unit,
                const MetricOf& metric_of) {
@@ -172,7 +174,7 @@ void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Ans
   }
 }
 
-/// Decides an answer from its judged steps and the value's comparison over all worlds, which may be null.
+/// Decides an answer from its judged steps and from the comparison of the value over all worlds (`value`, may be null).
 void Decide(Answer& answer, const Comparison* value) {
   const auto decide = [&](AnswerStep step, Verdict verdict, std::optional<Verdict> beyond) {
     answer.decided_by = step;
@@ -190,7 +192,8 @@ void Decide(Answer& answer, const Comparison* value) {
   if (answer.tail && IsDecided(answer.tail->verdict)) {
     return decide(AnswerStep::kTail, answer.tail->verdict, answer.tail->beyond.verdict);
   }
-  // No step decides. The answer is "no difference" only if every step that differs in some world says so.
+  // No step decides. The answer is "no difference" only if the verdict on the value is "no difference" and the verdict
+  // on success is not open.
   const auto is_open = [](const std::optional<Comparison>& step) {
     return step && step->verdict == Verdict::kInconclusive && (step->differing > 0 || step->pairs < kMinSample);
   };
@@ -202,11 +205,11 @@ void Decide(Answer& answer, const Comparison* value) {
          value != nullptr ? value->beyond.verdict
          : answer.success ? answer.success->beyond.verdict
                           : std::nullopt);
-  // For other units an answer claims no more than on these worlds.
+  // The answer for other units must not claim more than the answer for these worlds.
   if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kInconclusive;
 }
 
-/// Judges the answers of all conditions against one kind of other methods.
+/// Judges the answers of all conditions that compare methods with one kind of other method: baselines or rivals.
 void JudgeFamilyOfAnswers(const Study& study, std::vector<ConditionSummary>& conditions,
                           std::vector<Answer> ConditionSummary::*answers,
                           std::vector<Comparison> ConditionSummary::*comparisons) {

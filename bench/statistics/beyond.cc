@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-/// The sums of differences and the numbers of worlds of each unit, and the sum over all worlds.
+/// For each unit, the sum of its worlds' differences and the number of its worlds; and the sum over all worlds.
 struct UnitSums {
   std::vector<double> sums;
   std::vector<int> worlds;
@@ -54,8 +54,8 @@ double JackknifeError(std::span<const LeftOut> left_out) {
   return std::sqrt((n - 1) / n * squares);
 }
 
-/// The t test of an estimate. If the standard error is zero, t is undefined, and p is the smallest value that sign
-/// flips of this many units can reach.
+/// Returns the t test of an estimate. If the standard error is zero, t is undefined; p is then the smallest value that
+/// sign flips of this many units can reach.
 PairedTest StudentTest(double estimate, double error, int units) {
   std::string how = "t test of units' means";
   if (estimate == 0) return {1.0, std::move(how)};
@@ -63,7 +63,7 @@ PairedTest StudentTest(double estimate, double error, int units) {
   return {KeepThirtyBits(StudentTwoSided(estimate / error, units - 1)), std::move(how)};
 }
 
-/// Returns the interval of the mean of values that are −1, 0 or 1.
+/// Returns the confidence interval of the mean of values that are −1, 0 or 1.
 std::pair<double, double> ShareInterval(std::span<const double> values) {
   const auto gained = std::ranges::count(values, 1.0), lost = std::ranges::count(values, -1.0);
   const Interval interval =
@@ -71,13 +71,13 @@ std::pair<double, double> ShareInterval(std::span<const double> values) {
   return {interval.low, interval.high};
 }
 
-/// Returns true if the interval lies on one side of zero. One end may be zero while the estimate is not: units without
-/// a difference make many Walsh averages zero, and the test takes them into account.
+/// Returns true if the interval lies on one side of zero. One end may be zero if the estimate is not: units without a
+/// difference make many Walsh averages zero, and the test takes them into account.
 bool IsOnOneSide(const Beyond& beyond) {
   return (*beyond.low >= 0 && *beyond.difference > 0) || (*beyond.high <= 0 && *beyond.difference < 0);
 }
 
-/// Returns true if the mean has the sign of the pseudo-median, so that a few units do not outweigh the others.
+/// Returns true if the mean has the sign of the pseudo-median. If it does not, a few units outweigh the others.
 bool MeanAgrees(const Beyond& beyond) { return *beyond.mean * *beyond.difference > 0; }
 
 }  // namespace
@@ -101,7 +101,7 @@ UnitSample UnitsOf(const PairedWorlds& paired, const ConditionTable& table, cons
 
 Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   Beyond beyond;
-  // The mean over units, or over worlds if a world has several units.
+  // Compute the mean over units, or over worlds if a world has several units.
   const UnitSums sums = SumUnits(sample);
   const std::vector<std::size_t> order = OrderOfUnits(sample, sums);
   beyond.units = static_cast<int>(order.size());
@@ -114,21 +114,22 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   const double sum_of_means = std::accumulate(means.begin(), means.end(), 0.0);
   const double mean = one_way ? sum_of_means / n : sums.total / worlds;
   beyond.mean = mean;
-  // The mean without one unit, with all of its worlds, for each unit.
+  // For each unit, compute the mean without all worlds of that unit.
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double rest = one_way ? n - 1 : worlds - sums.worlds[order[i]];
     if (rest == 0) continue;  // all worlds share this unit: nothing is left without it
     const double sum = one_way ? sum_of_means - means[i] : sums.total - sums.sums[order[i]];
     beyond.left_out.push_back({sample.names[order[i]], sum / rest});
   }
-  // One value per unit, and their pseudo-median.
+  // Compute one value per unit, and the pseudo-median of these values.
   std::vector<double> values = means;
   if (!one_way && beyond.left_out.size() == means.size()) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] = KeepThirtyBits(n * mean - (n - 1) * beyond.left_out[i].difference);
     }
   }
-  // If an amount never differs, its values are 0, too, but the interval of a share would have the wrong unit.
+  // If no world differs, all values are 0, whatever the metric. For an amount, the interval of a share would then have
+  // the wrong unit.
   const bool is_yes_or_no = (sample.yes_or_no || beyond.differing > 0) && std::ranges::all_of(values, [](double value) {
                               return std::abs(value) == 1 || value == 0;
                             });
@@ -136,7 +137,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   beyond.difference = is_yes_or_no ? mean : centre.value;
   if (beyond.units < kMinUnits || beyond.left_out.size() < means.size()) return beyond;
   std::tie(beyond.low, beyond.high) = is_yes_or_no ? ShareInterval(values) : *centre.interval;
-  // The interval of the mean, by Student's t from the jackknife's standard error.
+  // Compute the interval of the mean by Student's t from the jackknife's standard error.
   const double error = JackknifeError(beyond.left_out);
   const double half = StudentQuantile(1 - kAlpha / 2, beyond.units - 1) * error;
   beyond.mean_low = KeepThirtyBits(mean - half);
@@ -154,14 +155,14 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
 
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric) {
   if (!beyond.low || !beyond.p_holm) return std::nullopt;
-  // "No difference" needs both intervals, of the pseudo-median and of the mean, within ± threshold, and enough units
-  // that differ.
+  // "No difference" requires that the intervals of the pseudo-median and of the mean lie within ± threshold, and that
+  // enough units differ.
   const auto is_within = [&](double low, double high) { return low >= -metric.practical && high <= metric.practical; };
   if (is_within(*beyond.low, *beyond.high)) {
     const bool holds = is_within(*beyond.mean_low, *beyond.mean_high) && beyond.differing >= kMinUnits;
     return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
   }
-  // Otherwise a clear verdict needs the interval, the test and the threshold.
+  // Otherwise, "better" and "worse" require the interval, the test and the threshold.
   if (!IsOnOneSide(beyond) || !MeanAgrees(beyond) || *beyond.p_holm > kAlpha ||
       std::abs(*beyond.difference) < metric.practical || metric.direction == Direction::kNeither) {
     return Verdict::kInconclusive;

@@ -11,17 +11,17 @@
 namespace etude {
 namespace {
 
-/// One less than a round number, so that the 2.5 % and 97.5 % quantiles are replicates.
+/// The number of resamples. It is one less than a round number, so that the 2.5 % and 97.5 % quantiles are replicates.
 constexpr std::size_t kResamples = 1999;
 
-/// Returns the median of sorted values without the one at index `without`.
+/// Returns the median of sorted values without the value at index `without`.
 double MedianWithout(std::span<const double> sorted, std::size_t without) {
   const auto at = [&](std::size_t i) { return sorted[i < without ? i : i + 1]; };
   const std::size_t count = sorted.size() - 1;
   return 0.5 * (at((count - 1) / 2) + at(count / 2));
 }
 
-/// Returns the aggregate with each value left out in turn.
+/// Returns the jackknife values: the aggregate with each value left out in turn.
 std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregate) {
   std::vector<double> values(sorted.size());
   const double n = static_cast<double>(sorted.size()), mean = Mean(sorted);
@@ -31,7 +31,8 @@ std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregat
   return values;
 }
 
-/// Returns the median of a resample in which value i occurs `counts[i]` times. Walking to the middle avoids sorting.
+/// Returns the median of a resample in which value i occurs `counts[i]` times. It is found by walking to the middle,
+/// without sorting.
 double MedianOfDrawn(std::span<const double> sorted, std::span<const int> counts) {
   const int low = static_cast<int>(sorted.size() - 1) / 2, high = static_cast<int>(sorted.size()) / 2;
   std::size_t index = 0;
@@ -42,9 +43,10 @@ double MedianOfDrawn(std::span<const double> sorted, std::span<const int> counts
   return 0.5 * (lower + sorted[index]);
 }
 
-/// Fills `means` and `medians` with the aggregates of resamples; either may be empty, else it has kResamples entries.
-/// Each resample draws as many indices as there are values, two from each 64 random bits; no index is favoured by more
-/// than count / 2³². Four resamples are summed side by side, because each addition to one sum waits for the last.
+/// Fills `means` and `medians` with the aggregates of resamples. Each has kResamples entries, or is empty if it is not
+/// needed. Each resample draws as many indices as there are values, two from each 64 random bits. The probability of an
+/// index is higher than that of another by at most a factor of 1 + count / 2³². Four resamples are summed side by side,
+/// because each addition to a single sum would have to wait for the previous one.
 void Resample(std::span<const double> sorted, RandomStream& dice, std::span<double> means, std::span<double> medians) {
   constexpr std::size_t kTogether = 4;
   const std::size_t count = sorted.size(), words = (count + 1) / 2, pairs = count / 2;
@@ -56,7 +58,7 @@ void Resample(std::span<const double> sorted, RandomStream& dice, std::span<doub
     const std::size_t together = std::min(kTogether, kResamples - done);
     dice.FillBits(std::span(bits).first(together * words));
     const std::uint64_t* const drawn = bits.data();
-    // The means, several at once.
+    // Compute the means of several resamples at once.
     if (!means.empty()) {
       std::array<double, kTogether> sums{};
       for (std::size_t i = 0; i < words; ++i) {
@@ -67,7 +69,7 @@ void Resample(std::span<const double> sorted, RandomStream& dice, std::span<doub
       }
       for (std::size_t k = 0; k < together; ++k) means[done + k] = sums[k] / static_cast<double>(count);
     }
-    // The medians, from the number of times that each value was drawn.
+    // Compute the medians from the number of times that each value was drawn.
     for (std::size_t k = 0; k < together && !medians.empty(); ++k) {
       counts.assign(count, 0);
       for (std::size_t i = 0; i < pairs; ++i) {
@@ -80,7 +82,7 @@ void Resample(std::span<const double> sorted, RandomStream& dice, std::span<doub
   }
 }
 
-/// Returns the corrected level of one end of the interval; nothing where the correction is undefined.
+/// Returns the BCa-corrected level of one end of the interval; nothing if the correction is undefined.
 std::optional<double> BcaLevel(double level, double bias, double acceleration) {
   const double z = bias + NormalQuantile(level);
   const double stretch = 1 - acceleration * z;
@@ -88,8 +90,8 @@ std::optional<double> BcaLevel(double level, double bias, double acceleration) {
   return NormalCdf(bias + z / stretch);
 }
 
-/// Returns a sixth of the jackknife's skewness (Efron 1987, equation 7.3 with the jackknife's influence values);
-/// nothing for a jackknife without spread.
+/// Returns the acceleration: a sixth of the jackknife's skewness (Efron 1987, equation 7.3 with the jackknife's
+/// influence values). Returns nothing if the jackknife values do not differ.
 std::optional<double> Acceleration(std::span<const double> jackknife) {
   const double mean = Mean(jackknife);
   double squares = 0, cubes = 0, largest = 0;
@@ -111,8 +113,8 @@ double AtLevel(std::span<const double> sorted, double level) {
   return sorted[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(sorted.size()))) - 1];
 }
 
-/// Returns the interval of the median from order statistics: the number of values below the median is binomial,
-/// approximated here by a normal distribution.
+/// Returns the interval of the median from order statistics. The number of values below the median has a binomial
+/// distribution, which is approximated here by a normal one.
 Interval OrderStatisticsInterval(std::span<const double> sorted, double confidence) {
   const double n = static_cast<double>(sorted.size());
   const double below = std::floor(0.5 * n - 0.5 * std::sqrt(n) * NormalQuantile(0.5 + confidence / 2));
@@ -135,8 +137,8 @@ std::vector<double> Sorted(std::span<const double> values) {
   return sorted;
 }
 
-/// Returns the interval of a sample whose values are all equal, or which is too large to be resampled; nullopt for
-/// other samples.
+/// Returns the interval of a sample that needs no resampling: all values are equal, or there are too many values.
+/// Returns nullopt for other samples.
 std::optional<Interval> IntervalWithoutDice(std::span<const double> sorted, Aggregate aggregate, double confidence) {
   if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
   if (static_cast<int>(sorted.size()) <= kMaxResampled) return std::nullopt;
@@ -162,7 +164,7 @@ double AggregateOf(std::span<const double> values, Aggregate aggregate) {
 
 Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span<const double> jackknife,
                      double confidence) {
-  // The share of replicates below the estimate gives the bias; those that equal it count half.
+  // The share of replicates below the estimate gives the bias. Replicates that equal the estimate count half.
   std::sort(replicates.begin(), replicates.end());
   const auto [first, last] = std::equal_range(replicates.begin(), replicates.end(), estimate);
   const double below = static_cast<double>(first - replicates.begin()) + 0.5 * static_cast<double>(last - first);
@@ -199,7 +201,7 @@ std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> valu
     return MedianAndMean{*median, *IntervalWithoutDice(sorted, Aggregate::kMean, confidence)};
   }
   RandomStream dice = DiceOf(seed, purpose);
-  // Both aggregates see the same resamples, in the order in which BootstrapInterval would draw them.
+  // Both aggregates use the same resamples. They are drawn in the order in which BootstrapInterval draws them.
   std::vector<double> medians(kResamples), means(kResamples);
   Resample(sorted, dice, means, medians);
   const auto interval = [&](std::vector<double>& replicates, Aggregate aggregate) {

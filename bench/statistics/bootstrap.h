@@ -15,23 +15,24 @@ double Mean(std::span<const double> values);
 /// Returns the median or the mean of the values. `values` must not be empty.
 double AggregateOf(std::span<const double> values, Aggregate aggregate);
 
-/// Smaller samples have no interval: the sign test of five values cannot reach 95 %.
+/// The smallest sample that has an interval: the sign test of five values cannot reach 95 %.
 constexpr int kMinSample = 6;
 
 /// Returns the bias-corrected and accelerated (BCa) bootstrap interval of any statistic (Efron 1987, section 3).
-/// `replicates` are its bootstrap replicates, which are sorted here; `jackknife` holds its values with one observation
-/// left out each. Replicates that equal the estimate count half on either side. The ends of the interval are
-/// replicates. Where the correction is undefined (all replicates on one side of the estimate, or a jackknife without
-/// spread), the result is the percentile interval (Efron 1979), and its kind says so.
+/// `replicates` are the statistic's bootstrap replicates; they are sorted here. `jackknife` holds the statistic's
+/// values with one observation left out each. Replicates that equal the estimate count half on either side. The ends of
+/// the interval are replicates. If the correction is undefined (all replicates on one side of the estimate, or all
+/// jackknife values equal), the result is the percentile interval (Efron 1979), and its kind says so.
 Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span<const double> jackknife,
                      double confidence = kConfidence);
 
-/// Samples above this size are not resampled, because closed forms give the same interval at no cost.
+/// The largest sample that is resampled. For larger samples, closed forms give practically the same interval at no
+/// cost.
 constexpr int kMaxResampled = 20'000;
 
-/// Returns the BCa interval of the values' aggregate, from 1,999 resamples drawn from a stream keyed by `seed` and
-/// `purpose`. It depends on the values, not on their order. Samples above kMaxResampled get the interval of order
-/// statistics for the median and Student's for the mean. Returns nothing for fewer than kMinSample values.
+/// Returns the BCa interval of the values' aggregate, from 1,999 resamples drawn from a random stream keyed by `seed`
+/// and `purpose`. The order of the values has no effect. Samples above kMaxResampled get the interval of order
+/// statistics for the median, and Student's interval for the mean. Returns nothing for fewer than kMinSample values.
 std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
                                           const std::string& purpose, double confidence = kConfidence);
 
@@ -39,7 +40,8 @@ struct MedianAndMean {
   Interval median, mean;
 };
 
-/// Returns what two calls of BootstrapInterval return for median and mean, bit for bit, but draws the resamples once.
+/// Returns the two intervals that BootstrapInterval returns for median and mean, bit for bit, but draws the resamples
+/// only once.
 std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> values, std::uint64_t seed,
                                                     const std::string& purpose, double confidence = kConfidence);
 

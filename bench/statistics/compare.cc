@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// Returns the interval of the difference of two shares, from differences that are −1, 0 or 1.
+/// Returns the interval of the difference of two shares. `differences` are −1, 0 or 1.
 Interval ShareInterval(std::span<const double> differences, double confidence) {
   const auto gained = std::count(differences.begin(), differences.end(), 1.0);
   const auto lost = std::count(differences.begin(), differences.end(), -1.0);
@@ -19,15 +19,15 @@ Interval ShareInterval(std::span<const double> differences, double confidence) {
                              confidence);
 }
 
-/// Returns the share of the pairs in which the method has the better value; ties count half.
+/// Returns the share of the pairs in which the method has the better value. Ties count half.
 double ShareBetter(std::span<const double> differences, double sign) {
   double better = 0;
   for (double difference : differences) better += difference == 0 ? 0.5 : (sign * difference > 0 ? 1.0 : 0.0);
   return better / static_cast<double>(differences.size());
 }
 
-/// Computes the intervals of the differences' median and mean; that of the median is left empty if the metric's
-/// aggregate is the mean.
+/// Computes the intervals of the differences' median and mean. If the metric's aggregate is the mean, the interval of
+/// the median is left empty.
 MedianAndMean IntervalsOf(std::span<const Pair> pairs, std::span<const double> differences, const MetricInfo& metric,
                           std::uint64_t seed, const std::string& purpose, double confidence) {
   if (metric.aggregate == Aggregate::kMedian) {
@@ -62,7 +62,7 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
     differences.push_back(DifferenceOf(pair, metric));
     result.differing += differences.back() != 0;
   }
-  // Estimates with their intervals.
+  // Compute the estimates with their intervals.
   result.difference = AggregateOf(differences, metric.aggregate);
   result.mean = Mean(differences);
   if (result.pairs >= kMinSample) {
@@ -74,7 +74,7 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
     result.ci_high = own.high;
     result.interval = own.kind;
   }
-  // Both tests, the effect size, and the verdict as the only comparison.
+  // Compute both tests and the effect size, and judge the comparison as if it were the only one.
   result.signed_rank = SignedRankTest(differences);
   result.sign_flip = SignFlipTest(differences, metric.aggregate, seed, purpose);
   // For a metric without a direction, larger values count as better here.
@@ -102,13 +102,13 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric) {
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence) {
   if (!comparison.ci_low || !comparison.p_holm) return Verdict::kInconclusive;
   const double low = *comparison.ci_low, high = *comparison.ci_high, difference = *comparison.difference;
-  // "No difference" needs both intervals, of the aggregate and of the mean, within ± threshold.
+  // "No difference" requires that the intervals of the aggregate and of the mean lie within ± threshold.
   const auto is_within = [&](double from, double to) { return from >= -metric.practical && to <= metric.practical; };
   if (is_within(low, high)) {
     const bool holds = is_within(*comparison.mean_low, *comparison.mean_high) && !SeesTooFewDiffer(comparison, metric);
     return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
   }
-  // Otherwise a clear verdict needs the interval, the test and the threshold.
+  // Otherwise, "better" and "worse" require the interval, the test and the threshold.
   const bool beyond_zero = low > 0 || high < 0;
   const bool significant = *comparison.p_holm <= 1 - confidence;
   if (!beyond_zero || !significant || std::abs(difference) < metric.practical) return Verdict::kInconclusive;

@@ -25,7 +25,8 @@ double StudentTwoSided(double t, int freedom) {
 
 double FairCoinUpperTail(int successes, int trials) {
   if (successes == 0) return 1;
-  // The regularized incomplete beta function is the binomial's tail (Abramowitz & Stegun 26.5.24).
+  // The regularised incomplete beta function equals the tail of the binomial distribution (Abramowitz & Stegun
+  // 26.5.24).
   return boost::math::ibeta(successes, trials - successes + 1, 0.5);
 }
 

@@ -16,8 +16,8 @@
 namespace etude {
 namespace {
 
-/// Returns a note that counts the worlds in which a method has no value, "" if there are none. Such worlds are not in
-/// the difference, which flatters a method that fails on hard worlds (survivorship).
+/// Returns a note with the number of worlds in which a method has no value; "" if there are none. Such worlds are not
+/// in the difference, which favours a method that fails in hard worlds (survivorship bias).
 std::string NoteOnMissing(const Comparison& c) {
   const int without = c.only_baseline + c.only_method + c.neither;
   if (without == 0) return "";
@@ -36,8 +36,8 @@ std::string NotWithFailures(Verdict of_pairs) {
   return fmt::format("“{}” where both have a value, but not when failing counts as losing", VerdictName(of_pairs));
 }
 
-/// Says in how many worlds the method is better and worse, because a median hides differences in fewer than half of the
-/// worlds.
+/// Returns the numbers of worlds in which the method is better and worse, as text. A median hides differences in fewer
+/// than half of the worlds.
 std::string DescribeWhatMedianHides(const Comparison& c) {
   const int tied = c.pairs - c.differing;
   const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // ties count half
@@ -46,12 +46,12 @@ std::string DescribeWhatMedianHides(const Comparison& c) {
                      ties, better, c.pairs, c.differing - better);
 }
 
-/// Says why the verdict is open: the first reason that holds, in the order in which a reader would check; "" if the
-/// verdict is clear.
+/// Returns the reason why the verdict is open: the first that holds, in the order in which a reader would check.
+/// Returns "" if the verdict is clear.
 std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
   if (c.verdict != Verdict::kInconclusive) return "";
   if (c.pairs == 0) return "no world has both values";
-  // The interval lies within ± threshold, but differences that it cannot show may matter.
+  // The interval lies within ± threshold, but there may be relevant differences that it cannot show.
   const int needed = PairsNeeded(comparisons, kAlpha);
   const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
   if (within && SeesTooFewDiffer(c, metric)) {
@@ -70,7 +70,7 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
                        needed);
   }
   if (!c.ci_low) return fmt::format("too few worlds: no interval below {}", kMinSample);
-  // Interval and test do not agree.
+  // The interval and the test disagree.
   const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
   if (!beyond_zero && *c.p_holm > kAlpha) return "the interval contains zero and differences that matter";
   if (!beyond_zero) {
@@ -82,12 +82,12 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
     if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
     return fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", p, comparisons);
   }
-  // Both find a difference, but it is too small, or the metric has no direction.
+  // Both show a difference, but it is too small, or the metric has no direction.
   if (std::abs(*c.difference) < metric.practical) return "it differs, but it is open whether by as much as matters";
   return "it differs, but neither direction is better";
 }
 
-/// Returns a note if the mean difference exceeds the threshold and the median difference does not; else "".
+/// Returns a note if the mean difference exceeds the threshold and the median difference does not; otherwise "".
 std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
   if (metric.aggregate != Aggregate::kMedian || !c.mean_low) return "";
   const bool up = *c.mean_low > metric.practical, down = *c.mean_high < -metric.practical;
@@ -103,9 +103,10 @@ std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
                      unit, amount(*c.mean_low), amount(*c.mean_high));
 }
 
-/// Corrects the p-values of a family (without and with failures), judges every comparison and adds its notes.
+/// Corrects the p-values of a family of comparisons, without and with failures, judges every comparison and adds its
+/// notes.
 void JudgeOnTheseWorlds(std::span<Question* const> family) {
-  // Holm's correction, with and without failures counted as losses.
+  // Apply Holm's correction to the p-values without failures, and to those with failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;
   for (const Question* question : family) {
     const MetricInfo& metric = *FindMetric(question->comparison.metric);
@@ -113,7 +114,7 @@ void JudgeOnTheseWorlds(std::span<Question* const> family) {
     all_worlds.push_back(question->with_failures ? DecidingP(*question->with_failures, metric) : pairs_alone.back());
   }
   const auto corrected_alone = HolmCorrected(pairs_alone), corrected = HolmCorrected(all_worlds);
-  // Judge each comparison, and say why it is open.
+  // Judge each comparison, and state why its verdict is open.
   for (std::size_t i = 0; i < family.size(); ++i) {
     Comparison& comparison = family[i]->comparison;
     const MetricInfo& metric = *FindMetric(comparison.metric);
@@ -131,7 +132,7 @@ void JudgeOnTheseWorlds(std::span<Question* const> family) {
   }
 }
 
-/// Copies the findings on these worlds to `beyond`, for a scenario in which every world is its own unit.
+/// Copies the results for these worlds to `beyond`. This is for a scenario in which every world is its own unit.
 void CopyVerdictsBeyond(Comparison& comparison) {
   Beyond& beyond = comparison.beyond;
   beyond.units = comparison.pairs;
@@ -149,9 +150,9 @@ void CopyVerdictsBeyond(Comparison& comparison) {
   beyond.why_open = comparison.why_open;
 }
 
-/// Judges a family for other units, by the same rule as for these worlds.
+/// Judges a family of comparisons for other units, by the rule for these worlds.
 void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
-  // Holm's correction, with and without failures counted as losses.
+  // Apply Holm's correction to the p-values without failures, and to those with failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;
   for (const Question* question : family) {
     pairs_alone.push_back(question->comparison.beyond.test.p);
@@ -162,11 +163,11 @@ void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
   for (std::size_t i = 0; i < family.size(); ++i) {
     Beyond& beyond = family[i]->comparison.beyond;
     const MetricInfo& metric = *FindMetric(family[i]->comparison.metric);
-    // The verdict without failures.
+    // Judge without failures.
     beyond.p_holm = corrected_alone[i];
     beyond.verdict = VerdictBeyond(beyond, metric);
     beyond.why_open = WhyOpenBeyond(beyond, metric, unit, comparisons);
-    // The verdict must be the same with failures counted.
+    // The verdict stands only if it is the same with failures counted.
     if (!family[i]->with_failures || !beyond.verdict) continue;
     Beyond& with_failures = family[i]->with_failures->beyond;
     with_failures.p_holm = beyond.p_holm = corrected[i];
@@ -178,7 +179,7 @@ void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
   }
 }
 
-/// The swept values of a condition: those across which a verdict must hold (Study::across), and the rest.
+/// The swept values of a condition, split into those that Study::across names and the rest.
 struct SplitCondition {
   std::vector<SweptValue> across, rest;
 };
@@ -192,19 +193,19 @@ SplitCondition Split(const Study& study, const std::vector<SweptValue>& conditio
   return split;
 }
 
-/// Returns true if the verdict is about the same comparison under the same other swept values.
+/// Returns true if the verdict belongs to this comparison and these other swept values.
 bool IsSameQuestion(const AcrossVerdict& verdict, const std::vector<SweptValue>& rest, const Comparison& comparison) {
   return verdict.condition == rest && verdict.metric == comparison.metric && verdict.method == comparison.method &&
          verdict.baseline == comparison.baseline;
 }
 
-/// Returns true if the condition has every swept value in `where`.
+/// Returns true if the condition has all swept values in `where`.
 bool Matches(const std::vector<SweptValue>& condition, const std::vector<SweptValue>& where) {
   return std::ranges::all_of(
       where, [&](const SweptValue& wanted) { return std::ranges::find(condition, wanted) != condition.end(); });
 }
 
-/// Returns the expectation as a sentence.
+/// Returns the claim of an expectation as a sentence.
 std::string Claim(const Expectation& expectation) {
   const MetricInfo& metric = *FindMetric(expectation.metric);
   std::string text = metric.label + " of " + expectation.of;
@@ -228,7 +229,7 @@ struct Finding {
 
 Finding JudgeComparison(const Expectation& expectation, const ConditionTable& table, const std::string& other,
                         bool wants_lower, std::uint64_t seed, const std::string& purpose) {
-  // Compare the two methods, without and with failures counted as losses.
+  // Compare the two methods, without failures and with failures counted as losses.
   MetricInfo metric = *FindMetric(expectation.metric);
   metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
   const PairedWorlds worlds = PairsOf(table, other, expectation.of, expectation.metric);
@@ -238,7 +239,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
     with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures", expectation.confidence);
   }
   const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
-  // Turn the verdict into met, unmet or undecided.
+  // Derive met, unmet or undecided from the verdict.
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
   const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
   if (!found.ci_low)
@@ -246,7 +247,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   const ClaimOutcome outcome = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
                                : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
                                                                          : ClaimOutcome::kUnmet;
-  // The figures behind it.
+  // Describe the figures that decided.
   const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
   std::string detail = fmt::format(
       "difference {:.4g}{} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}", *found.difference, unit,
@@ -260,7 +261,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   return {outcome, detail};
 }
 
-/// Changes "met" into "unmet" if the method is worse by success: an answer would be decided by success first.
+/// Changes "met" to "unmet" if the method is worse by success, because success would decide an answer first.
 void AskSuccessFirst(const Expectation& expectation, const Study& study, const ConditionTable& table,
                      const std::string& other, bool wants_lower, std::uint64_t seed, Finding& finding) {
   const bool wants_better = wants_lower == (FindMetric(expectation.metric)->direction == Direction::kLowerIsBetter);
@@ -351,7 +352,7 @@ ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& 
     const std::string label = ConditionLabel(condition.condition);
     if (!result.detail.empty()) result.detail += "; ";
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
-    // One unmet condition makes the whole unmet; otherwise one undecided condition makes it undecided.
+    // One unmet condition makes the expectation unmet. Otherwise, one undecided condition makes it undecided.
     if (finding.outcome == ClaimOutcome::kUnmet) result.outcome = ClaimOutcome::kUnmet;
     if (finding.outcome == ClaimOutcome::kUndecided && result.outcome == ClaimOutcome::kMet)
       result.outcome = finding.outcome;

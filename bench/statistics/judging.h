@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// Returns the p-values after Holm's step-down correction (1979): comparing each with alpha keeps the probability of
-/// one or more false rejections among all of them at most alpha. A missing p counts as a comparison, but stays missing.
+/// Returns the p-values after Holm's step-down correction (1979). If each is compared with alpha, the probability of at
+/// least one false rejection among all of them is at most alpha. A missing p counts as a comparison but stays missing.
 std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<double>> p_values);
 
 /// A comparison to be judged, and the same comparison with failures counted as losses (WithFailures).
@@ -20,24 +20,24 @@ struct Question {
   std::optional<Comparison> with_failures;
 };
 
-/// Corrects the deciding p-values of comparisons that belong together (Holm), judges each again, and sets its reason
-/// for an open verdict and its notes. A comparison without a p counts in the correction too. Where only one method
-/// failed, the p is the one with failures counted, and the verdict must be the same with and without them. The verdicts
-/// for other units are a family of their own, judged by the same rule. If every world is its own `unit`, they equal
-/// those for these worlds.
+/// Corrects the deciding p-values of comparisons that belong together (Holm), judges each comparison again, and sets
+/// its notes and the reason for an open verdict. A comparison without a p also counts in the correction. If only one
+/// method failed in some worlds, the p with failures counted is used, and the verdict must be the same with and without
+/// failures. The verdicts for other units are a family of their own, judged by the same rule. If every world is its own
+/// `unit`, they equal the verdicts for these worlds.
 void JudgeFamily(std::span<Question* const> family, SamplingUnit unit = SamplingUnit::kWorld);
 
 /// Judges the comparisons with baselines again for a study whose verdicts must be the same under every value of
 /// Study::across. Returns one verdict per comparison and per condition of the other swept parameters, in the order of
-/// `conditions`; none if Study::across is empty.
+/// `conditions`. Returns none if Study::across is empty.
 std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<ConditionSummary>& conditions);
 
 /// Judges one expectation over every condition that it names. A comparison (below, above) is met if the paired verdict
-/// at its confidence agrees with it in every such condition, unmet if the verdict is the opposite or "no difference" in
-/// one of them, and undecided otherwise. Because every condition must hold, no correction for multiple conditions is
-/// needed (intersection–union test, Berger 1982). A bound (at_most, at_least) is compared with the statistic itself; if
-/// cells without a value exist, a bound that the other cells meet is undecided. A comparison of the value of an answer
-/// (ValueMetricOf) is unmet where success is worse.
+/// at its confidence agrees with it in every such condition. It is unmet if the verdict is the opposite or "no
+/// difference" in one of them, and otherwise undecided. Because every condition must hold, no correction for multiple
+/// conditions is needed (intersection–union test, Berger 1982). A bound (at_most, at_least) is compared with the
+/// statistic itself. If some cells have no value, a bound that the other cells meet is undecided. A comparison of the
+/// value of an answer (ValueMetricOf) is unmet if the method is worse by success.
 ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed);
 

@@ -14,12 +14,11 @@
 namespace etude {
 namespace {
 
-/// With more non-zero differences, the normal approximation gives the p-value of the ranks. Counts of sign vectors up
-/// to 2⁵⁰ are exact in a double.
+/// The largest number of non-zero differences for which the p-value of the ranks is exact; for more, a normal
+/// approximation is used. Counts of sign vectors up to 2⁵⁰ are exact in a double.
 constexpr std::size_t kMaxExactRanks = 50;
 
-/// Twice the rank of |difference|, for each non-zero difference; doubled, so that the mean ranks of ties are integers
-/// too.
+/// Twice the rank of |difference| for each non-zero difference. Doubling makes the mean ranks of ties integers.
 struct SignedRanks {
   std::vector<int> positive, negative;
 };
@@ -46,7 +45,7 @@ double SumOf(const std::vector<int>& ranks) {
   return sum;
 }
 
-/// Returns P(W ≤ w) or P(W ≥ w), whichever is smaller, over all signs of these ranks (shift algorithm).
+/// Returns the smaller of P(W ≤ w) and P(W ≥ w) over all signs of these ranks (shift algorithm).
 double ExactTail(const std::vector<int>& ranks, double w) {
   const auto total = static_cast<std::size_t>(SumOf(ranks));
   std::vector<double> ways(total + 1);  // by sum: how many sign vectors reach it, an integer of at most 2⁵⁰
@@ -65,20 +64,22 @@ double ExactTail(const std::vector<int>& ranks, double w) {
 double NormalTail(const std::vector<int>& ranks, double w) {
   double squares = 0;
   for (int rank : ranks) squares += static_cast<double>(rank) * rank;
-  // Each rank is in or out with probability ½: mean Σr / 2, variance Σr² / 4, ties or not. The continuity correction is
-  // half a rank towards the mean; ranks are doubled, so it is 1.
+  // Each rank is included with probability ½, so the mean is Σr / 2 and the variance Σr² / 4, with or without ties. The
+  // continuity correction is half a rank towards the mean. Ranks are doubled, so it is 1.
   const double distance = std::max(std::abs(w - SumOf(ranks) / 2) - 1, 0.0);
   return KeepThirtyBits(NormalCdf(-distance / std::sqrt(squares / 4)));
 }
 
-/// With up to this many non-zero differences all 2ⁿ⁻¹ sign vectors are enumerated; with more, kDraws are drawn.
+/// The largest number of non-zero differences for which all 2ⁿ⁻¹ sign vectors are enumerated. For more differences,
+/// kDraws sign vectors are drawn.
 constexpr std::size_t kMaxEnumerated = 16;
 constexpr int kDraws = 9999;
 
 /// The signs of the differences, one bit each: 1 = negative.
 using Signs = std::vector<std::uint64_t>;
 
-/// Returns the index of the n-th bit that is 1, or with `flip` all ones, that is 0.
+/// Returns the index of the n-th bit that is 1. If all bits of `flip` are 1, returns the index of the n-th bit that is
+/// 0.
 std::size_t IndexOfNth(const Signs& signs, std::size_t n, std::uint64_t flip) {
   for (std::size_t word = 0;; ++word) {
     std::uint64_t bits = signs[word] ^ flip;
@@ -92,7 +93,7 @@ std::size_t IndexOfNth(const Signs& signs, std::size_t n, std::uint64_t flip) {
   }
 }
 
-/// The absolute differences |d| in ascending order, zeros first, whose aggregate is computed under any signs.
+/// The absolute differences |d| in ascending order, zeros first. Computes their aggregate under any signs.
 class FlippedSample {
  public:
   FlippedSample(std::vector<double> sizes, Aggregate aggregate) : sizes_(std::move(sizes)), aggregate_(aggregate) {
@@ -106,8 +107,8 @@ class FlippedSample {
   }
 
  private:
-  /// Precomputes the sum of each group of eight sizes under all 256 signs, so that a draw adds an eighth of the
-  /// numbers.
+  /// Precomputes the sum of each group of eight sizes under all 256 signs. The mean of a draw then needs an eighth of
+  /// the additions.
   void SumBytes() {
     byte_sums_.resize((sizes_.size() + 7) / 8);
     for (std::size_t byte = 0; byte < byte_sums_.size(); ++byte) {
@@ -129,8 +130,9 @@ class FlippedSample {
     return sum / static_cast<double>(sizes_.size());
   }
 
-  /// In sorted order the negative values come first, from the largest size to the smallest, then the positive ones from
-  /// the smallest size to the largest. The middle value has a small size, so a short walk over the bits finds it.
+  /// Returns the median under the given signs. In sorted order the negative values come first, from the largest size to
+  /// the smallest, then the positive values from the smallest size to the largest. The middle value has a small size,
+  /// so a short walk over the bits finds it.
   double MedianUnder(const Signs& signs) const {
     std::size_t negatives = 0;
     for (std::uint64_t bits : signs) negatives += static_cast<std::size_t>(std::popcount(bits));
@@ -146,7 +148,7 @@ class FlippedSample {
   std::vector<std::array<double, 256>> byte_sums_;
 };
 
-/// Tests very many differences by the normal approximation of their flips: a mean has variance Σd² / n²; for a median,
+/// Tests very many differences by a normal approximation of the sign flips. A mean has variance Σd² / n². For a median,
 /// the numbers of differences above and below zero are compared (sign test).
 PairedTest ManyFlips(std::span<const double> sizes, const Signs& signs, Aggregate aggregate) {
   double sum = 0, squares = 0;
@@ -183,7 +185,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
                         const std::string& purpose) {
   if (differences.empty()) return {};
   std::vector<double> ordered(differences.begin(), differences.end());
-  // Sort by size, and split into sizes and signs.
+  // Sort by size, and separate the sizes from the signs.
   std::sort(ordered.begin(), ordered.end(),
             [](double a, double b) { return std::abs(a) != std::abs(b) ? std::abs(a) < std::abs(b) : a < b; });
   std::vector<double> sizes;
@@ -195,7 +197,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
     negatives += ordered[i] < 0;
     if (ordered[i] < 0) observed[i / 64] |= std::uint64_t{1} << (i % 64);
   }
-  // If all differences have the same size, the binomial gives the exact p of the mean.
+  // If all differences have the same size, the binomial distribution gives the exact p of the mean.
   const std::size_t differing = sizes.size() - zeros;
   if (differing == 0) return {1.0, "exact"};
   const double largest = sizes.back();
@@ -206,12 +208,12 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
 
   if (static_cast<int>(differing) > kMaxResampled) return ManyFlips(sizes, observed, aggregate);
   const FlippedSample sample(std::move(sizes), aggregate);
-  // Use a small tolerance, because sums that are equal in exact arithmetic may differ by rounding.
+  // Allow a small tolerance, because sums that are equal in exact arithmetic may differ by rounding.
   const double reached = std::abs(sample.AggregateUnder(observed)) - 1e-12 * largest;
   Signs signs(sample.words());
   if (differing <= kMaxEnumerated) {
-    // Few differences: enumerate. A sample and its mirror image are equally far from zero, so half of all sign vectors
-    // are enough.
+    // If few differ, enumerate all sign vectors. A vector and its mirror image are equally far from zero, so half of
+    // the vectors are enough.
     const std::uint32_t all = std::uint32_t{1} << (differing - 1);
     int extreme = 0;
     for (std::uint32_t bits = 0; bits < all; ++bits) {
@@ -226,7 +228,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   }
   // Otherwise draw sign vectors.
   RandomStream dice({.suite_seed = seed, .scenario = "sign-flip", .trial = 0}, purpose);
-  // Bits behind the last difference must stay 0, or they would count as negative.
+  // The bits behind the last difference must stay 0. If they were 1, they would count as negative.
   const std::uint64_t last =
       ordered.size() % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (ordered.size() % 64)) - 1;
   int extreme = 0;

@@ -16,7 +16,8 @@
 namespace etude {
 namespace {
 
-/// For more values, a normal approximation gives the quantile of the signed-rank statistic.
+/// The largest number of values for which the quantile of the signed-rank statistic is exact. For more, a normal
+/// approximation is used.
 constexpr std::int64_t kMaxExactValues = 50;
 
 /// Returns the number of Walsh averages of the ascending values that are at most `limit`.
@@ -32,7 +33,8 @@ std::int64_t CountWalshAverages(std::span<const double> ascending, double limit)
   return count;
 }
 
-/// Map a finite double to an integer and back; the integers are ordered like the doubles.
+/// OrderOf maps a finite double to an integer, and the next function maps it back. The integers are ordered like the
+/// doubles.
 std::int64_t OrderOf(double value) {
   const auto bits = std::bit_cast<std::int64_t>(value);
   return bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits;
@@ -41,8 +43,8 @@ double ValueAt(std::int64_t order) {
   return std::bit_cast<double>(order >= 0 ? order : std::numeric_limits<std::int64_t>::min() - order);
 }
 
-/// Returns the k-th smallest Walsh average, k = 1 … n (n + 1) / 2, by bisection over the doubles: it is the smallest
-/// double that at least k averages do not exceed.
+/// Returns the k-th smallest Walsh average, k = 1 … n (n + 1) / 2. Bisection over the doubles finds the smallest double
+/// that at least k averages do not exceed.
 double WalshAverage(std::span<const double> ascending, std::int64_t k) {
   std::int64_t low = OrderOf(ascending.front()), high = OrderOf(ascending.back());
   while (low < high) {
@@ -57,15 +59,16 @@ double WalshAverage(std::span<const double> ascending, std::int64_t k) {
   return ValueAt(high);
 }
 
-/// Returns the rank of the interval's lower end among the Walsh averages: the number of values w of the signed-rank
-/// statistic with P(W ≤ w) ≤ 2.5 %. `n` is at least kMinSample.
+/// Returns the rank of the interval's lower end among the Walsh averages. This is the number of values w of the
+/// signed-rank statistic with P(W ≤ w) ≤ 2.5 %. `n` is at least kMinSample.
 std::int64_t RankOfEnd(std::int64_t n) {
   if (n > kMaxExactValues) {
     const auto count = static_cast<double>(n);
     const double mean = count * (count + 1) / 4, variance = mean * (2 * count + 1) / 6;
     return static_cast<std::int64_t>(std::floor(mean + NormalQuantile(kAlpha / 2) * std::sqrt(variance) + 0.5));
   }
-  // For each sum, the number of subsets of the ranks 1 … n with that sum; at most 2⁵⁰, so exact in a double.
+  // For each sum, count the subsets of the ranks 1 … n with that sum. There are at most 2⁵⁰, so the counts are exact in
+  // a double.
   std::vector<double> ways(static_cast<std::size_t>(n * (n + 1) / 2 + 1));
   ways[0] = 1;
   for (std::int64_t rank = 1; rank <= n; ++rank) {

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Returns the worst value that any method measured, which stands for a failed cell; nothing if no value exists.
+/// Returns the worst value that any method reached under the condition. It counts as the value of a failed cell.
+/// Returns nothing if there is no value.
 std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& metric) {
   std::optional<double> worst;
   for (const MethodColumns& method : table.methods) {
@@ -28,7 +29,8 @@ std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& met
   return worst;
 }
 
-/// Returns the method's aggregate over one half of the worlds, failed cells counted as `worst`; nothing without worlds.
+/// Returns the method's aggregate over one half of the worlds, in which failed cells count as `worst`; nothing if the
+/// half has no worlds.
 std::optional<double> ScoreOf(const ConditionTable& table, const MethodColumns& method, const MetricInfo& metric,
                               double worst, int half) {
   std::vector<double> values;
@@ -41,8 +43,8 @@ std::optional<double> ScoreOf(const ConditionTable& table, const MethodColumns& 
   return AggregateOf(values, metric.aggregate);
 }
 
-/// Returns the candidates that are within the practical threshold of the best one, or all of them if the metric has no
-/// values or no direction.
+/// Returns the candidates that are within the practical threshold of the best one. Returns all candidates if the metric
+/// has no values or no direction.
 std::vector<const MethodColumns*> BestBy(const MetricInfo& metric, const ConditionTable& table, int half,
                                          const std::vector<const MethodColumns*>& candidates) {
   const auto worst = WorstOf(table, metric);
@@ -68,8 +70,8 @@ bool IsCandidate(const Study& study, const ComparedMethod& method, const Compare
   return other.name != method.name && other.name != method.against && Competes(study, other);
 }
 
-/// Returns the best candidate in one half of the worlds: by the first headline metric; if several are left, by the
-/// second, and so on; at last the first listed of those left. "" if there is none.
+/// Returns the best candidate in one half of the worlds by the first headline metric. If several candidates are left,
+/// the second metric decides, and so on; finally the order of the methods decides. Returns "" if there is no candidate.
 std::string BestOther(const Study& study, const ConditionTable& table, const ComparedMethod& method, int half) {
   std::vector<const MethodColumns*> candidates;
   for (const ComparedMethod& other : study.methods) {
@@ -261,7 +263,7 @@ std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, 
   if (!HasRival(study, method)) return std::nullopt;
   if (!study.rival.empty()) return Rival{{study.rival, study.rival}};
   Rival rival{{BestOther(study, table, method, 1), BestOther(study, table, method, 0)}};
-  // One half has no world on which to choose.
+  // One half has no worlds from which the rival could be chosen.
   if (rival.of_half[0].empty() || rival.of_half[1].empty()) return std::nullopt;
   return rival;
 }

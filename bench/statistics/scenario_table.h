@@ -25,12 +25,12 @@ class MethodColumns {
   std::optional<Status> StatusAt(int trial) const { return statuses_[static_cast<std::size_t>(trial)]; }
   /// Returns the trial's value of a metric; nothing if its cell has none.
   std::optional<double> ValueAt(const std::string& metric, int trial) const;
-  /// Returns all values of a metric in the order of trials; `missing` gets the number of cells without a value.
+  /// Returns all values of a metric in the order of trials. `missing` receives the number of cells without a value.
   std::vector<double> ValuesOf(const std::string& metric, int& missing) const;
-  /// Returns the weights of these values, with mean 1 (MetricInfo::weight); a missing one is 0. All 1 for a metric
-  /// without weights, or if all weights are 0.
+  /// Returns the weights of the values of a metric, in the order of ValuesOf, scaled to mean 1 (MetricInfo::weight). A
+  /// missing weight is 0. All weights are 1 if the metric has none, or if all are 0.
   std::vector<double> WeightsOf(const MetricInfo& metric) const;
-  /// Returns true if a cell reports the metric, by a value or by the reason why there is none.
+  /// Returns true if a cell reports the metric: it has a value, or a reason why the value is missing.
   bool Reports(const std::string& metric) const { return values_.Find(metric) != nullptr; }
 
  private:
@@ -50,12 +50,12 @@ struct ConditionTable {
   int trials() const { return static_cast<int>(world_units.size()); }
 };
 
-/// One study's rows as columns of numbers, 8 bytes per value. Statistics need nothing else of the rows of a run.
+/// The rows of one study as columns of numbers, 8 bytes per value. Statistics need no other data of the rows.
 class ScenarioTable {
  public:
   explicit ScenarioTable(const Study& study);
 
-  /// Adds a row, in any order. A row of another study, condition, method or trial is ignored.
+  /// Adds a row. Rows may come in any order. A row of another study, condition, method or trial is ignored.
   void Add(const Row& row);
 
   std::span<const ConditionTable> conditions() const { return conditions_; }
@@ -65,40 +65,41 @@ class ScenarioTable {
 
   std::string scenario_;
   std::vector<ConditionTable> conditions_;
-  /// The condition of the last row, which is tried first because rows of one condition follow each other.
+  /// The condition of the last row. It is tried first, because rows of one condition follow each other.
   std::size_t last_ = 0;
 };
 
-/// Returns the half of the worlds that a trial belongs to, 0 or 1. Worlds of one unit are in the same half.
+/// Returns the half of the worlds to which a trial belongs, 0 or 1. All worlds of a unit are in the same half.
 int HalfOf(const ConditionTable& table, int trial);
 
-/// The values of one metric for two methods in the worlds of a condition. Worlds skipped for both are not counted at
-/// all.
+/// The values of one metric for two methods in the worlds of a condition. Worlds that both methods skipped are not
+/// counted.
 struct PairedWorlds {
-  std::vector<Pair> pairs;  ///< of the worlds in which both have a value
+  std::vector<Pair> pairs;  ///< one for each world in which both have a value
   std::vector<int> trials;  ///< the trial of each pair
   int only_baseline = 0, only_method = 0, neither = 0;
-  /// The trials counted in only_method (and only_baseline) in which the baseline's (the method's) cell failed, instead
-  /// of only lacking this metric.
+  /// baseline_failed lists the trials counted in only_method in which the baseline's cell failed; method_failed lists
+  /// the trials counted in only_baseline in which the method's cell failed. In other trials, the cell only lacks this
+  /// metric.
   std::vector<int> baseline_failed, method_failed;
 };
 
-/// Multiplies the values of each pair by their cells' weights (MetricInfo::weight) over the mean weight, so that the
-/// plain mean of differences is the weighted mean, and its tests are weighted, too. All cells of a world have the same
-/// weight, because it depends on the truth alone. Does not change metrics without weights.
+/// Multiplies the values of each pair by the world's weight (MetricInfo::weight) divided by the mean weight. The plain
+/// mean of differences then is the weighted mean, and its tests are weighted, too. All cells of a world have the same
+/// weight, because it depends on the truth alone. Does nothing for metrics without weights.
 void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWorlds& paired);
 
-/// Returns the pairs of `baseline` and `method` in all worlds of the condition.
+/// Returns the pairs of values of `baseline` and `method` in all worlds of the condition.
 PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, const std::string& method,
                      const std::string& metric);
 
-/// Adds one world to `paired`: a pair, or a count of which method has no value.
+/// Adds one world to `paired`: a pair, or one more world without a pair.
 void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const std::string& metric, int trial,
               PairedWorlds& paired);
 
 /// Counts failures as losses: in each world in which only one method failed, that method is worse by the largest
 /// difference among the pairs, and at least by the practical threshold (worst ranks, Lachin 1999). Returns nothing if
-/// there is no such world, no pair, or the metric has no better direction.
+/// there is no such world, if there is no pair, or if the metric has no direction.
 std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const MetricInfo& metric);
 
 /// Returns the text that keys the random streams of a comparison. It does not change if methods, metrics or conditions
@@ -106,7 +107,7 @@ std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const Metri
 std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>& condition, const std::string& metric,
                       const std::string& baseline, const std::string& method);
 
-/// A method's strongest rival.
+/// The strongest rival of a method.
 struct Rival {
   std::array<std::string, 2> of_half;  ///< the rival in worlds of even units, and in worlds of odd units
 
@@ -114,27 +115,27 @@ struct Rival {
   std::string Note() const;  ///< says how they were chosen; "" if both are the same
 };
 
-/// Returns true if a method competes. Two kinds do not compete: a method that takes part in no comparison, which is
-/// only a yardstick, and a method with an oracle, which shows an upper bound.
+/// Returns true if a method competes. Two kinds of methods do not compete: a method that takes part in no comparison
+/// and only serves as a yardstick, and a method with an oracle, which shows an upper bound.
 bool Competes(const Study& study, const ComparedMethod& method);
 
-/// Returns true if a method has a rival (FindRival); this follows from the scenario alone.
+/// Returns true if a method has a rival (FindRival). This follows from the scenario alone.
 bool HasRival(const Study& study, const ComparedMethod& method);
 
 /// Returns the rival that the scenario names, or else the best of all other competing methods. The method's baseline is
 /// not a candidate, because the two are compared in all worlds anyway. A method therefore beats all others if it beats
 /// its baseline and its rival.
 ///
-/// The best is chosen by the first headline metric; methods that differ there by less than the practical threshold are
-/// compared by the next metric, and so on. A failed cell counts as the condition's worst value. The rival is chosen in
-/// one half of the worlds and judged in the other: the worlds of odd units choose for those of even units, and the
-/// reverse. (Trials replace units if worlds are units or have several.)
+/// The best method is chosen by the first headline metric. Methods that differ in it by less than the practical
+/// threshold are compared by the next metric, and so on. A failed cell counts as the condition's worst value. The rival
+/// is chosen in one half of the worlds and judged in the other: worlds of odd units choose the rival for worlds of even
+/// units, and the reverse. (If every world is a unit or has several units, odd and even trials are used instead.)
 ///
-/// Returns nothing for the rival itself, for a method that does not compete, if only the baseline competes, and if one
-/// half has no world on which to choose.
+/// Returns nothing if the method is itself the rival or does not compete, if only the baseline competes, or if one half
+/// has no worlds from which to choose.
 std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const ComparedMethod& method);
 
-/// Returns the values of `method` and of its rival, in all worlds of the condition.
+/// Returns the pairs of values of `method` and of its rival, in all worlds of the condition.
 PairedWorlds WorldsAgainst(const Rival& rival, const ConditionTable& table, const std::string& method,
                            const std::string& metric);
 

@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-/// Returns the metrics that the condition's cells report: the catalogue's in its order, then added ones.
+/// Returns the metrics that the condition's cells report: those of the catalogue in its order, then the added ones.
 std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   std::vector<const MetricInfo*> present;
   for (const MetricInfo& metric : AllMetrics()) {
@@ -29,8 +29,9 @@ std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   return present;
 }
 
-/// Returns the interval of the values' aggregate. If all values of a metric from 0 to 1 are 0 or 1, it is Wilson's: the
-/// bootstrap of 0 in 60 has no width. An amount is never a share, even if all its values are 0.
+/// Returns the interval of the values' aggregate. If a metric ranges from 0 to 1 and all its values are 0 or 1, this is
+/// Wilson's interval, because the bootstrap interval of 0 in 60 has no width. An amount is never a share, even if all
+/// its values are 0.
 std::optional<Interval> IntervalOf(std::span<const double> values, const MetricInfo& metric, std::uint64_t seed,
                                    const std::string& purpose) {
   const bool is_share = metric.reading != Reading::kAmount && metric.aggregate == Aggregate::kMean &&
@@ -48,7 +49,7 @@ MetricSummary SummariseMetric(const MetricInfo& metric, const MethodColumns& met
   summary.present = static_cast<int>(values.size());
   if (values.empty()) return summary;
   summary.median = Quantile(values, 0.5);
-  // A weighted mean is the mean of its linearised values (Taylor's, as for a ratio), and has their interval.
+  // A weighted mean equals the mean of its linearised values (Taylor expansion of a ratio), so it has their interval.
   std::vector<double> linear = values;
   if (!metric.weight.empty()) {
     const std::vector<double> weights = method.WeightsOf(metric);
@@ -94,7 +95,7 @@ struct Family {
   std::uint64_t seed = 1;
   int size = 0;  ///< number of comparisons that are judged together
 
-  /// Estimates the difference for other units; empty if every world is its own unit.
+  /// Estimates the difference for other units. The result is empty if every world is its own unit.
   Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric) const {
     if (WorldsAreUnits(study.unit)) return {};
     return MeasureBeyond(UnitsOf(worlds, table, metric), size);
@@ -153,8 +154,8 @@ void AskAgainstRival(const Study& study, const ConditionTable& condition, const 
   }
 }
 
-/// Judges the comparisons of all conditions as one family, and moves each to its condition's summary. Returns their
-/// number.
+/// Judges the comparisons of all conditions as one family, and moves each to the summary of its condition. Returns the
+/// number of comparisons.
 int JudgeTogether(std::vector<ConditionFindings>& findings, SamplingUnit unit,
                   std::vector<Question> ConditionFindings::*asked, std::vector<Comparison> ConditionSummary::*judged) {
   std::vector<Question*> family;
@@ -260,7 +261,8 @@ Stages Without(const Stages& all, const Stages& some) {
   return rest;
 }
 
-/// Returns the groups of methods that have equal settings apart from their oracle, each sorted by the number of stages.
+/// Returns the groups of methods whose settings are equal apart from the oracle. Each group is sorted by the number of
+/// stages.
 std::vector<std::vector<Member>> FamiliesOf(const Study& study) {
   std::vector<std::pair<std::string, std::vector<Member>>> families;
   for (const ComparedMethod& method : study.methods) {
@@ -281,8 +283,8 @@ std::vector<std::vector<Member>> FamiliesOf(const Study& study) {
   return members;
 }
 
-/// Returns a chain that begins with the member of the fewest stages; each next member is the smallest one that contains
-/// the stages of the one before.
+/// Returns a chain of members. The first has the fewest stages; each next member is the smallest one that contains the
+/// stages of the one before.
 std::vector<Member> ChainOf(const std::vector<Member>& family) {
   std::vector<Member> chain;
   for (const Member& member : family) {
@@ -291,7 +293,7 @@ std::vector<Member> ChainOf(const std::vector<Member>& family) {
   return chain;
 }
 
-/// Returns the values of the members' methods, by method, in the worlds where all of them have one.
+/// Returns the values of the members' methods, by method, in the worlds in which all members have a value.
 std::map<std::string, std::vector<double>> ValuesOf(const std::vector<Member>& members, const ConditionTable& table,
                                                     const std::string& metric) {
   std::map<std::string, std::vector<double>> values;
@@ -322,11 +324,11 @@ class BudgetMaker {
         std::ranges::all_of(family_, [&](const Member& member) {
           return Holds(family_.back().stages, member.stages) && Holds(member.stages, family_.front().stages);
         });
-    // Otherwise use the chain.
+    // Otherwise, use the chain.
     const std::vector<Member> members = is_whole ? family_ : ChainOf(family_);
     values_ = ValuesOf(members, table_, metric_);
     if (values_.empty() || members.size() < 2) return std::nullopt;
-    // The error with the fewest true stages, the remaining error with the most, and the shares between them.
+    // Compute the error with the fewest replaced stages, the remaining error with the most, and the shares in between.
     budget_.metric = metric_;
     budget_.method = members.front().method;
     budget_.is_shapley = is_whole;
@@ -342,7 +344,7 @@ class BudgetMaker {
   }
 
  private:
-  /// Adds the saving of one step of the chain, for the stages that it replaces.
+  /// Adds the reduction of the error in one step of the chain, as the share of the stages that the step replaces.
   void AddStep(const Member& before, const Member& after) {
     std::string name;
     for (const std::string& stage : Without(after.stages, before.stages)) name += (name.empty() ? "" : ", ") + stage;
@@ -352,7 +354,8 @@ class BudgetMaker {
     AddShare(name, saved);
   }
 
-  // Returns, by world, Σ |S|! (n − |S| − 1)! / n! · (v(S) − v(S ∪ stage)) over all S without the stage.
+  // Returns, for each world, Σ |S|! (n − |S| − 1)! / n! · (v(S) − v(S ∪ stage)) over all sets S without the stage. v is
+  // the error and n the number of stages.
   std::vector<double> ShapleyValues(const std::string& stage, std::size_t count) {
     std::vector<double> shares(values_.begin()->second.size(), 0.0);
     for (const Member& member : family_) {

@@ -7,10 +7,10 @@
 
 namespace etude {
 
-/// Returns all kinds of tasks: transition, detection, ik, tracking, capture, pose-distance, coach,
-/// evaluation.
+/// Returns all kinds of tasks: transition, detection, ik, tracking, capture, pose-distance, coach, evaluation,
+/// plausibility, inbetween.
 std::span<const TaskKind> AllTaskKinds();
-/// Returns the task of that name; null if there is none.
+/// Returns the kind of task with this name; null if there is none.
 const TaskKind* FindTaskKind(std::string_view name);
 
 }  // namespace etude

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// Loads the module, which the dynamic linker finds beside the program by its run path (cli/CMakeLists.txt).
+/// Loads the module. The dynamic linker finds it next to the program by the program's run path (cli/CMakeLists.txt).
 Result<PagmoEvolve*> OpenModule() {
   void* module = ::dlopen("etude_training_pagmo.so", RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) return Fail({}, "the genetic algorithm cannot be loaded: {}", ::dlerror());
@@ -28,11 +28,11 @@ const Result<PagmoEvolve*>& Module() {
 }
 
 using enum Feature;
-/// The tuned features, each with the same feature of the other side, which is tuned together with it.
+/// The features that are tuned, each with the corresponding feature of the other side. Both are tuned together.
 constexpr Feature kTuned[][2] = {{kRH, kLH},       {kRHE, kLHE}, {kPosture, kPosture},
                                  {kTrunk, kTrunk}, {kRF, kLF},   {kRFK, kLFK}};
 
-/// Returns the breakpoints of a shape, rising; Gaussian and singleton shapes have none.
+/// Returns the breakpoints of a shape in ascending order. Gaussian and singleton shapes have none.
 std::vector<double> BreakpointsOf(const Shape& shape) {
   if (const auto* triangle = std::get_if<Triangular>(&shape)) return {triangle->left, triangle->peak, triangle->right};
   if (const auto* top = std::get_if<Trapezoidal>(&shape)) {

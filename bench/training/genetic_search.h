@@ -12,10 +12,10 @@
 
 namespace etude {
 
-/// A genome: genes in [0, 1].
+/// A genome. Its genes are numbers in [0, 1].
 using Genome = std::vector<double>;
 
-/// The size of the search. Beyond the defaults, larger values no longer changed what was learnt.
+/// The size of the search. Values above the defaults no longer changed the results.
 struct GeneticOptions {
   int population = 40;
   int generations = 60;
@@ -30,50 +30,51 @@ struct GeneticResult {
   int generations = 0;
 };
 
-/// Loads the module beside the program that contains Pagmo. Fails if the module is missing.
+/// Loads the module that contains Pagmo. It is next to the program. Fails if the module is missing.
 Result<void> LoadGeneticSearch();
 
-/// Searches with a genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2, binomial crossover, Gaussian mutation,
-/// the best of parents and children survive) for the genome with the highest `score`, which must be finite and depend
-/// on the genome alone. The first population is `ancestors` (at least one, all of the same length), then random
-/// genomes, so the result scores no less than any ancestor. The same seed gives the same result. Throws
+/// Searches for the genome with the highest `score` with a genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2,
+/// binomial crossover, Gaussian mutation, the best of parents and children survive). `score` must be finite and depend
+/// on the genome alone. The first population is `ancestors` (at least one, all of the same length), filled up with
+/// random genomes. The result therefore scores no less than any ancestor. The same seed gives the same result. Throws
 /// std::runtime_error if LoadGeneticSearch fails.
 GeneticResult SearchGenetically(const std::function<double(std::span<const double>)>& score,
                                 std::span<const Genome> ancestors, const GeneticOptions& options = {});
 
-/// The type of the module's only function, the search. The module's symbol `etude_pagmo_evolve` points to it. It also
-/// gets the seeds of the random genomes and of the algorithm.
+/// The type of the module's only function, which performs the search. The module's symbol `etude_pagmo_evolve` points
+/// to it. It also receives the seeds of the random genomes and of the algorithm.
 using PagmoEvolve = void(const std::function<double(std::span<const double>)>& score, std::span<const Genome> ancestors,
                          const GeneticOptions& options, unsigned population_seed, unsigned algorithm_seed,
                          GeneticResult& result);
 
-/// The half-width of the ramp of PairTable::SoftF1, as a share of d² = 0.4²; on the ramp a pair counts as partly
-/// matched. Close pairs are few, so F1 itself jumps with every single pair: a search with F1 overfits these pairs and
-/// does worse on other clips.
+/// The half-width of the ramp of PairTable::SoftF1, as a share of d² = 0.4². On the ramp, a pair counts as partly
+/// matched. There are few close pairs, so F1 without a ramp jumps with every single pair. A search with it would
+/// overfit these pairs and do worse on other clips.
 constexpr double kFitnessRamp = 0.5;
 
-/// Fits the `genetic` weights (future work in paper A; the method is ours): the S ≥ 0 with sum 8 for which "d < 0.4"
-/// best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the result is no worse on the
-/// training pairs. Status as in FitWeights; `iterations` counts generations; unless kFitted, the weights are `start`.
+/// Fits the `genetic` weights (future work in paper A; the method is ours): the weights S ≥ 0 with sum 8 for which "d <
+/// 0.4" best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the result is no worse
+/// on the training pairs. The status is that of FitWeights; `iterations` counts generations. Unless the status is
+/// kFitted, the weights are `start`.
 WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
                                 const GeneticOptions& options = {});
 
-/// Returns the weights for genes in [0, 1]: proportional to their squares, with sum 8. A gene stands for √S, the factor
-/// by which equation 1 scales a difference of grades, so the search also finds weights near zero. Nullopt if all genes
-/// are zero.
+/// Returns the weights for genes in [0, 1]: proportional to the genes' squares, with sum 8. A gene stands for √S, the
+/// factor by which equation 1 scales a difference of grades; the search thus also finds weights near zero. Nullopt if
+/// all genes are zero.
 std::optional<FeatureWeights> WeightsOfGenes(std::span<const double> genes);
-/// Returns the genes of weights, at least one of which is above zero.
+/// Returns the genes of these weights. At least one weight must be above zero.
 Genome GenesOf(const FeatureWeights& weights);
 
-/// The largest move of a breakpoint, as a share of its feature's universe.
+/// The largest distance by which a breakpoint is moved, as a share of its feature's universe.
 constexpr double kBreakpointReach = 0.2;
 
-/// Returns the number of genes of the memberships: one per breakpoint inside the universe, of the triangular and
-/// trapezoidal shapes. Breakpoints at the ends of the universe are fixed, so that shoulders stay shoulders. Left and
-/// right limbs share their genes. Gaussian and singleton shapes are fixed.
+/// Returns the number of genes of the memberships. There is one gene per breakpoint of the triangular and trapezoidal
+/// shapes inside the universe. Breakpoints at the ends of the universe are fixed, so that shoulders stay shoulders.
+/// Left and right limbs share their genes. Gaussian and singleton shapes are fixed.
 std::size_t CountMembershipGenes(const Memberships& start);
 
-/// Returns the memberships for genes in [0, 1]: every breakpoint of `start` is moved by (2 gene − 1) ·
+/// Returns the memberships for genes in [0, 1]. Every breakpoint of `start` is moved by (2 gene − 1) ·
 /// kBreakpointReach, and each shape's breakpoints are sorted again. Genes of ½ give `start`.
 Memberships MembershipsOfGenes(const Memberships& start, std::span<const double> genes);
 

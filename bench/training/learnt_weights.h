@@ -11,30 +11,30 @@
 
 namespace etude {
 
-/// The source of S in equation 1.
+/// The source of the weights S in equation 1.
 enum class WeightSource {
-  kFixed,     ///< the fuzzy system's own, paper A's unless a file sets others
-  kAdaptive,  ///< a logistic regression (engine/fuzzy/weights.h)
-  kGenetic,   ///< a genetic algorithm (genetic_search.h)
+  kFixed,     ///< the fuzzy system's own weights: paper A's, unless a file sets others
+  kAdaptive,  ///< weights learnt by logistic regression (engine/fuzzy/weights.h)
+  kGenetic,   ///< weights learnt by a genetic algorithm (genetic_search.h)
 };
 
 /// Returns the names "fixed", "adaptive", "genetic".
 std::vector<std::string> WeightSourceNames();
-/// Returns the source of a name, which must be one of them.
+/// Returns the source with this name. `name` must be one of WeightSourceNames.
 WeightSource FindWeightSource(std::string_view name);
 
 /// The weights for each pair of judged clips. They are learnt from all other clips, so weights are never judged on
-/// their training data. Fits are cached, because trials use the same pairs again. An answer depends only on the
-/// question, so results do not depend on the number of workers.
+/// their training data. Fits are cached, because several trials use the same pair. A result depends only on the
+/// arguments of the call, so the number of workers has no effect.
 class LearntWeights {
  public:
   explicit LearntWeights(TrainingClips training, const FuzzySystem& system = {});
 
-  /// Returns the weights of `source` for a transition between clips of these identities, in either order; the system's
-  /// own if nothing could be learnt.
+  /// Returns the weights of `source` for a transition between clips of these identities, in either order. If nothing
+  /// could be learnt, returns the fuzzy system's own weights.
   const FeatureWeights& For(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
-  /// Returns the fit behind those weights; `source` must not be kFixed.
+  /// Returns the fit from which these weights come. `source` must not be kFixed.
   const WeightFit& FitOf(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
  private:

@@ -150,7 +150,7 @@ double PairTable::SoftF1(const FeatureWeights& weights, double threshold, double
   const double squared_threshold = threshold * threshold;
   const float far = static_cast<float>(squared_threshold * (1 + ramp));
   const float slope = static_cast<float>(0.5 / (squared_threshold * ramp));
-  // Sum by lane, so that the compiler may vectorise without changing the order.
+  // Each lane has its own sum, so that the compiler may vectorise without changing the order of additions.
   float matched[kBlock] = {}, close_matched[kBlock] = {};
   for (const Block& block : blocks_) {
     float squared[kBlock];

@@ -18,66 +18,68 @@ struct TrainingFrame {
   PoseFeatures features;
 };
 
-/// Training clips, performed by one body. Learning for a transition never uses the two clips on which it is judged.
+/// Training clips, performed by one body. Weights for a transition are never learnt from the two clips of that
+/// transition.
 struct TrainingClips {
   std::vector<std::string> identities;             ///< equal for equal clips: "builtin:clap", or the file
-  std::vector<std::vector<TrainingFrame>> frames;  ///< of each clip, sampled evenly
+  std::vector<std::vector<TrainingFrame>> frames;  ///< frames of each clip, sampled evenly
 };
 
-/// The number of frames sampled from a clip: the middles of equal parts, so that long clips do not count more than
-/// short ones. A clip with fewer frames gives all of them.
+/// The number of frames sampled from a clip. They are the middles of equal parts, so a long clip does not count more
+/// than a short one. If a clip has fewer frames, all are used.
 constexpr int kFramesPerClip = 16;
 
-/// Samples clips in the given order, retargeted to `proportions`.
+/// Retargets clips to `proportions` and samples their frames. The order of the clips is kept.
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
                           const BodyProportions& proportions);
 
-/// The largest number of training clips. The number of pairs grows with its square: more clips would make learning slow
-/// and improve little.
+/// The largest number of training clips. The number of pairs grows with its square, so more clips would make learning
+/// slow, and they would improve it little.
 constexpr std::size_t kMaxTrainingClips = 40;
 
-/// Returns every built-in move and, by their identities, the other clips of `clips`, all retargeted to `proportions`;
-/// evenly chosen ones if there are more than kMaxTrainingClips.
+/// Returns every built-in move and the clips of `clips` with other identities, all retargeted to `proportions`. If
+/// there are more than kMaxTrainingClips, evenly chosen ones are returned.
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
                                           const BodyProportions& proportions);
 
-/// Returns every pair of a frame of `a` and a frame of `b`, labelled close if its true pose gap is below kCloseGap.
+/// Returns every pair of a frame of `a` and a frame of `b`. A pair is labelled close if its true pose gap is below
+/// kCloseGap.
 std::vector<LabelledPair> LabelPairs(std::span<const TrainingFrame> a, std::span<const TrainingFrame> b,
                                      const Memberships& memberships = PaperMemberships());
 
-/// Returns the pairs of frames of all pairs of different clips.
+/// Returns the pairs of frames (LabelPairs) of all pairs of different clips.
 std::vector<LabelledPair> LabelPairsAcross(std::span<const std::vector<TrainingFrame>> clips,
                                            const Memberships& memberships = PaperMemberships());
 
-/// Computes the grade differences of `pairs`, which LabelPairsAcross returned for the same clips, for other
-/// memberships. This is much faster, because poses are not compared again.
+/// Computes the grade differences of `pairs` again with other memberships. LabelPairsAcross must have returned `pairs`
+/// for the same clips. This is much faster than LabelPairsAcross, because poses are not compared again.
 void UpdateGrades(std::span<const std::vector<TrainingFrame>> clips, const Memberships& memberships,
                   std::span<LabelledPair> pairs);
 
-/// The score of separating close pairs from others by "d < threshold".
+/// Counts how well "d < threshold" separates close pairs from others.
 struct MatchScore {
   int matched = 0;        ///< pairs with d < threshold
   int close = 0;          ///< close pairs
-  int close_matched = 0;  ///< both
+  int close_matched = 0;  ///< close pairs with d < threshold
 
-  /// Returns the harmonic mean of precision (the share of matched pairs that are close) and recall (the share of close
-  /// pairs that are matched); 0 if no close pair is matched. Accuracy and AUC are not used: close pairs are few, and
-  /// both are dominated by the many distant pairs, which no threshold near 0.4 ever matches.
+  /// Returns F1, the harmonic mean of precision (the share of matched pairs that are close) and recall (the share of
+  /// close pairs that are matched); 0 if no close pair is matched. Accuracy and AUC are not used: there are few close
+  /// pairs, and both measures are dominated by the many distant pairs, which no threshold near 0.4 ever matches.
   double F1() const { return close_matched > 0 ? 2.0 * close_matched / (matched + close) : 0; }
 };
 
-/// Labelled pairs stored for fast scoring of many weights: feature by feature, in single precision.
+/// Labelled pairs in a form in which many weights can be scored quickly: feature by feature, in single precision.
 class PairTable {
  public:
   explicit PairTable(std::span<const LabelledPair> pairs);
 
   MatchScore Score(const FeatureWeights& weights, double threshold = kPaperThreshold) const;
-  /// Returns F1 with a soft threshold: a pair counts as matched by a share that falls linearly from 1 to 0 while d²
+  /// Returns F1 with a soft threshold. The share by which a pair counts as matched falls linearly from 1 to 0 while d²
   /// rises from (1 − ramp) · threshold² to (1 + ramp) · threshold². `ramp` > 0.
   double SoftF1(const FeatureWeights& weights, double threshold, double ramp) const;
 
  private:
-  /// The number of pairs in a block, stored side by side.
+  /// The number of pairs in a block. The values of a block are stored next to each other.
   static constexpr int kBlock = 64;
   struct Block {
     float squared_gaps[kFeatureCount][kBlock];

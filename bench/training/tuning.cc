@@ -14,7 +14,8 @@ FuzzySystem WithWeights(const FuzzySystem& start, const FeatureWeights& weights)
   return system;
 }
 
-/// The genes of the weights, followed by those of the memberships.
+/// Returns the fuzzy system for a genome: the genes of the weights, followed by the genes of the memberships. Nullopt
+/// if all weights would be zero.
 std::optional<FuzzySystem> SystemOfGenes(const FuzzySystem& start, std::span<const double> genes) {
   const auto weights = WeightsOfGenes(genes.first(kFeatureCount));
   if (!weights) return std::nullopt;

@@ -8,13 +8,13 @@
 namespace etude {
 namespace {
 
-/// The numbers of right and wrong events at or above a threshold on the score.
+/// The numbers of right and of wrong events whose score is at or above a threshold.
 struct Admitted {
   int right = 0, wrong = 0;
 };
 
-/// Returns these numbers for every threshold from the highest to the lowest, starting with no event; equal scores make
-/// one step.
+/// Returns these numbers for every threshold from the highest to the lowest. The first entry has no event. Events with
+/// equal scores make one step.
 std::vector<Admitted> AdmitByScore(std::span<const JudgedEvent> events) {
   std::vector<JudgedEvent> sorted(events.begin(), events.end());
   std::ranges::stable_sort(sorted, std::ranges::greater{}, &JudgedEvent::score);
@@ -59,8 +59,8 @@ std::optional<double> RocAuc(std::span<const JudgedEvent> events) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const JudgedEvent& a, const JudgedEvent& b) { return a.score < b.score; });
 
-  // Walk up through groups of equal score. Each right event beats the wrong ones below its group and half of those
-  // inside.
+  // Walk through the groups of equal score, from the lowest score. Each right event beats the wrong events below its
+  // group and half of the wrong events in its group.
   double right = 0, wrong_below = 0, won = 0;
   for (std::size_t begin = 0; begin < sorted.size();) {
     double group_right = 0, group_wrong = 0;
@@ -123,7 +123,7 @@ std::optional<WithInterval> JackknifedAuc(std::span<const JudgedEvent> events, s
   assert(events.size() == groups.size());
   const std::optional<double> value = RocAuc(events);
   if (!value) return std::nullopt;
-  // The area without each group in turn.
+  // Compute the area without each group in turn.
   std::vector<double> areas;
   for (const int group : std::set<int>(groups.begin(), groups.end())) {
     std::vector<JudgedEvent> others;
@@ -134,7 +134,7 @@ std::optional<WithInterval> JackknifedAuc(std::span<const JudgedEvent> events, s
     if (!area) return std::nullopt;
     areas.push_back(*area);
   }
-  // Jackknife standard error.
+  // Compute the jackknife's standard error.
   const auto count = static_cast<double>(areas.size());
   double mean = 0, squares = 0;
   for (const double area : areas) mean += area / count;

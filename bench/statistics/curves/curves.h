@@ -14,8 +14,8 @@ inline std::optional<double> Share(std::int64_t part, std::int64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// One scripted performance of a move that was truly right or wrong (docs/reference/metrics.md); grey performances are
-/// not events. Positive = "right".
+/// A scripted performance of a move, which was truly right or wrong (docs/reference/metrics.md). Grey performances are
+/// not events. "Right" is the positive class.
 struct JudgedEvent {
   bool is_right = false;      ///< the truth
   bool called_right = false;  ///< the recogniser's call by the end of the event's window
@@ -31,31 +31,31 @@ struct Confusion {
 
 Confusion CountConfusion(std::span<const JudgedEvent> events);
 
-/// Returns TP / (TP + FP); empty if no event was called right.
+/// Returns the precision, TP / (TP + FP); empty if no event was called right.
 std::optional<double> PrecisionOf(const Confusion& confusion);
-/// Returns TP / (TP + FN); empty if no event was right.
+/// Returns the recall, TP / (TP + FN); empty if no event was right.
 std::optional<double> RecallOf(const Confusion& confusion);
-/// Returns 2 TP / (2 TP + FP + FN); empty if no event was right or called right.
+/// Returns the F1 score, 2 TP / (2 TP + FP + FN); empty if no event was right or called right.
 std::optional<double> F1(const Confusion& confusion);
 
-/// Returns the area under the ROC curve: the probability that a right event scores higher than a wrong one, ties
-/// counting half (Mann–Whitney). Empty if there is no right or no wrong event.
+/// Returns the area under the ROC curve: the probability that a right event scores higher than a wrong one, where ties
+/// count half (Mann–Whitney). Empty if there is no right event or no wrong event.
 std::optional<double> RocAuc(std::span<const JudgedEvent> events);
 
-/// Returns the highest threshold on scores at which at least this share of the right events, in (0, 1], is called
-/// right. Empty if no event is right.
+/// Returns the highest threshold on scores at which at least the share `recall` of the right events, in (0, 1], is
+/// called right. Empty if no event is right.
 std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, double recall);
 
 /// Returns the receiver operating characteristic: points (share of wrong events called right, share of right events
-/// called right), from (0, 0) to (1, 1); equal scores make one step. Empty without a right or a wrong event.
+/// called right), from (0, 0) to (1, 1). Events with equal scores make one step. Empty if there is no right event or no
+/// wrong event.
 std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> events);
 
-/// Returns the point of the ROC at which the recogniser worked when it called the events. Empty without a right or a
+/// Returns the point of the ROC that belongs to the recogniser's own calls. Empty if there is no right event or no
 /// wrong event.
 std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedEvent> events);
 
-/// Returns the largest F1 that any threshold on the scores reaches, not only the one that was used. Empty without a
-/// right or a wrong event.
+/// Returns the largest F1 score over all thresholds on the scores. Empty if there is no right event or no wrong event.
 std::optional<double> BestF1(std::span<const JudgedEvent> events);
 
 /// A value and its 95 % interval.
@@ -63,23 +63,24 @@ struct WithInterval {
   double value = 0, low = 0, high = 0;
 };
 
-/// Returns the area under the ROC of all events with an interval over the groups that they came from: jackknife, one
-/// group left out at a time (Efron and Tibshirani 1993, chapter 11), ± 1.96 standard errors, clipped to [0, 1].
-/// `groups` holds the group of each event. Empty without an area, or if one group holds all right or all wrong events.
+/// Returns the area under the ROC of all events, with a jackknife interval that leaves out one group at a time (Efron
+/// and Tibshirani 1993, chapter 11): ± 1.96 standard errors, clipped to [0, 1]. `groups` holds the group of each event.
+/// Empty if there is no area, or if one group contains all right or all wrong events.
 std::optional<WithInterval> JackknifedAuc(std::span<const JudgedEvent> events, std::span<const int> groups);
 
-/// A waiting time: until an event happened, or until observation stopped.
+/// A waiting time. It ends when an event happens or when the observation stops.
 struct Wait {
   double seconds = 0;
   bool happened = false;  ///< false: censored, the wait is longer than `seconds`, which may be infinite
 };
 
-/// Returns the estimated share still waiting (Kaplan and Meier 1958): a first point (the earliest time, 1), then (time,
-/// share) after each time at which a wait ended. A censored wait counts as at risk up to and including its time. Empty
-/// without waits.
+/// Returns the Kaplan–Meier estimate (1958) of the share still waiting. The first point is (the earliest time, 1); then
+/// comes (time, share) after each time at which a wait ended. A censored wait counts as at risk up to and including its
+/// time. Empty without waits.
 std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits);
 
-/// Returns the median waiting time: the first time at which the survival curve is ½ or less. Empty if it never is.
+/// Returns the median waiting time: the first time at which the survival curve is ½ or less. Empty if the curve never
+/// falls to ½.
 std::optional<double> KaplanMeierMedian(std::span<const Wait> waits);
 
 }  // namespace etude

@@ -11,12 +11,13 @@
 
 namespace etude {
 
-/// Reads one object of an answer by key and type, as `Fields` reads a scenario: keeps the first complaint and goes on
-/// with defaults, so that reading code is a plain list of keys. Complaints name the position within the answer:
-/// "events[2].score: \"high\" is not a number".
+/// Reads one object of an answer by key and type. It keeps the first error and goes on with defaults, so that the
+/// calling code is a plain list of keys. (`Fields` does the same for scenarios.) Errors name the position within the
+/// answer: "events[2].score: \"high\" is not a number".
 class AnswerFields {
  public:
-  /// Reads the object `json`, which must outlive this. `path` is its position in the answer; "" is the answer itself.
+  /// Reads the object `json`, which must outlive this object. `path` is the position of `json` in the answer; "" = it
+  /// is the answer itself.
   explicit AnswerFields(const Json& json, std::string path = "");
 
   /// Returns true if the key exists, and marks it as known.
@@ -24,7 +25,7 @@ class AnswerFields {
   /// Returns the value of the key, of any type; null if it is absent.
   const Json* Raw(std::string_view key);
   int Integer(std::string_view key, int lowest, int highest);
-  /// Reads an integer, or nothing if the value is null. The key must exist.
+  /// Reads an integer. Returns nothing if the value is null. The key must exist.
   std::optional<int> NullableInteger(std::string_view key, int lowest, int highest);
   double Number(std::string_view key, Range range);
   bool Boolean(std::string_view key, bool fallback);
@@ -32,7 +33,8 @@ class AnswerFields {
   std::string Text(std::string_view key, std::size_t longest);
   std::string Choice(std::string_view key, const std::vector<std::string>& allowed, std::string_view fallback);
   std::string RequiredChoice(std::string_view key, const std::vector<std::string>& allowed);
-  /// Reads the array of `key`, with a length in the range. Returns an empty one if the key is absent and `fewest` is 0.
+  /// Reads the array of `key`, whose length must be in the range. Returns an empty array if the key is absent and
+  /// `fewest` is 0.
   const Json& List(std::string_view key, std::size_t fewest, std::size_t most);
 
   /// Returns the path of a key within the answer: "events[2].score".
@@ -42,7 +44,7 @@ class AnswerFields {
 
   /// Records an error found by the caller; only the first error is kept.
   void Note(const Error& error);
-  /// Returns the first complaint, or an error that names an unknown key, or success.
+  /// Returns the first error, or else an error for the first unknown key. Succeeds if there is neither.
   Result<void> Finish();
 
  private:
@@ -57,13 +59,13 @@ class AnswerFields {
   std::optional<Error> error_;
 };
 
-/// Returns a value of an answer as complaints show it: its JSON, shortened.
+/// Returns a value of an answer as error messages show it: its JSON, shortened.
 std::string ShowJson(const Json& json);
 
-/// Reads an integer in the range; anything else is an error that names `path`.
+/// Reads an integer in the range. Fails on any other value; the error names `path`.
 Result<int> ReadInteger(const Json& json, const std::string& path, int lowest, int highest);
-/// Reads the numbers of an array. Another count than `count`, and values that are not finite numbers in `range`, are
-/// errors that name `path`.
+/// Reads an array of `count` numbers. Fails if the count differs, or if a value is not a finite number in `range`; the
+/// error names `path`.
 Result<std::vector<double>> ReadNumbers(const Json& json, const std::string& path, std::size_t count, Range range);
 
 }  // namespace etude

@@ -21,7 +21,7 @@ constexpr double kKnotSeconds = 0.5;
 /// The root mean square over time of a cubic B-spline whose knots have a standard deviation of 1.
 constexpr double kSplineDeviation = 0.692;
 
-/// The random turn of a limb about its upper joint, in addition to its parent's turn.
+/// The random turn of a limb about its upper joint. It is added to the turn of the limb's parent.
 struct LimbTurn {
   Role child;
   double turn_deg = 0;  ///< standard deviation about each of three axes
@@ -42,8 +42,8 @@ glm::dmat3 TurnBy(const glm::dvec3& turn) {
   return angle > 0 ? AxisRotation(turn / angle, angle) : glm::dmat3(1);
 }
 
-/// Returns the axis about which the limb to `child` bends relative to its parent, with the sine of the angle between
-/// them as its length.
+/// Returns the axis about which the limb to `child` bends relative to its parent limb. The length of the axis is the
+/// sine of the angle between the two limbs.
 glm::dvec3 BendAxis(const BodyPose& pose, Role child) {
   const Role upper = *ParentOf(child);
   const glm::dvec3 above = pose[upper] - pose[*ParentOf(upper)], limb = pose[child] - pose[upper];
@@ -128,17 +128,17 @@ void Disguise::ApplyTo(std::vector<BodyPose>& window, double rate_hz) const {
     for (std::size_t i = 0; i < turns.size(); ++i) {
       own[Index(kTurns[i].child)] = turns[i].At(static_cast<double>(k) / rate_hz, old);
     }
-    // Apply the turns down the body: each limb also takes its parent's.
+    // Apply the turns from the pelvis outwards. Each limb also turns with its parent.
     BodyPose& pose = window[k];
     for (const Bone& bone : AllBones()) {
-      // The pelvis is rigid with both hips, the chest with both shoulders.
+      // The pelvis is rigid with both hips, and the chest with both shoulders.
       const bool is_hip = bone.child == kLeftHip || bone.child == kRightHip;
       glm::dmat3& turn = turned[Index(bone.child)];
       turn = turned[Index(is_hip ? kSpine : bone.parent)];
       if (own[Index(bone.child)]) turn = turn * *own[Index(bone.child)];
       pose[bone.child] = pose[bone.parent] + turn * (old[bone.child] - old[bone.parent]);
     }
-    // Keep the height of the lowest joint, then scale.
+    // Restore the height of the lowest joint, then scale the body.
     const glm::dvec3 onto_floor(0, LowestOf(old) - LowestOf(pose), 0);
     for (glm::dvec3& joint : pose.joints) joint = scale_ * (joint + onto_floor);
   }

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// A random function of time with mean 0 and standard deviation 1. Half of its variance is a constant; the rest is a
-/// cubic spline with a new random knot every half second, so the function is twice continuously differentiable.
+/// A random function of time with mean 0 and standard deviation 1. Half of its variance comes from a constant. The rest
+/// is a cubic spline with a new random knot every half second, so the function is twice continuously differentiable.
 class WanderingDice {
  public:
   WanderingDice(const WorldKey& key, std::string_view purpose);
@@ -23,25 +23,26 @@ class WanderingDice {
   std::vector<double> knots_;
 };
 
-/// Returns the pose at a fractional `frame`, interpolated linearly between two frames of the clip; past its end the
-/// clip continues from its beginning.
+/// Returns the pose at a fractional `frame`, interpolated linearly between two frames of the clip. After its last
+/// frame, the clip continues with its first one.
 BodyPose PoseOfClip(std::span<const BodyPose> clip, double frame);
 
-/// Changes the clip of a secret world, because a program that knows all public clips could recognise one and would know
-/// its truth *(ours)*. The body is scaled by up to ± 1/12 and plays the clip up to a seventh slower, starting between
-/// two frames. Every limb, with all limbs attached to it, is turned by random angles that vary in time: about 3° in
-/// hips and trunk, 6° in arms. Limb lengths change by the scale alone; elbows and knees bend about a fifth more or less
-/// and never hyperextend; the lowest joint keeps its height. Worlds of plain seeds are not disguised.
+/// Changes the clip of a secret world *(ours)*. Otherwise, a program that knows all public clips could recognise the
+/// clip and would know the truth. The body is scaled by up to ± 1/12. The clip is played up to a seventh slower and
+/// starts between two frames. Every limb, with all limbs attached to it, is turned by random angles that vary over
+/// time: about 3° in hips and trunk, 6° in arms. Limb lengths change by the scale alone. Elbows and knees bend about a
+/// fifth more or less and never hyperextend. The lowest joint keeps its height. Worlds of plain seeds are not
+/// disguised.
 class Disguise {
  public:
-  /// `key.scenario` must outlive this.
+  /// `key.scenario` must outlive this object.
   explicit Disguise(const WorldKey& key);
 
   double scale() const { return scale_; }
-  /// Returns the fractional frame of the clip that is played as frame `count` of a window. Without a disguise it would
-  /// be `start` + `count` · `step`; it is at most `last`.
+  /// Returns the fractional frame of the clip that is played as frame `count` of a window. Without a disguise this is
+  /// `start` + `count` · `step`. The result is at most `last`.
   double FrameOf(double start, double step, std::size_t count, double last) const;
-  /// Turns the limbs of a window and scales it.
+  /// Turns the limbs in all frames of a window, and scales the body.
   void ApplyTo(std::vector<BodyPose>& window, double rate_hz) const;
 
  private:

@@ -11,15 +11,15 @@
 
 namespace etude {
 
-/// The data that all worlds of one condition share, in a task that judges files.
+/// The data that all worlds of one condition share in a task that judges files.
 template <typename Options, typename Method>
 struct FileStudy {
   Options options;
   std::vector<Method> methods;
-  std::vector<JudgedFiles> files;  ///< one a trial
+  std::vector<JudgedFiles> files;  ///< one per trial
   OpenOptions opening;
 
-  /// Takes the files from the input. Fails if one of them lacks an answer for some method.
+  /// Copies the files from the input. Fails if the number of a world's answers differs from the number of methods.
   Result<void> TakeFiles(const TaskInput& input) {
     files.assign(input.files.begin(), input.files.end());
     if (input.opening != nullptr) opening = *input.opening;
@@ -32,10 +32,10 @@ struct FileStudy {
   }
 };
 
-/// Returns the error of functions that only tasks with outside programs have.
+/// Returns the error of functions that a task without problems for outside programs does not have.
 inline tl::unexpected<Error> FailOfFileTask() { return Fail({}, "a task that judges files asks no program"); }
 
-/// A world of a task that judges files: no problem is sent to a program.
+/// A world of a task that judges files. It sends no problem to a program.
 class FileWorld : public TaskWorld {
  public:
   Result<Payload> MakeProblem() final { return FailOfFileTask(); }
@@ -43,8 +43,8 @@ class FileWorld : public TaskWorld {
   Result<CellResult> Judge(const Json& /*answer*/) final { return FailOfFileTask(); }
 };
 
-/// A task that judges files. `World` is constructed from the study, a world's files, and whether its cells keep their
-/// motion.
+/// A task that judges files. The constructor of `World` receives the study, a world's files, and true if its cells keep
+/// their motion.
 template <typename Study, typename World>
 class FileTask final : public Task {
  public:

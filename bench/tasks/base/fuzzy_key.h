@@ -10,14 +10,14 @@ namespace etude {
 
 constexpr const char* kFuzzyKey = "fuzzy";
 
-/// The key `fuzzy` of a task that grades poses: `builtin:NAME` or a file.
+/// Returns the key `fuzzy` of a task that grades poses. Its value is `builtin:NAME` or a file.
 KeyInfo FuzzyKey();
 template <typename Options>
 Field<Options> FuzzyField() {
   return {FuzzyKey(), [](Fields& condition, Options&) { condition.Raw(kFuzzyKey); }};
 }
 
-/// Returns the fuzzy system that the condition names; paper A's if it names none.
+/// Returns the fuzzy system that the condition names, or paper A's if it names none.
 Result<FuzzySystem> FuzzySystemOf(const TaskInput& input);
 
 }  // namespace etude

@@ -13,11 +13,11 @@ namespace etude {
 /// Encodes a list of poses (EncodePose), one per frame.
 Json EncodePoses(std::span<const BodyPose> poses);
 
-/// Describes the order of the sixty numbers: {"joints": [twenty names], "parents": [null, "hip_centre", …]}.
+/// Describes the order of the sixty numbers of a pose: {"joints": [twenty names], "parents": [null, "hip_centre", …]}.
 Json DescribeBody();
 
-/// Reads a pose. Another count than sixty, and coordinates that are not finite or exceed a kilometre, are errors that
-/// name `path` ("between[3]").
+/// Reads a pose. Fails if there are not sixty numbers, or if a coordinate is not finite or exceeds a kilometre. The
+/// error names `path` ("between[3]").
 Result<BodyPose> ReadPose(const Json& json, const std::string& path);
 
 }  // namespace etude

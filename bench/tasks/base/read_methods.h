@@ -9,9 +9,9 @@
 
 namespace etude {
 
-/// Reads a task's methods with the keys of `table`, each on top of `start`, which holds the settings that the condition
-/// gives to all methods. `finish` completes a method whose keys are valid. Returns the first complaint about the
-/// condition or a method, if there is one.
+/// Reads a task's methods with the keys of `table`. Each method begins as a copy of `start`, which holds the settings
+/// that the condition gives to all methods. `finish` completes a method whose keys are valid. Returns the first error
+/// of the condition or of a method.
 template <typename Method>
 Result<std::vector<Method>> ReadMethods(TaskInput& input, const std::string& task, const FieldTable<Method>& table,
                                         const Method& start = {},

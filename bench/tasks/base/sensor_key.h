@@ -2,7 +2,8 @@
 
 namespace etude {
 
-/// The key of a condition that names the sensor of skeletons: a preset, a sensor file (docs/sensor.md), or cameras.
+/// The key of a condition that names the sensor of skeletons. Its value is a preset, a sensor file (docs/sensor.md), or
+/// cameras.
 constexpr const char* kSensorKey = "sensor";
 constexpr const char* kCameraSensor = "cameras";
 

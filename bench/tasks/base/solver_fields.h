@@ -7,16 +7,16 @@
 
 namespace etude {
 
-/// Returns the solver of a method that names none: gauss-newton.
+/// Returns the solver for a method that does not name one: gauss-newton.
 const IkSolver* DefaultIkSolver();
 
 /// Returns the default options of solvers with at most `most_steps` steps.
 IkOptions IkBudget(int most_steps);
 
-/// Returns the names of the solvers that have `weights` and `refresh`.
+/// Returns the names of the solvers that have the settings `weights` and `refresh`.
 std::vector<std::string> WeighingSolvers();
 
-/// Complains of the former name of a solver, and says its present name.
+/// Adds an error if the method names a solver by its former name. The error states the present name.
 void RefuseFormerName(Fields& method);
 
 /// Declares a method's `solver` and the settings of that solver: `weights`, `refresh` and its own.
@@ -44,7 +44,7 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
   return rows;
 }
 
-/// Declares a method's `tolerance_deg`; `meaning` says from which pose it is measured.
+/// Declares a method's `tolerance_deg`. `meaning` says from which pose the tolerance is measured.
 template <typename Method>
 Field<Method> ToleranceField(IkOptions Method::*options, std::string meaning) {
   return Field<Method>::Angle("tolerance_deg", Path(options, &IkOptions::angle_change_tolerance), {0, 360},
@@ -59,7 +59,7 @@ Field<Options> SweepsField(IkOptions Options::*options, std::string meaning) {
                                 std::move(meaning));
 }
 
-/// Reads `stop_at`: the accuracy at which solvers stop, practical by default.
+/// Reads `stop_at`, the accuracy at which solvers stop. The default is the practical accuracy.
 void ReadIkGoals(Fields& condition, IkOptions& options);
 template <typename Options>
 Field<Options> GoalsField(IkOptions Options::*options) {

@@ -20,66 +20,67 @@
 
 namespace etude {
 
-/// An outside program that takes one seat of a world's loop and is asked step by step (docs/outside-methods.md).
+/// An outside program that takes one seat of a world's loop and is asked in every step (docs/outside-methods.md).
 class LiveProgram {
  public:
   virtual ~LiveProgram() = default;
   /// Begins a session. Returns false if the program has failed.
   virtual bool Begin(const Payload& session) = 0;
   /// Asks for the next step. Returns the answer, an object whose numbers are finite. Returns null if the program has
-  /// failed or gave no answer: the session is then over, and the caller of RunWith knows the reason.
+  /// failed or gave no answer; the session is then over, and the caller of RunWith knows the reason.
   virtual JsonPtr Step(const Payload& step) = 0;
 };
 
-/// One world, built once, in which methods run one after the other. A method's answer depends on the world and the
-/// method, never on which methods ran before. Stages that methods share are computed once.
+/// One world, built once, in which methods run one after the other. A method's answer depends on the world and on the
+/// method, never on the methods that ran before. Stages that methods share are computed once.
 class TaskWorld {
  public:
   virtual ~TaskWorld() = default;
 
-  /// Returns why no method can run here ("clip x has no labelled moves"), or nothing. With a reason every cell is
-  /// skipped.
+  /// Returns the reason why no method can run in this world ("clip x has no labelled moves"); every cell is then
+  /// skipped. Returns nothing if methods can run.
   virtual std::optional<std::string> WhySkipped() const { return std::nullopt; }
 
-  /// Computes the expensive stages that several built-in methods share, so that their time counts for none of them.
+  /// Computes the expensive stages that several built-in methods share, so that their time does not count for any
+  /// method.
   virtual void PrepareShared() {}
 
   /// Runs the built-in method with this index in TaskInput::methods.
   virtual CellResult Run(std::size_t method) = 0;
-  /// Runs a method with `program` in the seat that the method leaves open (TaskKind::seats). An answer of the wrong
-  /// shape, size or range is an Error, as in Judge. If the program has failed, the result is ignored.
+  /// Runs a method with `program` in the seat that the method leaves open (TaskKind::seats). Fails, like Judge, if an
+  /// answer has a wrong shape, size or range. If the program has failed, the result is ignored.
   virtual Result<CellResult> RunWith(LiveProgram& /*program*/, std::size_t /*method*/) {
     return Fail({}, "worlds of this task have no loop");
   }
 
-  /// Returns the setting of this world alone, which outside methods get in place of Task::Setting if the task
-  /// HasOwnSettings.
+  /// Returns the setting of this world alone. If the task HasOwnSettings, outside methods receive it in place of
+  /// Task::Setting.
   virtual Result<Payload> MakeSetting() { return Fail({}, "worlds of this task share a setting"); }
-  /// Returns the problem that outside methods are given in this world, in addition to the setting.
+  /// Returns the problem of this world. Outside methods receive it after the setting.
   virtual Result<Payload> MakeProblem() = 0;
-  /// Returns the truth of this world, which `etude export` writes separately from the problem.
+  /// Returns the truth of this world. `etude export` writes it separately from the problem.
   virtual Result<Payload> MakeTruth() = 0;
-  /// Makes the pictures of the truth (depth, labels), if the task has any, and passes each to `keep`.
+  /// Makes the pictures of the truth (depth, labels), if the task has any. Passes each picture to `keep`.
   virtual Result<void> MakeTruePictures(const AttachmentSink& /*keep*/) { return {}; }
-  /// Scores an answer as if a built-in method had given it. An answer of the wrong shape, size or range is an Error
-  /// that names the position in the answer (e.g. "angles[3]"), the value found, and what is allowed.
+  /// Scores an outside method's answer by the rules for built-in methods. Fails if the answer has a wrong shape, size
+  /// or range. The error names the position in the answer (e.g. "angles[3]"), the value found, and what is allowed.
   virtual Result<CellResult> Judge(const Json& answer) = 0;
 
-  /// Returns pictures of what the sensors see, and of how each of their effects changes it.
+  /// Returns a sheet with pictures of what the sensors see and of how each camera effect changes them.
   virtual Result<SensorSheet> MakeSensorSheet() { return Fail({}, "worlds of this task hold no pictures"); }
 };
 
-/// One scenario under one condition (one value of each swept parameter). It can build the world of any trial.
+/// One scenario under one condition (one value of each swept parameter). A task can build the world of any trial.
 class Task {
  public:
   virtual ~Task() = default;
 
-  /// Builds the world of `key`, a pure function of its arguments. If `keeps_motion`, cells fill CellResult::recording.
-  /// The task must outlive its worlds.
+  /// Builds the world of `key`, which is a pure function of the arguments. If `keeps_motion`, cells fill
+  /// CellResult::recording. The task must outlive its worlds.
   virtual std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const = 0;
 
-  /// Returns the names of the clips that this trial was drawn from, in the order of their roles (clip left, clip
-  /// entered). Empty if a world uses no clip, or all of them.
+  /// Returns the names of the clips from which this trial was drawn, in the order of their roles (clip left, clip
+  /// entered). Empty if a world uses no clip, or uses all of them.
   virtual std::vector<std::string> ClipsOf(const WorldKey& key) const = 0;
 
   /// Returns the data that all problems of this condition share (the body's tree, the library of clips, …). Outside
@@ -90,7 +91,7 @@ class Task {
   virtual bool HasOwnSettings() const { return false; }
 
   /// Returns the value of a metric for a method without an answer, if the metric defines one: 0 for a solved share,
-  /// twice the limit for a penalised cost (PAR-2). Returns nothing for all other metrics: their value is missing.
+  /// twice the limit for a penalised cost (PAR-2). Returns nothing for all other metrics; their value is then missing.
   virtual std::optional<double> ValueOfFailure(std::string_view /*metric*/) const { return std::nullopt; }
 };
 
@@ -98,12 +99,12 @@ struct ClipLibrary;
 struct LabelledStreams;
 struct OpenOptions;
 
-/// One world of a task that judges files: the answer of each method, and a truth if the task has one.
+/// One world of a task that judges files: the answer of each method, and the truth, if the task has truths.
 struct JudgedFiles {
   std::string name;   ///< identifies the world; it does not depend on which other files exist
   std::string unit;   ///< the sampling unit to which the world belongs, such as a person; "" = its name
   std::string truth;  ///< a reference to a motion (io/clips/references.h); "" = the task knows no truths
-  std::vector<std::string> answers;  ///< also references, by method; "" = the method has none of this name
+  std::vector<std::string> answers;  ///< also references, by method; "" = the method has no answer of this name
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 
@@ -118,42 +119,44 @@ struct TaskInput {
   Fields& condition;              ///< the scenario's mapping with swept values inserted; the task reads its own keys
   std::span<const Node> methods;  ///< each a mapping with at least `name`
   const ClipLibrary& clips;
-  /// The texts of the files that the condition names, by key (ValueKind::names_file).
+  /// The texts of the files that the condition names, by the condition's key (ValueKind::names_file).
   std::map<std::string, std::string> texts = {};
   /// The recordings that replace simulated people, if the scenario has `streams` or `labels`
-  /// (engine/teaching/labelled_streams.h); they outlive the task.
+  /// (engine/teaching/labelled_streams.h); else null. They outlive the task.
   const LabelledStreams* recordings = nullptr;
-  /// The worlds of a task that judges files (TaskKind::find_files), one a trial, and how their files are opened.
+  /// The worlds of a task that judges files (TaskKind::find_files), one per trial, and the options for opening their
+  /// files.
   std::span<const JudgedFiles> files = {};
   const OpenOptions* opening = nullptr;
 };
 
-/// A kind of task: one per folder of bench/tasks.
+/// A kind of task. Each folder of bench/tasks defines one.
 struct TaskKind {
   std::string name;
   std::string question;                      ///< one line, for `etude list`
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
-  /// The metric that says how well a cell reached the task's goal: solved, recovered, clean, ….
+  /// The metric that says how well a cell reached the task's goal (solved, recovered, clean, …).
   std::string success;
-  std::vector<std::string> metrics;          ///< all metrics that its cells report, by a value or a reason
+  std::vector<std::string> metrics;          ///< all metrics that its cells report, by a value or by a reason
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< its keys in a scenario
-  std::vector<KeyInfo> method_keys;     ///< its keys in a method, beside `name`
-  /// The seats of its loop that a program may take, named by the method's key `seat`. The program is then asked step by
-  /// step, and the method uses the task's keys for everything else.
+  std::vector<KeyInfo> method_keys;     ///< its keys in a method, in addition to `name`
+  /// The seats of the task's loop that a program may take; the method's key `seat` names one. The program is then asked
+  /// step by step. The task's keys configure everything else of the method.
   std::vector<std::string> seats = {};
-  bool has_problems = true;      ///< whether a program may also be asked one question per world, without a seat
-  bool uses_clips = true;        ///< whether its worlds use a scenario's `clips`
-  bool uses_recordings = false;  ///< … or of its `streams`
-  /// The units that its worlds are drawn from: the default first, then others that a scenario may name; at least one.
+  bool has_problems = true;      ///< true: a program without a seat may be asked one question per world
+  bool uses_clips = true;        ///< true: its worlds use a scenario's `clips`
+  bool uses_recordings = false;  ///< true: its worlds use a scenario's `streams`
+  /// The units from which worlds are drawn. The first is the default; a scenario may name one of the others. At least
+  /// one.
   std::vector<SamplingUnit> units = {SamplingUnit::kWorld};
-  /// For a task that judges files instead of making worlds: finds the files, once, when a run is set up. Such a task
-  /// draws no random numbers and asks no program. `texts` are as in TaskInput. Null if the task makes its worlds.
+  /// Finds the files of a task that judges files, once, when a run is set up. Such a task draws no random numbers and
+  /// asks no program. `texts` are those of TaskInput. Null if the task makes its worlds.
   Result<FoundFiles> (*find_files)(const Node& condition, std::span<const Node> methods,
                                    const std::map<std::string, std::string>& texts) = nullptr;
   std::vector<std::string> keys_of_files = {};  ///< the keys of the condition that only `find_files` reads
-  /// Returns, for the manifest, the software that its results depend on in addition to the build: "4.5 (Core Profile)
-  /// Mesa 22.3.6".
+  /// Returns the software that the task's results depend on in addition to the build, for the manifest: "4.5 (Core
+  /// Profile) Mesa 22.3.6". Null if there is none.
   std::string (*platform)() = nullptr;
 };
 

@@ -4,32 +4,32 @@
 
 namespace etude {
 
-// The kinds of tasks; each is made in its own folder, `NAME_task.cc`.
+// These functions return the kinds of tasks. Each kind is made in its own folder, in the file `NAME_task.cc`.
 
-/// How smoothly does a body get from one clip into another on request? One world: two clips of the library and the time
-/// at which the second is requested.
+/// Task transition asks how smoothly a body gets from one clip into another on request. A world has two clips of the
+/// library and the time at which the second one is requested.
 TaskKind MakeTransitionTaskKind();
-/// Does the coach notice which moves were performed right, and how soon? One world: a learner's session of built-in
-/// moves, right and wrong, as a Kinect-like sensor saw it.
+/// Task detection asks if the coach notices which moves were performed right, and how soon. A world is a learner's
+/// session of right and wrong performances of built-in moves, seen by a Kinect-like sensor.
 TaskKind MakeDetectionTaskKind();
-/// Inverse kinematics on paper B's body: how close do the end effectors come to their targets, and how far are the
-/// hidden angles off, starting from a disturbed pose (paper B, chapter 5)?
+/// Task ik is inverse kinematics on paper B's body, starting from a disturbed pose. It measures how close the end
+/// effectors come to their targets, and the errors of the hidden angles (paper B, chapter 5).
 TaskKind MakeIkTaskKind();
-/// Inverse kinematics along clips: does a solver keep up with a motion if it has a limited number of steps per frame
-/// and starts at its answer to the frame before?
+/// Task tracking is inverse kinematics along clips. It measures if a solver keeps up with a motion when it has a
+/// limited number of steps per frame and starts at its answer to the previous frame.
 TaskKind MakeTrackingTaskKind();
-/// How close does the skeleton from two cameras come to the truth? Paper B's whole pipeline on rendered pictures of a
-/// clip.
+/// Task capture measures how close the skeleton from two cameras comes to the truth. It runs paper B's whole pipeline
+/// on rendered pictures of a clip.
 TaskKind MakeCaptureTaskKind();
-/// How well does a distance measure show whether two poses look alike? One world: one of eight authored pairs of poses,
-/// or some hundreds of pairs of frames of two clips.
+/// Task pose-distance measures how well a distance shows if two poses look alike. A world is one of eight authored
+/// pairs of poses, or some hundreds of pairs of frames of two clips.
 TaskKind MakePoseDistanceTaskKind();
 TaskKind MakeCoachTaskKind();
-/// How close do the motions of files come to their truths in other files?
+/// Task evaluation measures how close motions in files come to their truths in other files.
 TaskKind MakeEvaluationTaskKind();
-/// Could a person have moved as the motions of files do?
+/// Task plausibility measures if a person could have moved like the motions in files.
 TaskKind MakePlausibilityTaskKind();
-/// How well are hidden frames of a motion filled in? One world: a window of a file.
+/// Task inbetween measures how well hidden frames of a motion are filled in. A world is a window of a file.
 TaskKind MakeInbetweenTaskKind();
 
 }  // namespace etude

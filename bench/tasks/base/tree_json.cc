@@ -16,7 +16,7 @@ constexpr std::array kAxisNames = {"x", "y", "z"};
 
 Json ToJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-/// Encodes the rotation by rows.
+/// Encodes a rotation as the list of its three rows.
 Json ToJson(const glm::dmat3& rotation) {
   const glm::dmat3 rows = glm::transpose(rotation);
   return {ToJson(rows[0]), ToJson(rows[1]), ToJson(rows[2])};

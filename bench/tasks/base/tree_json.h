@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// Describes a body to outside methods, for inverse kinematics. Metres, degrees, Y up, right-handed. A rotation is a
-/// list of its three rows and transforms vectors from the child's frame to the parent's.
+/// Describes a body to outside methods, for inverse kinematics. Units are metres and degrees; Y is up; the frame is
+/// right-handed. A rotation is a list of its three rows and transforms vectors from the child's frame to the parent's.
 ///
 /// The body as a kinematic tree:
 ///
@@ -29,13 +29,13 @@ namespace etude {
 ///     p_i = p_a + R_a · offset_m
 ///     R_i = R_a · rest · Rx(q₀) · Ry(q₁) · Rz(q₂)
 ///
-/// where Rx, Ry, Rz turn about x, y, z by the right-hand rule, and q₀… are the joint's angles: one for each of its
-/// `axes`, from `first_angle` on; the others are zero. An effector of joint i is at p_i + R_i · offset_m, its rotation
-/// is R_i.
+/// where Rx, Ry, Rz turn about x, y, z by the right-hand rule. The joint has one angle for each of its `axes`, from
+/// index `first_angle` on; the angles about other axes are zero. An effector of joint i is at p_i + R_i · offset_m and
+/// has the rotation R_i.
 Json DescribeBodyTree(const KinematicTree& tree);
 
-/// Describes when built-in solvers stop: {"max_steps": 200, "position_goal_cm": 0.1, "orientation_goal_deg": 0.1}; the
-/// orientation goal holds for every single axis of an effector.
+/// Describes when built-in solvers stop: {"max_steps": 200, "position_goal_cm": 0.1, "orientation_goal_deg": 0.1}. The
+/// orientation goal applies to each axis of an effector.
 Json DescribeGoals(const IkOptions& options);
 
 /// Describes the pose of the root: {"position_m": [0, 0, 0], "rotation": [[…], […], […]]}.
@@ -45,13 +45,14 @@ Json DescribeRoot(const TreeState& state);
 /// […]]}, …].
 Json DescribeTargets(const KinematicTree& tree, std::span<const EffectorTarget> targets);
 
-/// InDegrees encodes radians as a list of degrees. ReadDegrees reads a list of `count` numbers back; another count, or
-/// more than a million degrees, is an error that names `path`.
+/// InDegrees encodes angles in radians as a list of degrees. ReadDegrees reads a list of `count` numbers back. It
+/// fails, naming `path`, if the count differs or an angle exceeds a million degrees.
 Json InDegrees(std::span<const double> angles);
 Result<std::vector<double>> ReadDegrees(const Json& json, const std::string& path, std::size_t count);
 
-/// Says which limits are broken: "2 angles outside the limits, angles_deg[4] the farthest, by 3.2°"; "" if no limit is
-/// exceeded by more than 10⁻⁶ degrees (rounding). `path` is the position of the angles in the answer: "angles_deg".
+/// Describes the limits that are exceeded: "2 angles outside the limits, angles_deg[4] the farthest, by 3.2°". Returns
+/// "" if no limit is exceeded by more than 10⁻⁶ degrees (rounding). `path` is the position of the angles in the answer:
+/// "angles_deg".
 std::string DescribeBrokenLimits(const KinematicTree& tree, std::span<const double> angles, std::string_view path);
 
 }  // namespace etude

@@ -19,7 +19,7 @@ constexpr std::array kNames = {
     "left_heel",      "right_heel", "left_hand",    "right_hand"};
 static_assert(kNames.size() == kLandmarkCount);
 
-/// COCO's own list of limbs, keypoints counted from one; then the head, the feet and the hands.
+/// The limbs in COCO's own list, whose keypoints are counted from one, and then the head, the feet and the hands.
 constexpr int kSkeleton[][2] = {{16, 14}, {14, 12}, {17, 15}, {15, 13}, {12, 13}, {6, 12},  {7, 13},  {6, 7},
                                 {6, 8},   {7, 9},   {8, 10},  {9, 11},  {2, 3},   {1, 2},   {1, 3},   {2, 4},
                                 {3, 5},   {4, 6},   {5, 7},   {18, 19}, {16, 21}, {17, 22}, {10, 27}, {11, 28}};
@@ -30,13 +30,13 @@ Json Category() {
   return {{"id", 1}, {"name", "person"}, {"supercategory", "person"}, {"keypoints", kNames}, {"skeleton", skeleton}};
 }
 
-/// Returns the annotation of one frame; nothing if no keypoint is marked.
+/// Returns the COCO annotation of one frame; nothing if no keypoint is marked.
 std::optional<Json> Annotation(std::size_t frame, const Marks& marks) {
   constexpr double kOurPixelCentre = 0.5;
   Json keypoints = Json::array();
   int marked = 0;
   glm::dvec2 low(1e9), high(-1e9);
-  // Keypoints as (u, v, 2), or three zeros if not marked; COCO's pixel centres are whole numbers.
+  // Write each keypoint as (u, v, 2), or as three zeros if it is not marked. In COCO, pixel centres are whole numbers.
   const SeenPerson person = PersonOf(marks);
   for (const Landmark landmark : FindKeypointLayout("halpe_26_hands")->landmarks) {
     if (person[landmark].confidence == 0) {
@@ -52,7 +52,7 @@ std::optional<Json> Annotation(std::size_t frame, const Marks& marks) {
     ++marked;
   }
   if (marked == 0) return std::nullopt;
-  // The bounding box of the marked keypoints.
+  // Compute the bounding box of the marked keypoints.
   const glm::dvec2 size = high - low;
   return Json{{"id", frame + 1},
               {"image_id", frame + 1},
@@ -94,7 +94,7 @@ Result<Mask> ReadCocoMask(const Json& json, const std::string& path, int width, 
   int done = 0;
   bool is_person = false;
   for (std::size_t run = 0; run < counts.size(); ++run, is_person = !is_person) {
-    // A run may be at most as long as the rest of the picture.
+    // A run cannot be longer than the rest of the picture.
     ASSIGN_OR_RETURN(const int count, ReadInteger(counts[run], fields.PathOf("counts", run), 0, pixels - done));
     for (const int end = done + count; done < end; ++done) mask.At(done / height, done % height) = is_person;
   }

@@ -31,7 +31,7 @@ Json ToJson(const LimbLengths& lengths) {
   return json;
 }
 
-/// Returns the pairs as the YAML file that `ReadPointPairs` reads.
+/// Returns the calibration points as the text of a YAML file that `ReadPointPairs` reads.
 std::string PairsFile(const CaptureWorld& world, const std::vector<std::vector<PointPair>>& pairs) {
   constexpr double kOurPixelCentre = 0.5;
   std::string text;
@@ -61,7 +61,7 @@ Json ToJson(const Marks& marks) {
   return {{"strokes", std::move(strokes)}, {"discs", std::move(discs)}};
 }
 
-/// Encodes the marks by [camera][frame].
+/// Encodes the marks as [camera][frame]. A frame that is not `marked` is null.
 Json ToJson(const Observation& observation, const std::vector<bool>& marked) {
   Json cameras = Json::array();
   for (const std::vector<Marks>& frames : observation.marks) {
@@ -71,13 +71,14 @@ Json ToJson(const Observation& observation, const std::vector<bool>& marked) {
   return cameras;
 }
 
-/// Returns the name of a picture's file: "camera-1-0042.png"; cameras are counted from one.
+/// Returns the name of a picture's file: "camera-1-0042.png", or "camera-1-background.png" without a frame. Cameras are
+/// counted from one.
 std::string PictureName(std::size_t camera, std::optional<std::size_t> frame, const char* extension) {
   if (!frame) return fmt::format("camera-{}-background.{}", camera + 1, extension);
   return fmt::format("camera-{}-{:04}.{}", camera + 1, *frame, extension);
 }
 
-/// Simulates depth cameras in the place of one camera.
+/// Simulates a first and a second Kinect's depth camera at the place of one camera.
 class DepthCameras {
  public:
   DepthCameras(const WorldKey& key, std::size_t camera)
@@ -93,7 +94,7 @@ class DepthCameras {
   RandomStream v1_, v2_;
 };
 
-/// Complains of takes of too many pictures, which are kept in memory.
+/// Fails if a take has too many pictures to be kept in memory.
 Result<void> CheckSize(const CaptureWorld& world) {
   const std::size_t pictures = world.cameras.size() * world.truth.size();
   if (pictures <= kMaxPictures) return {};
@@ -152,7 +153,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   RETURN_IF_ERROR(CheckSize(world));
   ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
 
-  // One source per segmenter, so that its marks are in the problem.
+  // Make one source per segmenter, so that the marks of each segmenter are in the problem.
   std::vector<PersonSource> sources;
   for (const std::string& name : SegmenterNames()) sources.push_back({.segmenter = SegmenterNamed(name)});
   Payload problem = PayloadOf({});
@@ -163,7 +164,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
     cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
   }
   problem.files.push_back({"calibration-points.yaml", PairsFile(world, *calibration)});
-  // Film the take once; each picture becomes a file.
+  // Film the take once. Each picture becomes a file.
   const auto keep = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {
     problem.files.push_back({PictureName(camera, frame, "png"), EncodePng(picture)});
     const std::string& name = problem.files.back().name;
@@ -183,7 +184,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
                    {"limb_lengths_m", ToJson(world.measured.lengths)},
                    {"cameras", std::move(cameras)},
                    {"marks", std::move(marks)}};
-  // The same marks as COCO keypoints.
+  // Write the marks also as COCO keypoints.
   for (std::size_t i = 0; i < sources.size(); ++i) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
       ASSIGN_OR_RETURN(auto coco, WriteCocoKeypoints(world.cameras[camera].intrinsics, pictures[camera],
@@ -218,7 +219,7 @@ Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& k
   const CaptureWorld& world = stages.world();
   RETURN_IF_ERROR(CheckSize(world));
   ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
-  // Shoot every frame without faults of the camera, and simulate the depth cameras.
+  // Shoot every frame with faultless cameras, and simulate the depth cameras.
   Shooting shooting(world, FaultlessPictures(options.camera), key, *renderer);
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     DepthCameras depth_cameras(key, camera);

@@ -12,9 +12,9 @@
 
 namespace etude {
 
-/// Describes the studio to outside methods, which are asked about takes of two cameras. Metres, Y up, right-handed; a
-/// pose is sixty numbers (EncodePose). Pixels: u right, v down; (0, 0) is the top left corner of the picture, and the
-/// centre of its first pixel is (0.5, 0.5).
+/// Describes the studio to outside methods, which receive takes of two cameras. Units are metres; Y is up; the frame is
+/// right-handed. A pose is sixty numbers (EncodePose). Pixel coordinates are u to the right and v down; (0, 0) is the
+/// top left corner of the picture, and (0.5, 0.5) the centre of the first pixel.
 ///
 /// Setting:
 ///
@@ -22,11 +22,13 @@ namespace etude {
 ///      "joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
 ///      "strokes": [{"from": "left_hip", "to": "left_knee"}, …], "discs": ["left_foot", …]}
 ///
-/// `strokes` are the thirteen limbs that the annotator marks with a line, `discs` the five ends marked with a point.
+/// `strokes` are the thirteen limbs that the annotator marks with a line; `discs` are the five ends that the annotator
+/// marks with a point.
 Payload DescribeStudio();
 
-/// Makes the problem of a take: the limb lengths of the performer, and per camera its calibration points (a position in
-/// the world and the pixel clicked for it), the empty stage, and a picture per frame. Pictures are separate files.
+/// Makes the problem of a take: the limb lengths of the performer and, for each camera, its calibration points (a
+/// position in the world and the pixel clicked for it), a picture of the empty stage, and a picture per frame. Pictures
+/// are separate files.
 ///
 ///     {"frames": 150, "limb_lengths_m": {"foot": 0.18, "shank": 0.42, …},
 ///      "cameras": [{"calibration": [{"world_m": [x, y, z], "pixel": [u, v]}, …],
@@ -34,56 +36,57 @@ Payload DescribeStudio();
 ///                   "pictures": ["camera-1-0000.png", …]}, …],
 ///      "marks": {"hue": [[{"strokes": [[u, v, u, v], null, …], "discs": [[u, v], null, …]}, …], […]], "hue-gated": …}}
 ///
-/// `marks` are for methods without vision of their own: what the annotator drew on each camera's frames, as built-in
-/// methods see it. The annotator draws on the person that a segmenter has cut out, so parts lost by the segmenter are
-/// not marked. Marks are listed by segmenter, then [camera][frame]; null is a frame that the annotator was not shown,
-/// or a mark that is missing or unreadable. A stroke goes from its limb's `from` to its `to`.
+/// `marks` are the annotator's marks on each camera's frames, as built-in methods receive them. They are for methods
+/// without vision of their own. The annotator draws on the person that a segmenter has cut out, so parts that the
+/// segmenter lost are not marked. Marks are listed by segmenter, then [camera][frame]. A frame is null if the annotator
+/// was not shown it, a mark is null if it is missing or unreadable. A stroke goes from its limb's `from` to its `to`.
 ///
-/// The same marks are also given as COCO keypoints, `marks-hue-camera-1.coco.json` and so on (coco.h), and the
-/// calibration points in the format of `etude calibrate`, `calibration-points.yaml`.
+/// The marks are also given as COCO keypoints, in the files `marks-hue-camera-1.coco.json` and so on (coco.h). The
+/// calibration points are also given in the format of `etude calibrate`, in the file `calibration-points.yaml`.
 ///
-/// Fails without a renderer, and for takes of more than kMaxPictures pictures.
+/// Fails without a renderer, and if a take has more than kMaxPictures pictures.
 Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 constexpr std::size_t kMaxPictures = 1200;
 
-/// Makes the truth of a take: the poses; as an answer they would be perfect. Files: `truth.bvh`, `truth.trc` and
-/// `truth.csv` hold the same for other programs; `camera-1.yaml`… are OpenCV calibration files, `calibration.toml` all
-/// of them in Pose2Sim's format.
+/// Makes the truth of a take: the true poses, in the format of an answer. The files `truth.bvh`, `truth.trc` and
+/// `truth.csv` hold the same poses for other programs. The files `camera-1.yaml`… are OpenCV calibration files;
+/// `calibration.toml` holds all cameras in Pose2Sim's format.
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
 Result<Payload> MakeCaptureTruth(CaptureStages& stages);
 
-/// Makes the pictures of the truth and passes them to `keep`. Per frame `camera-1-0000.exr` holds `label`, `Z` (depth
-/// along the viewing axis, metres), `N.X`, `N.Y`, `N.Z` (normals in the world), and `R`, `G`, `B`, the linear light of
-/// a camera with this lens and clock but no other faults. `Z_measured.v1` and `.v2` are what the depth cameras of the
-/// first and second Kinect would measure from the same place (sim/depth_camera); infinity where they measure nothing.
-/// Fails without a renderer.
+/// Makes the pictures of the truth and passes them to `keep`. The file `camera-1-0000.exr` of a frame holds `label`,
+/// `Z` (depth along the viewing axis, metres), `N.X`, `N.Y`, `N.Z` (normals in the world), and `R`, `G`, `B` (the
+/// linear light of a camera with this lens and clock but no other faults). `Z_measured.v1` and `Z_measured.v2` are the
+/// depths that the depth cameras of the first and second Kinect would measure from the same place (sim/depth_camera);
+/// they are infinite where nothing is measured. Fails without a renderer.
 Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& key, CaptureStages& stages,
                                  const AttachmentSink& keep);
 
-/// Makes a sheet of two cameras at the take's frame with the fastest motion: first as the scenario sets them, with
-/// labels, depth and the annotator's marks; then with each camera effect at three strengths, the other effects being as
-/// in the scenario. The true skeleton at that time is drawn over the effects of clocks and shutters. Fails without a
-/// renderer.
+/// Makes a sheet of two cameras at the frame of the take with the fastest motion. The first pictures have the
+/// scenario's camera effects; labels, depth and the annotator's marks are shown too. Then each camera effect is shown
+/// at three strengths, with the scenario's strengths of the other effects. Over the effects of clocks and shutters, the
+/// true skeleton at that time is drawn. Fails without a renderer.
 Result<SensorSheet> MakeCaptureSheet(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
 /// The answer of an outside method, one entry per frame, null without a pose:
 ///
 ///     {"poses": [[sixty numbers], null, …]}
 ///
-/// It is scored like a built-in method's: a frame without a pose shows the last one, and so counts in every joint
-/// error; `frames_recovered` is the share of frames with a pose. Metrics of a built-in method's stages are missing.
+/// It is scored like the result of a built-in method. A frame without a pose repeats the last pose, and so counts in
+/// every joint error; `frames_recovered` is the share of frames with a pose. The metrics of a built-in method's stages
+/// are missing.
 using CaptureAnswer = std::vector<std::optional<BodyPose>>;
 Result<CaptureAnswer> ReadCaptureAnswer(const Json& answer, std::size_t frames);
 
-/// Records a built-in method's motion with its masks, as CaptureExtras. `name` is the name of its BVH clip. The frames
-/// numbered `moments`, counted from 1, also keep their marks and the skeleton before inverse kinematics; numbers beyond
-/// the take are ignored.
+/// Records a built-in method's motion with its masks (CaptureExtras). `name` is the name of the recording's BVH clip.
+/// The frames numbered `moments`, counted from 1, also keep their marks and the skeleton before inverse kinematics.
+/// Numbers beyond the end of the take are ignored.
 Recording MakeRecording(const CaptureWorld& world, const Take& take, const Observation& observation,
                         const CaptureBody& body, const std::vector<RecoveredFrame>& frames, const std::string& name,
                         std::span<const double> moments);
 
-/// Records an outside method's answer: without masks, and with a BVH clip whose joints do not turn.
+/// Records an outside method's answer. The recording has no masks, and the joints of its BVH clip do not turn.
 Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses);
 
 }  // namespace etude

@@ -27,7 +27,7 @@ void AddMarks(const Marks& marks, Digest& digest) {
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink) {
   TakeCameras cameras(world, options, key, sources, renderer);
-  // Digest every picture, and pass it on.
+  // Add every picture to the digest, and pass it on.
   Digest pictures;
   const auto show = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {
     AddPicture(picture, pictures);
@@ -36,7 +36,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     show(camera, std::nullopt, cameras.backgrounds()[camera]);
   }
-  // Prepare one observation per source.
+  // Prepare one observation for each source.
   Take take;
   std::vector<Digest> masks(sources.size()), marks(sources.size());
   std::vector<std::vector<MaskScore>> scores(sources.size());
@@ -51,7 +51,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
     if (keeps_masks(source)) observation.masks.resize(world.cameras.size());
   }
 
-  // Shoot frame by frame; each source gets the mask, its score and the marks.
+  // Shoot frame by frame. Each source adds its mask, the mask's score and the marks.
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     TakeCameras::Feed feed = cameras.FeedOf(camera);
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {

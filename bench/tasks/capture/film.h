@@ -15,21 +15,22 @@
 
 namespace etude {
 
-/// The result of one segmenter (or of the truth in its place) on a take. Indices: [camera][frame]; "by picture" means
-/// [camera][picture], where only every `StudioOptions::picture_every`-th frame has a picture.
+/// The result of one segmenter on a take; the truth may stand in for the segmenter. Indices are [camera][frame], or
+/// [camera][picture] for members "by picture": only every n-th frame has a picture (`StudioOptions::picture_every`).
 struct Observation {
   PersonSource source;
-  std::vector<std::vector<Marks>> marks;  ///< empty in frames that the annotator did not see
+  std::vector<std::vector<Marks>> marks;  ///< empty in frames that the annotator was not shown
   std::vector<std::vector<Mask>>
       masks;        ///< by picture, half size; kept on request and for silhouettes (`kMaxSilhouettePictures`)
-  MaskScore score;  ///< mean over all pictures
-  /// The agreement of two annotators over all pictures; empty with a single annotator.
+  MaskScore score;  ///< mean score over all pictures
+  /// The agreement of two annotators over all pictures. Empty if there is one annotator.
   std::optional<double> annotator_distance_px, annotator_overlap;
   std::string masks_digest;
   std::string marks_digest;
 };
 
-/// Masks for silhouettes are kept for takes of at most this many pictures over all cameras, 77 kB each.
+/// The largest number of pictures of a take, over all cameras, for which masks for silhouettes are kept. A mask takes
+/// 77 kB.
 constexpr std::size_t kMaxSilhouettePictures = 4000;
 
 struct Take {
@@ -38,11 +39,11 @@ struct Take {
   std::vector<Observation> observations;  ///< one per requested source, in that order
 };
 
-/// Receives each picture as it is shot; there are too many to keep. `frame` is empty for the background.
+/// Receives each picture when it is shot, because there are too many to keep. `frame` is empty for the background.
 using PictureSink = std::function<void(std::size_t camera, std::optional<std::size_t> frame, const ColourImage&)>;
 
-/// Films the world and has the pictures annotated: every picture is rendered once, cut out by each of `sources`, and
-/// marked on each cut-out with the same random draws.
+/// Films the world and has the pictures annotated. Every picture is rendered once. Each of `sources` cuts out the
+/// person, and each cut-out is marked with the same random draws.
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink = {});
 

@@ -11,22 +11,23 @@
 
 namespace etude {
 
-/// Runs a causal method and its cameras while a person moves, for tasks with a feedback loop: each frame is what
-/// `RunCapture` would give for the whole take.
+/// Runs a causal method and its cameras while a person moves, for tasks with a feedback loop. Each frame equals the
+/// frame that `RunCapture` would return for the whole take.
 class LiveCapture {
  public:
-  /// Sets up the cameras. `method.causal` must be set; `key` must outlive this. Fails, saying why, if there is no
-  /// renderer, the cameras cannot be calibrated, or no body can be made.
+  /// Sets up the cameras. `method.causal` must be set. `key` must outlive this object. Fails if there is no renderer,
+  /// the cameras cannot be calibrated, or no body can be made.
   static Result<std::unique_ptr<LiveCapture>> Begin(const StudioOptions& options, const CaptureMethod& method,
                                                     const FilmedPerson& booking, const WorldKey& key);
   LiveCapture(const LiveCapture&) = delete;
   LiveCapture& operator=(const LiveCapture&) = delete;
 
-  /// Adds the person's next pose. Cameras also shoot between frames: a frame needs the two poses after it, and further
-  /// ones if their clocks are off.
+  /// Adds the person's next pose. Cameras also shoot between frames, so a frame needs the two poses after it, and more
+  /// if their clocks are off.
   void Add(const BodyPose& pose) { stages_.Add(pose); }
 
-  /// Returns the skeleton of the next frame, whose pose must have been added. Between pictures it is the last skeleton.
+  /// Returns the skeleton of the next frame. The pose of that frame, and those it needs (Add), must have been added.
+  /// Between pictures, the last skeleton is returned again.
   std::optional<RecoveredFrame> Next();
 
  private:

@@ -16,7 +16,8 @@ Marks DrawAndRead(const Marks& marks, const AnnotatedPicture& picture) {
   return ReadMarks(DrawMarks(marks, picture.labels.width, picture.labels.height));
 }
 
-// Returns the marked position of each joint: the mean of the strokes' ends there, or the disc at a tip.
+// Returns the marked position of each joint: the mean of the ends of the strokes that meet there, or the disc at a
+// limb's end.
 std::array<std::optional<glm::dvec2>, kRoleCount> JointsOf(const Marks& marks) {
   std::array<glm::dvec2, kRoleCount> sum{};
   std::array<int, kRoleCount> count{};
@@ -44,7 +45,7 @@ std::optional<glm::dvec2> MiddleOf(const std::optional<PixelSegment>& stroke) {
   return 0.5 * (stroke->a + stroke->b);
 }
 
-/// Returns the colours of the performer's suit, by stroke.
+/// Returns the colours of the performer's suit, one per stroke.
 LimbColours SuitOf(const PartColours& colours) {
   const auto of = [&](Part part) { return colours[static_cast<std::size_t>(part)]; };
   LimbColours suit{.trunk = of(Part::kTrunk), .limbs = {}};

@@ -14,28 +14,31 @@
 
 namespace etude {
 
-/// The annotators of one take, for one way of cutting out the person. Each annotator draws on pictures of their own,
-/// which are then read back (`ReadMarks`). Two markings of the same world use the same random draws, whatever pictures
-/// they are shown.
+/// The annotators of one take, for one way of cutting out the person. Each annotator draws on copies of the pictures,
+/// and the marks are then read back from the copies (`ReadMarks`). Two Markings of the same world use the same random
+/// draws, whatever pictures they receive.
 class Marking {
  public:
-  /// `key` must outlive this. The world gives the number of cameras and the kind of figure: where joints are in its
-  /// limbs, and which point of its head is marked.
+  /// `key` must outlive this object. The world determines the number of cameras and the kind of figure, i.e. the place
+  /// of the joints in its limbs and the point of its head that is marked.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-  /// Marks one picture and returns the marks as methods receive them: the mean of both annotators' marks if both drew a
-  /// stroke or disc, else the only one. Empty in frames that are not marked. A camera's frames come in order.
+  /// Marks one picture and returns the marks as methods receive them. If both annotators drew a stroke or disc, the
+  /// result has the mean of the two; if one did, it has that one. Empty in frames that are not marked. The frames of a
+  /// camera must come in order.
   Marks Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture);
 
-  /// Returns exact marks, at the joints of `pose`, for the limbs and ends that the picture shows, without drawing. Uses
-  /// no random draws.
+  /// Returns exact marks at the joints of `pose`, for the limbs and ends that are visible in the picture. Nothing is
+  /// drawn, and no random numbers are used.
   Marks MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture, const Camera& camera,
                        const BodyPose& pose) const;
 
-  /// Returns the marks that the colours of the coded suit give, for a performer who wears it. Uses no random draws.
+  /// Returns the marks that are found by the colours of the coded suit. The performer must wear it. Uses no random
+  /// numbers.
   Marks ReadColours(std::size_t frame, const AnnotatedPicture& picture) const;
 
-  /// The marks of both annotators for each joint and each limb in all pictures so far; empty with a single annotator.
+  /// Returns the marks of both annotators for each joint in all pictures so far; `limbs` does so for each limb. Empty
+  /// with a single annotator.
   const std::vector<MarkedTwice>& joints() const { return joints_; }
   const std::vector<MarkedTwice>& limbs() const { return limbs_; }
 
@@ -49,11 +52,11 @@ class Marking {
   std::vector<MarkedTwice> joints_, limbs_;
 };
 
-/// Returns `FigureLook::head_below_crown` of a performer in the pose `body`. Like limb lengths it is the same in every
-/// pose and measured beforehand.
+/// Returns `FigureLook::head_below_crown` of a performer in the pose `body`. Like the limb lengths, it is the same in
+/// every pose and is measured beforehand.
 double HeadBelowCrown(const Figure& figure, const BodyPose& body);
 
-/// Returns the mean of both marks for each stroke and disc, or the only one.
+/// Returns the mean of both marks for each stroke and disc, or the single mark if only one annotator drew it.
 Marks MeanMarks(const Marks& first, const Marks& second);
 
 }  // namespace etude

@@ -22,7 +22,7 @@ LimbObservation Observed(const BodyPose& truth) {
   return seen;
 }
 
-/// Returns the body with a root that turns.
+/// Returns a copy of the body with a joint at its root that turns freely.
 CaptureBody OnTurningRoot(CaptureBody body) {
   std::vector<TreeJoint>& joints = body.tree.joints;
   joints.insert(joints.begin() + 1,
@@ -35,8 +35,8 @@ CaptureBody OnTurningRoot(CaptureBody body) {
   return body;
 }
 
-/// Fits poses of paper B's body. In turn, all angles and the root's rotation are fitted, and the root is moved to the
-/// best position for them.
+/// Fits poses of paper B's body. It alternates between two steps: fit all angles and the root's rotation, and move the
+/// root to the best position for them.
 class PaperFitter {
  public:
   explicit PaperFitter(const CaptureBody& body) : body_(body), turning_(OnTurningRoot(body)), fitter_(turning_) {}

@@ -12,11 +12,12 @@ Field<StudioOptions> Effect(const std::string& key, double CameraEffects::*effec
   return Field<StudioOptions>::Number(key, Path(&StudioOptions::camera, effect), range, std::move(meaning));
 }
 
-/// The keys of the cameras' optical and electronic effects: one for each member of CameraEffects, in their order.
+/// Returns the keys of the cameras' optical and electronic effects, one for each member of CameraEffects, in their
+/// order.
 std::vector<Field<StudioOptions>> CameraFields() {
   using E = CameraEffects;
   return {
-      // Time.
+      // Timing.
       Effect("sync_offset_ms", &E::sync_offset_ms, {0, 500},
              "Offset of the clocks of all cameras but the first; its sign is random."),
       Effect("clock_drift_ppm", &E::clock_drift_ppm, {0, 50000},
@@ -144,7 +145,7 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
     fields.Complain(fields.Raw("oracle")->place,
                     "'oracle: [marks]' and 'marks: colours' exclude each other: both say who marks the pictures");
   }
-  // Silhouettes use marks only with `start: keypoints`.
+  // Silhouettes use marks only if `start` is `keypoints`.
   if (method.recovery == Recovery::kSilhouettes) {
     const bool has_marks = method.start == SilhouetteStart::kKeypoints;
     if (!has_marks && (oracle.marks || method.lengths == LengthSource::kMeasured)) {
@@ -156,7 +157,7 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
       fields.Complain(fields.Raw("causal")->place, "'start: keypoints' needs the whole take; it cannot be causal");
     }
   }
-  // A causal method may not use what depends on the whole take.
+  // A causal method must not use data that depend on the whole take.
   const bool knows_all =
       method.smoothing != Smoothing::kNone || method.sync != Sync::kAssumed || method.lengths != LengthSource::kKnown;
   if (method.causal && knows_all) {
@@ -191,7 +192,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
     FieldTable<Method> made{
-        // From pictures to marks and cameras.
+        // The stages from pictures to marks and cameras.
         {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
                    "How the person is cut out of the pictures."),
          Key::Name("pieces", &Method::pieces, {{"largest", PersonPieces::kLargest}, {"large", PersonPieces::kLarge}},
@@ -209,7 +210,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
          Key::Name("body", &Method::body, {{"fitted", BodyKind::kFitted}, {"paper", BodyKind::kPaper}},
                    "The performer's own joints, or paper B's 29 degrees of freedom.")
              .With("recovery", {"ik"}),
-         // From marks or silhouettes to poses.
+         // The stages from marks or silhouettes to poses.
          Key::Name(
              "recovery", &Method::recovery,
              {{"ik", Recovery::kIk},
@@ -252,7 +253,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
                      {"ik", Path(&Method::oracle, &Oracle::ik)}},
                     "Stages replaced by the truth.")},
         CheckMethod};
-    // The keys of the solver, for recovery by inverse kinematics alone.
+    // The keys of the solver, which only recovery by inverse kinematics has.
     std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
     solver.front() = solver.front().With("recovery", {"ik"});
     Append(std::move(solver), made.fields);
@@ -314,7 +315,7 @@ void AddSource(const PersonSource& source, std::vector<PersonSource>& sources) {
 Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
   if (options.rig.shape != RigShape::kFile) return {};
   const Node& condition = input.condition.node();
-  // The key `rig_file` must name a file that is among the condition's texts.
+  // Fail unless the condition has the key `rig_file` and the text of that file.
   const Node* named = condition.Find(kRigFileKey);
   const auto text = input.texts.find(kRigFileKey);
   if (named == nullptr || text == input.texts.end()) {

@@ -22,13 +22,14 @@ MeasureInputs PicturesOf(const CaptureRun& run) {
   return {.cameras = run.cameras.matrices, .marks = run.measured.marks};
 }
 
-/// Returns the joints of every frame; before the first observation they may be incomplete or absent.
+/// Returns the joints of every frame, smoothed, or with gaps bridged. Joints may be missing before the first
+/// observation.
 std::vector<OptionalJoints> JointsOf(const CaptureRun& run) {
   if (run.method.smoothing == Smoothing::kRts) return SmoothJoints(run.measured.joints, kJudgedRateHz);
   return BridgeJoints(run.measured.joints);
 }
 
-/// Turns poses into recovered frames: adds the state of the body's tree that comes nearest to each pose.
+/// Turns poses into recovered frames by adding the state of the body's tree that is nearest to each pose.
 class PosedFrames {
  public:
   explicit PosedFrames(const CaptureBody& body) : body_(body), fitter_(body) {}
@@ -49,7 +50,7 @@ class PosedFrames {
   std::optional<PoseFit> last_fit_;
 };
 
-/// Recovers each frame from the marks up to it; frames without marks repeat the last skeleton.
+/// Recovers each frame from the marks up to that frame. Frames without marks repeat the last skeleton.
 void RecoverLive(const CaptureStages& stages, const NearestPoses* nearest, CaptureRun& run) {
   LiveRecovery live(run.body, RecoverOptionsOf(run.method), LiveBridgeOptions(stages.options()));
   for (std::size_t k = 0; k < run.measured.frames.size(); ++k) {
@@ -107,7 +108,7 @@ void RecoverBundle(CaptureRun& run) {
   }
 }
 
-/// Recovers a person from the marks as keypoints (engine/keypoints), frame by frame.
+/// Recovers the person from the marks, which are used as keypoints of every frame (engine/keypoints).
 Result<RecoveredPerson> PersonByKeypoints(const CaptureStages& stages, const CaptureRun& run) {
   std::vector<SeenPeople> people;
   double longer_side = 0;
@@ -124,7 +125,7 @@ Result<RecoveredPerson> PersonByKeypoints(const CaptureStages& stages, const Cap
   return RecoverPerson(run.cameras.matrices, people, UsualRecovery(kJudgedRateHz, longer_side));
 }
 
-/// Uses a person's body and motion for the run, except in frames for which `is_lost` is true.
+/// Takes over a person's body and motion into the run. Frames for which `is_lost` is true stay without a skeleton.
 void TakePerson(const RecoveredPerson& person, const std::vector<bool>& is_lost, CaptureRun& run) {
   run.body = person.body;
   TreeState last = StandingState(run.body.tree);
@@ -136,14 +137,15 @@ void TakePerson(const RecoveredPerson& person, const std::vector<bool>& is_lost,
   }
 }
 
-/// Recovers the motion from the marks as keypoints, without the frames in which the person was not seen.
+/// Recovers the motion from the marks as keypoints. Frames in which the person was not seen stay without a skeleton.
 void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
   run.frames.resize(stages.world().truth.size());
   const auto person = PersonByKeypoints(stages, run);
   if (person) TakePerson(*person, person->is_held, run);
 }
 
-/// Combines the motion from outlines with the marks as keypoints. Frames without outlines use the marks alone.
+/// Combines the motion from silhouettes with the marks as keypoints. Frames without a skeleton from silhouettes use the
+/// marks alone.
 void JoinKeypoints(const CaptureStages& stages, CaptureRun& run) {
   auto person = PersonByKeypoints(stages, run);
   if (!person) return;
@@ -168,7 +170,7 @@ Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
                 kMaxSilhouettePictures,
                 static_cast<double>(kMaxSilhouettePictures / cameras) * options.picture_every / kJudgedRateHz);
   }
-  // Track the silhouettes picture by picture: causally, or over the whole take.
+  // Track the silhouettes picture by picture, either causally or over the whole take.
   const SilhouetteInputs inputs{.first = truth.front(),
                                 .key = stages.key(),
                                 .body = run.body,
@@ -195,7 +197,7 @@ Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
   return {};
 }
 
-/// Smooths each joint of the recovered frames by itself; frames without a skeleton are filled.
+/// Smooths the track of each joint over the recovered frames. Frames without a skeleton are filled.
 void SmoothFrames(CaptureRun& run) {
   std::vector<std::optional<BodyPose>> poses;
   for (const auto& frame : run.frames) poses.push_back(frame ? std::optional(frame->pose) : std::nullopt);
@@ -226,7 +228,7 @@ BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
 }
 
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run) {
-  // The triangulated points determine the body later.
+  // The triangulated points will determine the body later.
   if (run.method.recovery == Recovery::kKeypoints) return PaperBody({});
   if (run.method.lengths == LengthSource::kKnown) {
     ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetKnownBody(run.method));

@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// The results of every stage of a built-in method in a world. References point into the CaptureStages on which it was
-/// run.
+/// The results of all stages of a built-in method in a world. The references point into the CaptureStages on which the
+/// method was run.
 struct CaptureRun {
   const CaptureMethod& method;
   const CalibratedCameras& cameras;
@@ -24,23 +24,23 @@ struct CaptureRun {
   std::vector<std::optional<RecoveredFrame>> frames;
 };
 
-/// Returns the options of RecoverFrames for this method.
+/// Returns the options with which RecoverFrames runs this method.
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
-/// Returns the limits on gaps for a live method. It sees marked frames only, so the limits are counted in these, with
-/// the same durations as if every frame were marked.
+/// Returns the limits on gaps for a live method. A live method sees marked frames only, so the limits count marked
+/// frames. They stand for the same durations as if every frame were marked.
 BridgeOptions LiveBridgeOptions(const StudioOptions& options);
 
-/// Returns the body that a method begins with, with known limb lengths or with lengths measured from its marks. Fails
-/// with the reason if none can be made.
+/// Returns the body with which a method begins. Its limb lengths are known, or are measured from the marks. Fails, with
+/// the reason, if no body can be made.
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run);
 
-/// Recovers and smooths the run's frames by its method. Bundle adjustment of paper B's body with measured lengths also
-/// refines these lengths.
+/// Recovers and smooths the run's frames by its method. Bundle adjustment of paper B's body also refines the limb
+/// lengths if they were measured.
 Result<void> Recover(CaptureStages& stages, CaptureRun& run);
 
-/// Runs one method in one world. Fails, with the reason, if a camera cannot be calibrated, there is no renderer, or no
-/// body can be made or measured.
+/// Runs one method in one world. Fails, with the reason, if a camera cannot be calibrated, if there is no renderer, or
+/// if no body can be made or measured.
 Result<CaptureRun> RunCapture(CaptureStages& stages, const CaptureMethod& method);
 
 }  // namespace etude

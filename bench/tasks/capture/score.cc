@@ -96,7 +96,7 @@ constexpr std::array kPoseMetrics = {"mpjpe_mm",        "mpjpe_before_ik_mm",   
                                      "jerk_error_mps3", "limb_length_error_mm", "position_error_cm"};
 constexpr const char* kNoIk = "the method has no inverse kinematics";
 
-/// Measures the errors of the final poses.
+/// Adds the metrics of the final poses' joint errors to the cell.
 void ReportJointErrors(const PoseErrors& errors, CellResult& cell) {
   cell.Measure("mpjpe_mm", errors.mpjpe_mm);
   cell.Measure("pa_mpjpe_mm", errors.pa_mpjpe_mm);
@@ -112,7 +112,7 @@ void ReportJerk(const CaptureWorld& world, const std::vector<BodyPose>& poses, C
                  "no four successive frames are in view");
 }
 
-/// Returns the values of the frames in which the performer was in view; only these are judged.
+/// Returns the values of the frames in which the performer is in view. Only these frames are judged.
 template <typename Value>
 std::vector<Value> InView(const CaptureWorld& world, const std::vector<Value>& values) {
   std::vector<Value> kept;
@@ -127,8 +127,8 @@ PoseErrors JudgePoses(const CaptureWorld& world, const std::vector<BodyPose>& po
   return ComparePoses(InView(world, poses), InView(world, world.truth));
 }
 
-/// Returns the distance from the end effectors to their measured positions, as a mean over the frames that have such
-/// positions; empty if none has.
+/// Returns the mean distance of the end effectors from their measured positions, centimetres, over the frames with
+/// measured positions. Empty if no frame has any.
 std::optional<double> MeanEffectorErrorCm(const std::vector<RecoveredFrame>& frames) {
   constexpr double kCmPerMetre = 100;
   double of_frames = 0;
@@ -144,7 +144,7 @@ std::optional<double> MeanEffectorErrorCm(const std::vector<RecoveredFrame>& fra
   return of_frames / count;
 }
 
-/// Returns for each frame whether a picture shows a mark.
+/// Returns, for each frame, true if at least one picture shows a mark.
 std::vector<bool> FramesSeen(const Observation& observation) {
   std::vector<bool> seen(observation.marks.front().size());
   for (const std::vector<Marks>& of_camera : observation.marks) {
@@ -158,7 +158,7 @@ std::vector<bool> FramesSeen(const Observation& observation) {
   return seen;
 }
 
-/// Measures the joint errors of frames with marks and of frames without, separately.
+/// Measures the joint errors separately over frames with marks and over frames without marks.
 void ReportSeen(const CaptureWorld& world, const Observation& observation, const PoseErrors& errors, CellResult& cell) {
   const std::vector<bool> all_seen = FramesSeen(observation);
   std::vector<bool> seen, held;  // of the frames in view
@@ -211,7 +211,8 @@ void ReportPoses(const CaptureWorld& world, const CaptureRun& run, const std::ve
   ReportIk(world, run, JudgePoses(world, fixed), frames, cell);
 }
 
-/// Measures the shares of frames in view and, among these, with a skeleton. Returns true if any has one.
+/// Measures the share of frames in view and, of these, the share with a skeleton. Returns true if any frame in view has
+/// one.
 template <typename Frame>
 bool ReportRecovered(const CaptureWorld& world, const std::vector<std::optional<Frame>>& frames, CellResult& cell) {
   const auto judged = InView(world, frames);
@@ -228,7 +229,7 @@ void FailWithoutPoses(const std::string& reason, CellResult& cell) {
   for (const char* id : kPoseMetrics) cell.Missing(id, "no frame was recovered");
 }
 
-/// Fills frames without a pose as HoldFrames does: with the last pose before, or the first one.
+/// Fills frames without a pose with the last pose before them or, at the start, with the first pose (as HoldFrames).
 std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
   std::vector<BodyPose> held;
   const auto first = std::find_if(answer.begin(), answer.end(), [](const auto& pose) { return pose.has_value(); });

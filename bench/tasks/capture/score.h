@@ -10,15 +10,15 @@
 
 namespace etude {
 
-/// Compares the result of every stage of a built-in method with the truth. With `keeps_motion` the cell has a
-/// recording, which keeps every stage of the `moments` (`StudioOptions`).
+/// Compares the result of every stage of a built-in method with the truth. With `keeps_motion`, the cell has a
+/// recording, which contains all stages of the frames `moments` (`StudioOptions`).
 CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion,
                            std::span<const double> moments = {});
 
-/// Scores an answer of an outside method in the same way; metrics of stages are missing.
+/// Scores an answer of an outside method like the result of a built-in method. The metrics of stages are missing.
 CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion);
 
-/// Returns the ids of all metrics that a cell reports, each by a value or a reason.
+/// Returns the ids of all metrics that a cell reports, by a value or by the reason why the value is missing.
 std::vector<std::string> CaptureMetrics();
 
 }  // namespace etude

@@ -14,7 +14,7 @@ enum class Detail {
   kWhole,     ///< the whole picture
   kDetail,    ///< the head, enlarged: effects at the scale of pixels
   kPerson,    ///< the part around the person
-  kWithTruth  ///< the same, with the true skeleton
+  kWithTruth  ///< the part around the person, with the true skeleton
 };
 
 struct ShownEffect {
@@ -28,7 +28,7 @@ struct ShownEffect {
 std::vector<ShownEffect> ShownEffects() {
   using E = CameraEffects;
   return {
-      // Each: caption, effect, three strengths, unit, the part of the picture that is shown.
+      // Each entry has a caption, an effect, three strengths, a unit, and the part of the picture that is shown.
       {"Sync offset (all cameras but the first); true skeleton over it",
        &E::sync_offset_ms,
        {20, 60, 150},
@@ -63,7 +63,7 @@ constexpr std::size_t kShownCameras = 2;
 Rgb8 ColourOfLabel(std::uint32_t label) {
   if (label == 0) return {24, 26, 30};
   if (label == 1) return {60, 64, 72};
-  // Steps of the golden angle keep neighbours apart.
+  // Successive labels differ by the golden angle in hue, so that neighbouring labels have distinct colours.
   const double hue = std::fmod(label * 0.381966, 1.0) * 6;
   const auto channel = [&](double shift) {
     const double distance = std::abs(std::fmod(hue + shift, 6.0) - 3) - 1;
@@ -78,7 +78,7 @@ ColourImage PictureOfLabels(const LabelImage& labels) {
   return picture;
 }
 
-/// Returns the depth as grey: the nearest is white, the farthest black, linear in 1 / depth.
+/// Returns the depth as a grey picture, linear in 1 / depth: the nearest point is white, the farthest black.
 ColourImage PictureOfDepth(const DepthImage& depth) {
   float least = 0, most = 0;
   for (const float metres : depth.pixels) {
@@ -115,8 +115,8 @@ std::vector<SheetMark> Skeleton(const BodyPose& pose, const Camera& camera) {
   return lines;
 }
 
-/// A part of a picture of this size around a position, moved inwards if it would leave the picture; each pixel is
-/// enlarged `times` times.
+/// The size of a part that is cut out around a position, in pixels. The part is moved inwards if it would leave the
+/// picture. Each pixel is enlarged `times` times.
 struct Cutting {
   int width, height, times;
 };
@@ -139,7 +139,7 @@ SheetPicture Cut(const SheetPicture& whole, const glm::dvec2& centre, const Cutt
   return cut;
 }
 
-/// Returns the frame around which the body moves farthest.
+/// Returns the index of the frame in which the body moves fastest.
 std::size_t LiveliestFrame(const std::vector<BodyPose>& poses) {
   std::size_t liveliest = 0;
   double most = -1;
@@ -167,7 +167,7 @@ class SheetMaker {
     row.pictures = {{"picture", view.colour, {}},
                     {"labels", PictureOfLabels(view.labels), {}},
                     {"depth: white is nearest", PictureOfDepth(view.depth), {}}};
-    // Marks are shown only if the annotator marked this frame.
+    // Show the marks only if the annotator marked this frame.
     const std::vector<Marks>& marks = take.observations.front().marks[camera];
     const auto step = static_cast<std::size_t>(options_.mark_every);
     if (frame_ % step == 0) {

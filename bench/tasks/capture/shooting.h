@@ -10,15 +10,15 @@
 
 namespace etude {
 
-/// Returns the pose at a fractional frame: a cubic through the two frames on either side (Catmull-Rom), so that motion
-/// is smooth; exactly poses[k] at k. Before the first and after the last frame it is constant.
+/// Returns the pose at a fractional frame by Catmull-Rom interpolation: a cubic through the two frames on either side.
+/// At a whole number k, this is poses[k]. Before the first and after the last frame, the pose is constant.
 BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 
 /// Returns the figure of the performer at a fractional frame.
 Figure PerformerAt(const CaptureWorld& world, double frame);
 
-/// Returns only the effects that decide where and when cameras look (clocks, shutter, lens), without the effects that
-/// degrade the picture. Used for pictures of the truth.
+/// Returns a copy of `effects` with only those that determine the camera's time and geometry (clocks, shutter, lens).
+/// Effects that degrade the picture are left out. Used for pictures of the truth.
 CameraEffects FaultlessPictures(const CameraEffects& effects);
 
 /// Shoots the pictures of a take.
@@ -26,13 +26,14 @@ class Shooting {
  public:
   Shooting(const CaptureWorld& world, const CameraEffects& effects, const WorldKey& key, Renderer& renderer);
 
-  /// Shoots a camera's frame with its clock, lens and sensor; with labels and depth on request.
+  /// Shoots a camera's picture of a frame with its clock, lens and sensor. `targets` selects labels and depth in
+  /// addition to colour.
   View Shoot(std::size_t camera, std::size_t frame, Targets targets);
-  /// Shoots the stage with `props` but without the performer; without props this is the background picture. Moving
-  /// things are where they were before the take.
+  /// Shoots the stage with `props` but without the performer. Without props, this is the background picture. Moving
+  /// objects are where they were before the take.
   ColourImage ShootStage(std::size_t camera, const std::vector<Figure>& props = {});
 
-  /// Returns the pose at the time of the picture's middle row.
+  /// Returns the performer's pose at the time of the picture's middle row.
   BodyPose SeenPose(std::size_t camera, std::size_t frame) const;
 
   const CameraModel& camera(std::size_t index) const { return cameras_[index]; }

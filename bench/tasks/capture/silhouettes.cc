@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMaskPixel = 2;  // picture pixels per mask pixel: masks are half size
 
-// Returns the first frame's true pose with random errors of up to `kNearAngle` in every angle.
+// Returns the true pose of the first frame, with random errors of up to `kNearAngle` in every angle.
 TreeState NearStart(const SilhouetteBody& body, const BodyPose& pose, const WorldKey& key) {
   constexpr double kNearAngle = Radians(10), kNearPosition = 0.05;  // metres, along each axis
   RandomStream random(key, "capture/near-start");
@@ -26,7 +26,7 @@ TreeState NearStart(const SilhouetteBody& body, const BodyPose& pose, const Worl
   return Moved(body.tree, truth, by);
 }
 
-// The longer the time between pictures, the farther a person moves.
+// The limits on movement grow with the time between pictures.
 TrackOptions OptionsFor(const SilhouetteInputs& inputs) {
   TrackOptions options;
   options.angle_change *= inputs.picture_every;
@@ -39,9 +39,9 @@ std::optional<TreeState> StartOf(const SilhouetteInputs& inputs, const Silhouett
   return NearStart(body, inputs.first, inputs.key);
 }
 
-// Returns the joints that the marks give, by camera and picture; empty if they are not used.
+// Returns the joints that the marks show, as [camera][picture]. Empty if the marks are not used.
 std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteInputs& inputs) {
-  constexpr double kSigma_px = 4;  // of a joint inside the body; a mark on the surface only approximates it
+  constexpr double kSigma_px = 4;  // error of a marked joint: the mark is on the surface, the joint inside the body
   std::vector<std::vector<std::vector<SeenJoint>>> joints;
   if (inputs.start != SilhouetteStart::kKeypoints) return joints;
   for (const std::vector<Marks>& of_camera : inputs.marks) {
@@ -53,8 +53,8 @@ std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteIn
   return joints;
 }
 
-// Makes a recovered frame, with the state of paper B's tree near that pose, which is written to the recording's BVH
-// file.
+// Makes a recovered frame from a pose. It also finds the state of paper B's tree that is near this pose, because the
+// recording's BVH file needs one.
 RecoveredFrame FrameOf(const BodyPose& pose, const KinematicTree& tree, const TreeState& last) {
   return {.fixed = pose, .state = FindStartState(tree, pose, tree.limits).value_or(last), .pose = pose, .errors = {}};
 }
@@ -75,7 +75,7 @@ std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInp
       .cameras = inputs.cameras, .silhouettes = silhouettes, .start = StartOf(inputs, body), .joints = joints};
   const SilhouetteTrack track = TrackSilhouettes(body, take, OptionsFor(inputs));
 
-  // Turn the fits into recovered frames.
+  // Make recovered frames from the fits.
   TreeState last = StandingState(inputs.body.tree);
   std::vector<std::optional<RecoveredFrame>> recovered;
   for (const std::optional<SilhouetteFit>& fit : track.frames) {

@@ -22,22 +22,22 @@ struct SilhouetteInputs {
   std::span<const ProjectionMatrix> cameras;
   SilhouetteStart start = SilhouetteStart::kCold;
   int picture_every = 1;  ///< number of frames from one picture to the next
-  /// `marks[camera][frame]`, without lens distortion; used if the start is `kKeypoints`.
+  /// The marks as `marks[camera][frame]`, without lens distortion. They are used only if `start` is `kKeypoints`.
   std::span<const std::vector<Marks>> marks = {};
 };
 
-/// Returns the poses found by tracking silhouettes (engine/silhouettes), one per picture: `masks[camera][picture]`,
-/// half size.
+/// Tracks silhouettes over the whole take (engine/silhouettes). `masks[camera][picture]` have half the pictures' size.
+/// Returns one pose per picture; nullopt if no pose was found.
 std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInputs& inputs,
                                                              std::span<const std::vector<Mask>> masks);
 
-/// Tracks silhouettes picture by picture; each pose uses only the pictures up to its time.
+/// Tracks silhouettes picture by picture. Each pose depends only on the pictures up to its time.
 class LiveSilhouettes {
  public:
-  /// `inputs.body` must outlive this.
+  /// `inputs.body` must outlive this object.
   explicit LiveSilhouettes(const SilhouetteInputs& inputs);
 
-  /// Returns the next pose, from one mask per camera; nullopt if no pose was found.
+  /// Returns the next pose from one mask per camera; nullopt if no pose was found.
   std::optional<RecoveredFrame> Next(std::span<const Mask> masks);
 
  private:

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kMetresPerMm = 0.001;
 
-/// Draws the error of a click, in standard deviations. The vertical error is drawn first.
+/// Draws the error of a click as a multiple of its standard deviation. The vertical error is drawn first.
 glm::dvec2 DrawMiss(RandomStream& hand) {
   const double y = hand.Normal(), x = hand.Normal();
   return {x, y};
@@ -48,8 +48,8 @@ std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& cam
   return pairs;
 }
 
-// Finds a disc near the pixel to which a human points with the error `off`; returns nullopt if the disc is seen too
-// obliquely or not found.
+// Finds a disc near the pixel to which a human points with the error `off`. Returns nullopt if the disc is seen at more
+// than 70° from its normal, or is not found.
 std::optional<glm::dvec2> FindPointedAt(const PlacedDisc& disc, const Camera& camera, const GreyImage& picture,
                                         const glm::dvec2& off) {
   constexpr double kMaxAside_deg = 70;
@@ -127,7 +127,7 @@ std::vector<ProjectionMatrix> MatricesOf(std::span<const Camera> cameras) {
   return matrices;
 }
 
-/// Calibrates the cameras: returns the matrices, and the lenses if the calibration estimates them.
+/// Calibrates the cameras. Returns their matrices and, if the calibration estimates them, their lenses.
 Result<CalibratedCameras> Calibrated(const CaptureWorld& world, const CalibrationPairs& pairs, bool is_truth,
                                      Calibration calibration) {
   if (is_truth) return CalibratedCameras{.matrices = MatricesOf(world.cameras)};
@@ -142,7 +142,7 @@ Result<CalibratedCameras> Calibrated(const CaptureWorld& world, const Calibratio
   return CalibratedCameras{.matrices = std::move(matrices), .lenses = std::move(lenses)};
 }
 
-/// Returns the pairs as a camera without that lens would show them.
+/// Returns the pairs with their pixels corrected for the camera's lens distortion.
 std::vector<PointPair> UndistortPairs(const Camera& camera, std::vector<PointPair> pairs) {
   for (PointPair& pair : pairs) pair.pixel = UndistortPixel(camera, pair.pixel).value_or(pair.pixel);
   return pairs;
@@ -168,7 +168,7 @@ Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, const Calibrati
   return cameras;
 }
 
-/// Returns the truth that a method with these oracles is given, for the frames that the annotator marks.
+/// Returns the true measurements that the oracles of a method replace, for the frames that the annotator marks.
 std::vector<KnownMeasurement> KnownMeasurementsOf(const CaptureWorld& world, const Oracle& oracle,
                                                   const std::vector<bool>& marked) {
   std::vector<KnownMeasurement> known(world.truth.size());
@@ -178,7 +178,7 @@ std::vector<KnownMeasurement> KnownMeasurementsOf(const CaptureWorld& world, con
   return known;
 }
 
-/// Returns the marks by camera and frame, without lens distortion if there are lenses.
+/// Returns the marks as [camera][frame]. If there are lenses, their distortion is removed.
 std::vector<std::vector<Marks>> UndistortAll(std::span<const Camera> lenses, std::vector<std::vector<Marks>> marks) {
   for (std::size_t camera = 0; camera < lenses.size(); ++camera) {
     for (Marks& of_frame : marks[camera]) of_frame = UndistortMarks(lenses[camera], of_frame);
@@ -188,7 +188,7 @@ std::vector<std::vector<Marks>> UndistortAll(std::span<const Camera> lenses, std
 
 MeasuredTake MeasureTake(std::span<const ProjectionMatrix> cameras, std::vector<std::vector<Marks>> marks,
                          std::span<const KnownMeasurement> known, const BridgeOptions& bridge) {
-  // Directions and ends by frame, with gaps bridged, and all joints triangulated.
+  // Compute, per frame, the directions and ends with gaps bridged, and triangulate all joints.
   MeasuredTake take;
   take.marks = std::move(marks);
   const MeasureInputs inputs{.cameras = cameras, .marks = take.marks, .known = known};

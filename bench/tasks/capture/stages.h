@@ -19,71 +19,74 @@
 
 namespace etude {
 
-/// The calibration target of each camera: measured positions in the world, and their pixels in the camera's picture.
+/// The calibration pairs of each camera: measured positions of the calibration target in the world, and their pixels in
+/// the camera's picture.
 using CalibrationPairs = std::vector<std::vector<PointPair>>;
 
-/// Returns points on three walls of a box around the stage (paper B, section 2.2: "on different planes"), clicked by a
-/// human with an error of `calibration_noise_px`, and measured with one of `calibration_measure_mm`.
+/// Returns points on three walls of a box around the stage (paper B, section 2.2: "on different planes"). A human
+/// clicks them with an error of `calibration_noise_px` and measures them with an error of `calibration_measure_mm`
+/// (standard deviations).
 CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-/// Returns the discs of a cube (sim/rig/calibration_target.h), found in a picture that each camera takes of it, with
-/// all effects of its optics and sensor. Each disc is searched near a position to which a human points with an error of
-/// `calibration_noise_px`. Each disc is measured by itself. Discs seen at more than 70° from their normal, and those
-/// not found, are left out.
+/// Returns the discs of a cube (sim/rig/calibration_target.h). Each camera takes a picture of the cube with all effects
+/// of its optics and sensor, and the discs are found in it. Each disc is searched near a position to which a human
+/// points with an error of `calibration_noise_px`. The position of each disc is measured separately. Discs seen at more
+/// than 70° from their normal, and discs that are not found, are left out.
 CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
                             Renderer& renderer);
 
-/// Returns the corners of a cube of boards (sim/rig/calibration_target.h), found in a picture that each camera takes of
-/// it with all effects of its optics and sensor. A board is measured as a whole: all its corners have the same error.
+/// Returns the corners of a cube of boards (sim/rig/calibration_target.h). Each camera takes a picture of the cube with
+/// all effects of its optics and sensor, and the corners are found in it. A board is measured as a whole, so all its
+/// corners have the same error.
 CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
                               Renderer& renderer);
 
 /// The cameras of a world, calibrated by one method.
 struct CalibratedCameras {
   std::vector<ProjectionMatrix> matrices;
-  std::vector<Camera> lenses = {};  ///< with their distortion; empty if the calibration estimates none
+  std::vector<Camera> lenses = {};  ///< cameras with their distortion; empty if the calibration estimates none
   double reprojection_rms_px = 0;
   std::string digest = {};
 };
 
-/// The measurements in space from the marks of a whole take.
+/// The measurements in space that the marks of a whole take give.
 struct MeasuredTake {
-  /// `marks[camera][frame]`: the drawn marks without lens distortion; if the method says so, synchronised, and without
-  /// those that disagree. Every method of recovery uses these.
+  /// The marks as `marks[camera][frame]`, without lens distortion. If the method requires it, they are synchronised,
+  /// and marks that disagree with the others are removed. Every method of recovery uses these marks.
   std::vector<std::vector<Marks>> marks;
   std::vector<FrameMeasurement> frames;
-  std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
+  std::vector<std::optional<LimbObservation>> seen;  ///< `frames` with gaps bridged
   std::vector<JointMeasurements> joints;             ///< every joint triangulated from all strokes that end there
   std::string directions_digest, points_digest;
 };
 
-/// The pose of a body nearest to the truth (`FindNearestPoses`), frame by frame.
+/// For each frame, the state of a body that is nearest to the true pose (`FindNearestPoses`).
 using NearestPoses = std::vector<TreeState>;
 
-/// The stages that methods may share in one world: each is computed when a method first needs it, and kept.
+/// The stages that methods may share in one world. Each stage is computed when a method first needs it, and then kept.
 class CaptureStages {
  public:
-  /// `sources` must hold every way of cutting out the person that methods will use, because each picture is rendered
-  /// once for all of them and is not kept. References must outlive this.
+  /// `sources` must contain every way of cutting out the person that the methods use, because each picture is rendered
+  /// once for all of them and is not kept. The objects behind the references must outlive this object.
   CaptureStages(const StudioOptions& options, CaptureWorld world, const WorldKey& key,
                 std::span<const PersonSource> sources, bool keeps_masks);
 
   const StudioOptions& options() const { return options_; }
   const CaptureWorld& world() const { return world_; }
   const WorldKey& key() const { return key_; }
-  /// For each frame, whether the annotator marks it.
+  /// Returns, for each frame, true if the annotator marks it.
   const std::vector<bool>& marked() const { return marked_; }
-  /// Adds the performer's next pose (live capture).
+  /// Adds the performer's next pose. Used for live capture.
   void Add(const BodyPose& pose);
-  /// Returns the renderer; fails, with the reason, if it cannot be made.
+  /// Returns the renderer. Fails, with the reason, if it cannot be made.
   Result<Renderer*> GetRenderer();
   Result<const Take*> GetTake();
   Result<const CalibrationPairs*> GetCalibrationPairs();
   Result<const CalibratedCameras*> GetCameras(const CaptureMethod& method);
-  /// Returns the measurements of `method`; `cameras` and `observation` must be those of `method`.
+  /// Returns the measurements of `method`. `cameras` and `observation` must be those of the same method.
   const MeasuredTake& GetMeasured(const CaptureMethod& method, const CalibratedCameras& cameras,
                                   const Observation& observation);
-  /// Returns the body of `method`; fails, with the reason, if it cannot be made from the performer's joints.
+  /// Returns the body of `method`. Fails, with the reason, if it cannot be made from the performer's joints.
   Result<const CaptureBody*> GetBody(const CaptureMethod& method);
   /// Returns the body of `method` with known limb lengths.
   Result<const CaptureBody*> GetKnownBody(const CaptureMethod& method);
@@ -129,7 +132,7 @@ class CaptureStages {
   std::map<BodyChoice, NearestPoses> nearest_;
 };
 
-/// Returns the truth of a frame that a method with these oracles is given.
+/// Returns those measurements of a frame, with their true values, that the oracles of a method replace.
 KnownMeasurement KnownMeasurementOf(const BodyPose& truth, const Oracle& oracle);
 
 }  // namespace etude

@@ -17,20 +17,20 @@
 
 namespace etude {
 
-/// An outside program that finds the person in the pictures of a take (docs/outside-methods.md): one session per
-/// camera, one step per picture.
+/// An outside program that finds the person in the pictures of a take (docs/outside-methods.md). It has one session per
+/// camera and one step per picture.
 class SeatedSegmenter {
  public:
-  /// `program` must outlive this.
+  /// `program` must outlive this object.
   explicit SeatedSegmenter(LiveProgram& program) : program_(program) {}
 
-  /// Begins a camera: its empty room, then its pictures.
+  /// Begins the session of a camera and sends its picture of the empty room. The camera's pictures must follow.
   void Begin(std::size_t camera, const ColourImage& background);
-  /// Returns the mask that the program answers for the next picture. The mask is all zero if the program has failed or
-  /// its answer was invalid; then the program is not asked again.
+  /// Sends the next picture and returns the mask in the program's answer. If the program has failed or an answer was
+  /// invalid, the mask is all zero, and the program is not asked again.
   Mask Detect(const ColourImage& picture);
 
-  /// The complaint about an answer, or success.
+  /// Returns the first error in an answer, or success.
   const Result<void>& complaint() const { return complaint_; }
 
  private:
@@ -40,26 +40,26 @@ class SeatedSegmenter {
   std::size_t camera_ = 0, frame_ = 0;
 };
 
-/// The cameras of a take, and all that its pictures share: backgrounds, clocks, annotators.
+/// The cameras of a take, and the data that all its pictures share: backgrounds, clocks, annotators.
 class TakeCameras {
  public:
-  /// References must outlive this. The world must already have its first pose, and must have the poses of a frame
-  /// before that frame is shot.
+  /// The objects behind the references must outlive this object. The world must already have its first pose. It must
+  /// have the poses that a frame needs before that frame is shot.
   TakeCameras(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
               std::span<const PersonSource> sources, Renderer& renderer);
 
-  /// One picture, and the result of each source.
+  /// One picture, and the result of each source for it.
   struct Picture {
     ColourImage colour;
-    Mask person, shadow;  ///< the truth
+    Mask person, shadow;  ///< the true masks
     std::vector<Mask> found;
     std::vector<Marks> marks;  ///< empty for silhouettes without keypoints
   };
 
-  /// The pictures of one camera. Its TakeCameras must outlive it.
+  /// The pictures of one camera. Its TakeCameras must outlive this object.
   class Feed {
    public:
-    /// Shoots, cuts out and marks the next picture. A camera's frames must come in order.
+    /// Shoots the next picture, cuts out the person and marks it. The frames of a camera must come in order.
     Picture Next(std::size_t frame);
 
    private:
@@ -75,7 +75,7 @@ class TakeCameras {
   Feed FeedOf(std::size_t camera) { return Feed(*this, camera); }
 
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
-  /// The annotators of each source.
+  /// Returns the annotators of each source.
   const std::vector<Marking>& marking() const { return marking_; }
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kReach = 1.2;  // metres from the middle, within which both cameras see the body
 
-// The window of a clip, and its motion to the middle of the floor.
+// A window of a clip, and the movement that brings it to the middle of the floor.
 struct Window {
   std::size_t start = 0;
   FloorMove to_origin;
@@ -57,7 +57,8 @@ Window ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const
   if (!loops) frames = std::min(frames, available);
   const std::size_t starts = loops ? available : available - frames + 1;
 
-  // Take the first random window that stays within reach, or else the window that exceeds it least.
+  // Take the first random window that stays within reach. If there is none, take the window that exceeds the reach
+  // least.
   constexpr int kTries = 12;
   Window best;
   double least = 0;
@@ -98,8 +99,8 @@ Wardrobe WardrobeOf(Clothes clothes) {
   return Wardrobe::kStudio;
 }
 
-/// Draws the seed of a picture's room, which recordings contain. In a secret world it has so many bits that nobody can
-/// search through all seeds.
+/// Draws the seed of a picture's room. Recordings contain this seed; in a secret world it has so many bits that nobody
+/// can try all seeds.
 std::uint64_t DrawRoomSeed(RandomStream& random, const WorldKey& key) {
   return random.IndexBelow(std::uint64_t{1} << (key.suite_seed.IsPlain() ? 30 : 53));
 }
@@ -109,7 +110,7 @@ StageOptions StageOptionsOf(const StudioOptions& options, const WorldKey& key) {
   return {.seed = DrawRoomSeed(random, key), .scene = options.scene, .wardrobe = WardrobeOf(options.clothes)};
 }
 
-// Returns the lamp's brightness per frame: it varies slowly around the brightness of the background pictures.
+// Returns the lamp's brightness per frame. It varies slowly around the brightness of the background pictures.
 std::vector<double> MakeBrightness(const StudioOptions& options, std::size_t frames, const WorldKey& key) {
   RandomStream random(key, "capture/light");
   const double period_s = random.Uniform(2, 6), phase = random.Uniform(0, 2 * kPi);
@@ -121,7 +122,7 @@ std::vector<double> MakeBrightness(const StudioOptions& options, std::size_t fra
   return brightness;
 }
 
-// Measures lengths with a tape and its random error.
+// A tape with which lengths are measured, with a random error.
 class Tape {
  public:
   Tape(double error_mm, const WorldKey& key) : error_m_(0.001 * error_mm), random_(key, "capture/limb-tape") {}
@@ -131,7 +132,7 @@ class Tape {
     const double measured = length + error_m_ * random_.Normal();
     return length > kMinLength ? std::max(kMinLength, measured) : length;
   }
-  /// Measures the vector from one position to another.
+  /// Returns the measured vector between two positions.
   glm::dvec3 Measure(const glm::dvec3& from_to) {
     const double length = glm::length(from_to), measured = Measure(length);
     return length > 0 ? measured / length * from_to : from_to;
@@ -169,18 +170,18 @@ RestBody Scaled(RestBody body, double scale) {
 
 CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& booking, const WorldKey& key) {
   CaptureWorld world;
-  // The performer, and the light.
+  // Make the performer and the light.
   world.person = {booking.lengths, booking.body};
   world.measured = Measured(world.person, options.limb_measure_mm, key);
   world.colours = ColoursOf(options.clothes);
   RandomStream room(key, "capture/room");
   world.room.texture_seed = DrawRoomSeed(room, key);
   world.brightness = MakeBrightness(options, booking.frames, key);
-  // The cameras with their lenses, and the furnished room.
+  // Make the cameras with their lenses, and the furnished room.
   world.middle = MiddleOnFloor(booking.poses);
   world.cameras = SetUpCameras(options.rig, booking.poses, key);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    // A user's own cameras keep their lens unless the scenario adds a distortion.
+    // The user's own cameras keep their lenses, unless the scenario adds a distortion.
     const Distortion wanted = LensOf(options.camera, world.cameras[i], i, key);
     if (!wanted.IsNone()) world.cameras[i].distortion = wanted;
   }
@@ -190,7 +191,7 @@ CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& bookin
 }
 
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
-  // A clip's own figure moves as the clip does, so it is not disguised.
+  // A clip's own figure moves exactly like the clip, so the clip is not disguised.
   std::optional<Disguise> disguise;
   if (!key.suite_seed.IsPlain() && options.figure != PerformerFigure::kOwn) disguise.emplace(key);
   Window window = ChooseWindow(options, clip, key, disguise);

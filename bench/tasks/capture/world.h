@@ -21,13 +21,13 @@
 
 namespace etude {
 
-/// The limb lengths of a person: as paper B counts them, and joint by joint.
+/// The limb lengths of a person, in paper B's form and joint by joint.
 struct PersonalLimbs {
   LimbLengths lengths;
   RestBody body;
 };
 
-/// The figure of a clip, from a frame of that clip on, moved to the place of the take.
+/// The figure in a clip's file. It begins at frame `first` of the clip and is moved to the place of the take.
 struct OwnFigure {
   std::shared_ptr<const RecordedFigure> figure;
   std::size_t first = 0;
@@ -39,18 +39,18 @@ struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< at 30 Hz, around the floor's origin, facing +Z in its middle frame
   PersonalLimbs person;            ///< the performer
   PersonalLimbs measured;          ///< the limb lengths as measured beforehand, as in paper B
-  std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
+  std::array<Rgb8, 16> colours{};  ///< the performer's colours, by Part
   std::optional<OwnFigure> own;    ///< drawn instead of the stage's people
   glm::dvec3 middle{0};            ///< the expected position of the performer on the floor
   std::vector<Camera> cameras;     ///< at least two, each with its lens
-  std::vector<bool> in_view;       ///< per frame: two cameras see the whole body
+  std::vector<bool> in_view;       ///< per frame; true if two cameras see the whole body
   Room room;                       ///< its brightness is that of the background pictures; used by the studio alone
   StageOptions stage_options;      ///< the options of `stage`
   StagedRoom stage;                ///< the room and people that `scene` adds
-  std::vector<double> brightness;  ///< of each frame
+  std::vector<double> brightness;  ///< brightness of each frame
 };
 
-/// The person to be filmed, and the number of frames.
+/// The person who will be filmed, and the number of frames.
 struct FilmedPerson {
   std::span<const BodyPose> poses;  ///< expected poses: cameras and furniture are set up around them
   RestBody body;
@@ -61,16 +61,17 @@ struct FilmedPerson {
 /// Makes the studio of `key` without a performer: `truth` and `in_view` are empty.
 CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& booking, const WorldKey& key);
 
-/// Makes the world of `key`. The window of the clip begins at a random frame. Of a few random windows it takes the
-/// first that keeps the performer within 1.2 m of the middle, where both cameras see the whole body, or else the one
-/// that leaves this circle least. Moves that loop are repeated; other clips shorter than the window are used whole. In
-/// a secret world the clip is disguised (bench/tasks/base/disguise.h), unless it has its own figure.
+/// Makes the world of `key`. The window of the clip begins at a random frame. Of a few random windows, the first is
+/// taken that keeps the performer within 1.2 m of the middle, where both cameras see the whole body. If there is none,
+/// the window that leaves this circle least is taken. Clips that loop are repeated; other clips that are shorter than
+/// the window are used whole. In a secret world the clip is disguised (bench/tasks/base/disguise.h), unless it has its
+/// own figure.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
 
-/// Returns the lens of a camera under these effects.
+/// Returns the lens distortion of a camera that has these effects.
 Distortion LensOf(const CameraEffects& effects, const Camera& camera, std::size_t index, const WorldKey& key);
 
-/// Returns the measurements of a frame that exact marks and cameras would give.
+/// Returns the measurements of a frame that exact marks and exact cameras would give.
 FrameMeasurement TrueMeasurement(const BodyPose& truth);
 
 }  // namespace etude

@@ -24,14 +24,14 @@ struct Rehearsal {
   std::vector<CoachMethod> methods;
 };
 
-/// Keeps a rehearsal's coaches by scenario and seed. They are made at the first request. If there is an operating
-/// point, their thresholds are set on other people than the judged ones.
+/// Keeps the prepared coaches of a rehearsal, by scenario and seed. They are made at the first request. If there is an
+/// operating point, their thresholds are set on sessions with people who are not judged.
 class ReadyCoaches {
  public:
-  /// `rehearsal` must outlive this.
+  /// `rehearsal` must outlive this object.
   explicit ReadyCoaches(const Rehearsal& rehearsal) : rehearsal_(rehearsal) {}
 
-  /// Fails if a method's recogniser cannot be taught.
+  /// Returns the coaches for worlds of this scenario and seed. Fails if a method's recogniser cannot be taught.
   Result<std::vector<ReadyCoach>*> For(const WorldKey& key) {
     const auto [known, is_new] = known_.try_emplace({key.suite_seed, std::string(key.scenario)});
     if (is_new) {
@@ -83,7 +83,7 @@ class CoachTaskWorld final : public TaskWorld {
     return result;
   }
 
-  /// Returns the coaches. Making them cannot fail here, because the task has made them before.
+  /// Returns the coaches. This cannot fail, because the task has already made them.
   const std::vector<ReadyCoach>& Coaches() const { return **coaches_.For(world_.key); }
 
   const Rehearsal& shared_;
@@ -107,7 +107,7 @@ class CoachTask final : public Task {
   mutable ReadyCoaches coaches_{shared_};  // a cache; its content depends on keys alone
 };
 
-/// Returns the stage of a song, which all conditions with this song share.
+/// Returns the stage of a song. All conditions with this song share it.
 Result<std::shared_ptr<const CoachStage>> SharedStage(const std::string& song) {
   static std::map<std::string, std::weak_ptr<const CoachStage>> stages;
   if (auto known = stages[song].lock()) return known;
@@ -118,6 +118,7 @@ Result<std::shared_ptr<const CoachStage>> SharedStage(const std::string& song) {
 }
 
 Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
+  // Read the condition and the methods.
   Rehearsal shared;
   ASSIGN_OR_RETURN(shared.condition.sight.sensor, SensorOf(input));
   CoachConditionFields().Read(input.condition, shared.condition);
@@ -125,6 +126,7 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
   start.sight.threshold = shared.condition.sight.threshold;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "coach", CoachMethodFields(), start));
   const auto sight = [](const CoachMethod& method) -> const DetectionMethod& { return method.sight; };
+  // Prepare the cameras, and refuse settings that do not work with cameras.
   RETURN_IF_ERROR(PrepareCameras(input, methods, sight, shared.condition.sight));
   for (std::size_t i = 0; i < methods.size() && shared.condition.sight.has_cameras; ++i) {
     if (methods[i].sight.sees_truth || methods[i].sight.Capture().causal) continue;
@@ -137,6 +139,7 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
                 "'operating_point' needs the skeleton sensor, because cameras show every method something else; use "
                 "'threshold'");
   }
+  // Set the stage, and check that every recogniser can be taught.
   ASSIGN_OR_RETURN(shared.stage, SharedStage(shared.condition.song));
   if (const auto ready = MakeReady(methods, *shared.stage); !ready) {
     return Fail(input.condition.node().place, "{}", ready.error().message);

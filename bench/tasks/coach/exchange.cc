@@ -17,7 +17,7 @@ Json NameOf(const CoachStage& stage, int move) {
   return move < 0 ? Json(nullptr) : Json(stage.dance().moves[static_cast<std::size_t>(move)].name);
 }
 
-/// Describes the content of the screen, for programs that see no picture.
+/// Describes the content of the screen as JSON, for programs that receive no picture.
 Json DescribeShown(const CoachStage& stage, const CoachOutput& shown) {
   const int move =
       shown.repetition < 0 ? -1 : stage.dance().repetitions[static_cast<std::size_t>(shown.repetition)].move;
@@ -150,7 +150,7 @@ class SeatedLearner final : public Player {
 
   SeatedCoachProgram& program_;
   BodyPose pose_;
-  std::vector<std::optional<PerformanceTruth>> truths_;  ///< by repetition, of the latest performance
+  std::vector<std::optional<PerformanceTruth>> truths_;  ///< the truth of the latest performance, by repetition
   bool given_up_ = false;
 };
 
@@ -159,7 +159,7 @@ std::string_view TruthName(PerformanceTruth truth) {
   return truth == PerformanceTruth::kRight ? "right" : "wrong";
 }
 
-/// Returns the mode of each interval of frames.
+/// Returns the modes of the session, each with its first frame.
 std::vector<CoachExtras::Mode> ModesOf(const SessionLog& log) {
   std::vector<CoachExtras::Mode> modes;
   for (int frame = 0; frame < log.Frames(); ++frame) {
@@ -210,7 +210,7 @@ Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
   CoachExtras extras;
   extras.song = stage.dance().title;
   extras.modes = ModesOf(log);
-  // Every performance: the truth, and what the coach called it.
+  // Add every performance: its truth, and the coach's judgement.
   for (const LoggedPerformance& performance : log.performances) {
     const CoachedPerformance& judged = performance.judged;
     extras.performances.push_back({.move = stage.moves[static_cast<std::size_t>(performance.move)].name,
@@ -222,7 +222,7 @@ Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
                                    .end_frame = judged.end_frame,
                                    .faults = performance.faults});
   }
-  // What the coach said, decided, corrected and showed.
+  // Add the coach's words, decisions, corrections and pictures.
   for (const LoggedWords& words : log.words) {
     extras.words.push_back({words.begin_frame, words.say, words.hint, words.picture});
   }

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// Number of frames between the time of the screen that the learner sees and the time of the requested pose.
+/// The number of frames from the time of the screen that the learner sees to the time of the requested pose.
 constexpr double kFramesAhead = static_cast<double>(SkeletonSensor::kAhead) + 1;
 
 PerformanceTruth TruthOf(Truth truth) {
@@ -45,7 +45,7 @@ Shown LearnerPlayer::SeenOf(const CoachOutput& shown) {
   return seen;
 }
 
-/// Predicts where the dance will be at the time of the requested pose, if it continues at its present rate.
+/// Predicts the frame of the dance at the time of the requested pose, if the dance continues at its present rate.
 void LearnerPlayer::SeeDance(const CoachOutput& shown, Shown& seen) {
   const double rate = last_frame_ ? std::clamp(shown.clip_frame - *last_frame_, 0.0, 2.0) : 1;
   last_frame_ = shown.clip_frame;

@@ -9,14 +9,14 @@
 
 namespace etude {
 
-/// The simulated learner who faces the coach.
+/// The simulated learner in front of the coach.
 ///
-/// Learners predict where the dance will be when they move, so that they are late only by their own lag. They react to
-/// unexpected events (the coach stops, shakes its head, shows the move) later, by the number of frames for which poses
-/// are requested in advance.
+/// Learners predict the state of the dance at the time of their movement, so they are late only by their own lag.
+/// Unexpected events (the coach stops, shakes its head, shows the move) cannot be predicted. Learners react to these
+/// later, by the number of frames for which poses are requested in advance.
 class LearnerPlayer final : public Player {
  public:
-  /// Both must outlive this.
+  /// `world` and `stage` must outlive this object.
   LearnerPlayer(const CoachWorld& world, const CoachStage& stage);
 
   BodyPose Next(const CoachOutput& shown) override;
@@ -32,9 +32,9 @@ class LearnerPlayer final : public Player {
 
   const CoachStage& stage_;
   Learner learner_;
-  /// The frame of the dance that was shown before; empty if the dance was not shown.
+  /// The frame of the dance that was shown in the previous frame; empty if the dance was not shown.
   std::optional<double> last_frame_;
-  int danced_ = -1;          ///< the repetition that the learner danced in the frame before; −1: none
+  int danced_ = -1;          ///< the repetition that the learner danced in the previous frame; −1: none
   int performances_ = 0;     ///< performances begun so far; if a repetition is danced again, it counts again
   int about_ = -1;           ///< the move of the latest correction
   std::vector<int> latest_;  ///< for each repetition of the dance, its latest performance; −1: none

@@ -13,7 +13,7 @@ Result<ReadyCoach> MakeWatching(const CoachStage& stage) {
   CoachMethod method;
   method.name = "watching";
   method.policy.policy = FindPolicy("never");
-  // Above the largest evidence, 1, so no performance counts as right before its window has closed.
+  // This is above the largest evidence, 1. No performance therefore counts as right before its window has closed.
   constexpr double kNever = 2;
   method.sight.threshold = kNever;
   std::vector<CoachMethod> methods;
@@ -63,7 +63,7 @@ Result<void> SetThresholds(const CoachCondition& condition, const CoachStage& st
     ASSIGN_OR_RETURN(auto recogniser, MakeRecogniser(method.sight.recogniser, stage.taught));
     recognisers.push_back(std::move(recogniser));
   }
-  // Record sessions of other people, and collect the evidence of their right performances.
+  // Record sessions of other people, and collect the evidence for their right performances.
   ASSIGN_OR_RETURN(const ReadyCoach watching, MakeWatching(stage));
   const std::string others = std::string(key.scenario) + "/operating-point";
   std::vector<std::vector<double>> right(methods.size());

@@ -11,25 +11,25 @@
 
 namespace etude {
 
-/// Makes a coach who dances the whole song and judges nothing before a window has closed. Afterwards any recogniser can
-/// be run on the recorded session.
+/// Makes a coach who dances the whole song and judges nothing before a window has closed. Any recogniser can be run
+/// afterwards on the recorded session.
 Result<ReadyCoach> MakeWatching(const CoachStage& stage);
 
-/// Runs a recogniser on a recorded session; it is asked for the same moves as in the session. Calls `judged` for every
-/// performance when its window closes, with the evidence.
+/// Runs a recogniser on a recorded session. It receives the requests of the session. Calls `judged` with the evidence
+/// for every performance when its window closes.
 void FollowPerformances(const SessionLog& log, const Recogniser& recogniser, const FilterOptions& filter,
                         const std::function<void(const LoggedPerformance&, double evidence)>& judged);
 
-/// Returns the highest threshold on evidence such that at most `needless_per_min` right performances per minute are
-/// below it. `right` holds the evidence of all right performances of `minutes` > 0, in any order. Returns 1 if all of
-/// them may be below.
+/// Returns the highest threshold on evidence at which at most `needless_per_min` right performances per minute are
+/// below it. `right` holds the evidence for all right performances in `minutes` > 0 of sessions, in any order. Returns
+/// 1 if all of them may be below.
 double ThresholdOf(std::vector<double> right, double minutes, double needless_per_min);
 
-/// Sets CoachOptions::right_from, the evidence at or above which a performance counts as right, for methods that do not
-/// set it. The value is found on sessions of other people under the same condition, who are never interrupted: the
-/// given number of right performances per minute shall be taken for mistakes. `key` is that of any judged world; the
-/// dice of the other people differ from those of the judged ones. Methods with an oracle for judgement, or with a
-/// program as the recogniser, are not changed.
+/// Sets CoachOptions::right_from for methods that do not set it. This is the evidence at or above which a performance
+/// counts as right. It is found on sessions of other people under the same condition who are never interrupted: the
+/// condition's number of right performances per minute must be taken for mistakes. `key` is the key of any judged
+/// world; the dice of the other people differ from those of the judged ones. Methods with an oracle for judgement, or
+/// with a program as the recogniser, are not changed.
 Result<void> SetThresholds(const CoachCondition& condition, const CoachStage& stage, const WorldKey& key,
                            std::vector<CoachMethod>& methods);
 

@@ -29,7 +29,7 @@ std::vector<Field<Method>> CoachFields() {
                     "Whether music-time tags slow down and speed up the dance.")};
 }
 
-/// The key `policy`, its settings, and the keys that belong to it.
+/// Returns the key `policy`, the policies' settings, and the keys that depend on `policy`.
 std::vector<Field<Method>> PolicyFields() {
   using Key = Field<Method>;
   std::vector<Key> fields = {Key::Name("policy", Path(&Method::policy, &Coach::PolicyChoice::policy), PolicyNames(),
@@ -92,7 +92,7 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
         Key::Number("stutter_s", Path(&Condition::music, &MusicClockOptions::stutter_s), {0, 5},
                     "Duration of each stop.")
             .Unit("seconds")};
-    // The sensor: keys that task detection declares.
+    // The keys of the sensor, which task detection declares.
     std::vector<std::string> sight = {"people",     "noise",           "turn_deg", "sensor",
                                       "distance_m", "sensor_height_m", "occluder", "threshold"};
     for (const auto& field : CameraSensingFields().fields) sight.push_back(field.info.key);
@@ -119,7 +119,7 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
 const FieldTable<CoachMethod>& CoachMethodFields() {
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
-    // The recogniser, the policy and the transitions, whose keys other tables declare; then the seat.
+    // The keys of the recogniser, the policy and the transitions, which other tables declare; then the key `seat`.
     std::vector<Key> fields =
         FieldsOf<Method>(DetectionMethodFields(), &Method::sight, Keep::kOthers, {"refractory_s", "oracle"});
     fields.push_back(Key::Flags(

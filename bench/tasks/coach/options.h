@@ -12,35 +12,36 @@
 
 namespace etude {
 
-/// The operating point at which coaches are compared. Each coach uses the threshold on evidence at which, for other
-/// people under the same condition, this many right performances per minute are taken for mistakes.
+/// The operating point at which coaches are compared. Each coach uses the threshold on evidence at which
+/// `needless_per_min` right performances per minute are taken for mistakes, measured on other people under the same
+/// condition.
 struct CoachOperatingPoint {
   double needless_per_min = 0.2;
-  int sessions = 24;  ///< number of sessions, each of another person
+  int sessions = 24;  ///< number of sessions, each with another person
 };
 
-/// One condition of a coach scenario: who learns which song, how well the sensor sees it, and how steady the music is.
+/// One condition of a coach scenario: the learner, the song, the quality of the sensor and the steadiness of the music.
 ///
-///     song: groove       # what is danced
-///     session_s: 180     # how long the coach may take; the song begins anew when it is over
-///     people: adult      # who learns
-///     learning: power    # by which law
-///     noise: 1           # times every error of the sensor
+///     song: groove       # the song that is danced
+///     session_s: 180     # length of the session, seconds; the song is repeated
+///     people: adult      # the kind of learner
+///     learning: power    # the law of learning
+///     noise: 1           # factor of every error of the sensor
 struct CoachCondition {
   std::string song = "groove";
   double session_s = 180;
   LearnerOptions learner;
-  std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that set none
+  std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that do not set their own
   MusicClockOptions music;
   DetectionOptions sight;  ///< the person and the sensor; the session script in it is not used
 };
 
 /// The part of the loop that an outside program takes.
 enum class Seat { kNone, kRecogniser, kPolicy, kLearner };
-/// "recogniser", "policy", "learner".
+/// Returns "recogniser", "policy", "learner".
 const std::vector<std::string>& SeatNames();
 
-/// One coach.
+/// One coach that a scenario compares.
 ///
 ///     - {name: a, recogniser: key-pose, policy: at-first-mistake, choice: fuzzy-bridge, join: cut}
 ///     - {name: control, recogniser: key-pose, policy: yoked, partner: at-first-mistake}
@@ -48,9 +49,8 @@ struct CoachMethod {
   std::string name;
   DetectionMethod sight;
   Coach::PolicyChoice policy{&AllPolicies().front(), {}};
-  /// A yoked method corrects at the times of a session with this policy.
+  /// A yoked method corrects at the times at which a session with this policy corrects.
   const Policy* partner = &AllPolicies().front();
-  ///< times
   bool knows_truth = false;  ///< `oracle: [judgement]`
   TransitionMethod transition;
   CoachOptions coach;

@@ -32,7 +32,7 @@ SessionParts PartsOf(const ReadyCoach& ready, const Coach& coach, const Recognis
   return {coach, recogniser, sight.filter, sight.sees_truth, sight.Capture()};
 }
 
-/// Runs the session of another person, under the same condition, from which a yoked session takes its correction times.
+/// Runs a session of another person under the same condition. A yoked session takes its correction times from it.
 Result<SessionLog> RunPartner(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                               const CoachWorld& world) {
   const std::string scenario = fmt::format("{}/partner", world.key.scenario);
@@ -47,8 +47,8 @@ bool AreAlike(const TransitionWay& a, const TransitionWay& b) {
          a.rules.within_class == b.rules.within_class;
 }
 
-/// Returns the coach's own policy. If a program takes that seat, it decides when to correct, as the partner of a yoked
-/// method does.
+/// Returns the coach's own policy. If a program takes the seat of the policy, returns the yoked policy, because the
+/// program then decides when to correct.
 Coach::PolicyChoice PolicyOf(const CoachMethod& method) {
   if (method.seat == Seat::kPolicy) return {FindPolicy("yoked"), {}};
   return method.policy;
@@ -117,7 +117,7 @@ CoachedSession SessionOf(const SessionLog& log) {
   return session;
 }
 
-/// Returns the truths of the performances of each move of the dance.
+/// Returns the truths of the performances, for each move of the dance.
 std::vector<std::vector<PerformanceTruth>> TruthsByMove(const SessionLog& log, std::size_t moves) {
   std::vector<std::vector<PerformanceTruth>> truths(moves);
   for (const LoggedPerformance& performance : log.performances) {
@@ -126,7 +126,7 @@ std::vector<std::vector<PerformanceTruth>> TruthsByMove(const SessionLog& log, s
   return truths;
 }
 
-/// Returns the jump of every transition whose whole window lies in the session.
+/// Returns the jump of every transition whose whole window lies in the session, centimetres.
 std::vector<double> JumpsOf(const SessionLog& log) {
   const std::vector<double> jumps = SecondDifferencesCm(log.coach);
   std::vector<double> worst;
@@ -176,7 +176,7 @@ std::string DecisionDigest(const SessionLog& log) {
   return digest.Hex();
 }
 
-/// Returns 1, ½ or 0 (right, grey or wrong) per performance.
+/// Returns 1, ½ or 0 (right, grey or wrong) for each performance.
 Series TruthSeries(const SessionLog& log) {
   Series series{.name = "right", .axis = "performance", .values = {}};
   for (const LoggedPerformance& performance : log.performances) {
@@ -189,7 +189,7 @@ Series TruthSeries(const SessionLog& log) {
 }  // namespace
 
 void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result) {
-  // How the learner and the coach did.
+  // Measure the success of learner and coach.
   result.MeasureOr("retention", Retention(log.test), "nothing in the test was right or wrong");
   const CoachedSession session = SessionOf(log);
   MeasureCorrections(session, result);
@@ -198,7 +198,7 @@ void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const Sessi
   const auto danced = std::ranges::count(log.modes, CoachMode::kDance);
   result.Measure("danced_share", static_cast<double>(danced) / world.frames);
   result.Measure("gave_up", log.given_up_at ? 1 : 0);
-  // How the dance looked: beats and transitions.
+  // Measure the quality of the dance: beats and transitions.
   result.MeasureOr("beat_error_ms", BeatErrorMs(log.beat_errors_s), "nothing was danced to music");
   const auto bridged = std::ranges::count_if(log.transitions, &LoggedTransition::is_bridged);
   result.MeasureOr("transition_bridged_share", Share(bridged, static_cast<std::int64_t>(log.transitions.size())),
@@ -207,7 +207,7 @@ void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const Sessi
   result.MeasureOr("transition_jump_cm", MedianOf(jumps), "there was no transition");
   result.MeasureOr("transition_natural_share", NaturalShare(jumps, stage.natural_jumps_cm), "there was no transition");
 
-  // Digests of the session's stages.
+  // Compute the digests of the session's stages.
   Digest sensed;
   for (const SensedFrame& frame : log.sensed.frames) {
     for (const SensedJoint& joint : frame.joints) {

@@ -15,26 +15,26 @@
 
 namespace etude {
 
-/// A prepared method: its coach, and its recogniser that was taught the moves of the dance.
+/// A prepared method: its coach, and its recogniser, which has been taught the moves of the dance.
 struct ReadyCoach {
   CoachMethod method;
   std::shared_ptr<const DanceTransitions> transitions;  ///< shared by all methods with this kind of transitions
   std::unique_ptr<Recogniser> recogniser;
   std::unique_ptr<Coach> coach;
-  std::unique_ptr<Coach> partner;  ///< of a yoked method
+  std::unique_ptr<Coach> partner;  ///< the partner coach of a yoked method; else null
 };
 
 /// Prepares the methods. `stage` must outlive the result. Fails if a method's recogniser cannot be taught.
 Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, const CoachStage& stage);
 
 /// Runs a session of a method's coach with this world's learner. A yoked method first runs a session of its partner
-/// policy, with another person drawn from the same distribution, and then corrects at the same frames. `program` takes
-/// the method's seat; null = there is none. Fails if an answer has the wrong shape.
+/// policy with another person from the same distribution, and then corrects at the same frames. `program` takes the
+/// method's seat; null = no program. Fails if an answer has the wrong shape.
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program);
 
-/// Adds to a result every metric of a session (or the reason why it has no value), digests of what was danced, sensed,
-/// decided and shown, and curves.
+/// Adds all metrics of a session to a result, by a value or by the reason why it is missing. Also adds the curves, and
+/// digests of the motions danced and sensed, of the decisions and of the motion shown.
 void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result);
 std::vector<std::string> CoachMetrics();
 

@@ -19,7 +19,7 @@ bool IsBridged(const TransitionRecord& record) {
 
 constexpr int kAhead = static_cast<int>(LiveSensor::kAhead);
 
-/// One session while it runs.
+/// Runs one session.
 class Loop {
  public:
   Loop(const SessionParts& parts, const CoachWorld& world, Player& player, MomentSource* moments)
@@ -34,7 +34,7 @@ class Loop {
     ASSIGN_OR_RETURN(sensor_, MakeSensor());
     for (const BodyPose& pose : log_.learner.poses) sensor_->Update(pose);
     while (frame_ < world_.frames) {
-      // The learner moves, the sensor sees it, and the coach reacts.
+      // The learner moves, the sensor observes the learner, and the coach reacts.
       const SensedFrame sensed = *SeeLearner();
       const SensedFrame seen = parts_.sees_truth ? AsDanced(frame_) : sensed;
       shown_ = coach_->Next(seen, Told());
@@ -52,7 +52,7 @@ class Loop {
   }
 
  private:
-  /// Begins the song again after its end. The coach keeps its memory of the player and of the frames that it has seen.
+  /// Begins the song again after its end. The coach keeps its memory of the player and of the frames it has received.
   void DanceAgain() {
     CoachState state = parts_.coach.BeginDancing();
     state.moves = coach_->state().moves;
@@ -67,7 +67,7 @@ class Loop {
     return sensor_->Update(log_.learner.poses.back());
   }
 
-  /// Makes the sensor. Cameras are set up for the learner's pose at the start of the session.
+  /// Makes the sensor. If it consists of cameras, they are set up for the learner's pose at the start of the session.
   Result<std::unique_ptr<LiveSensor>> MakeSensor() const {
     if (!world_.cameras || parts_.sees_truth) {
       return std::make_unique<SkeletonSensor>(world_.sensor, world_.occluders, world_.errors, kJudgedRateHz,
@@ -101,7 +101,7 @@ class Loop {
     if (music_.IsPlaying()) NoteBeats(before, music_.Now());
   }
 
-  /// Logs the beats between two music times, which both lie within this frame.
+  /// Logs the beats between two times of the music, which both lie within this frame.
   void NoteBeats(double from_s, double to_s) {
     const std::vector<double>& beats = parts_.coach.dance().beats_s;
     for (auto beat = std::ranges::lower_bound(beats, from_s); beat != beats.end() && *beat < to_s; ++beat) {
@@ -146,8 +146,8 @@ class Loop {
     }
   }
 
-  /// Logs the performance whose window has closed. A window that the coach itself cut off is not logged, because it did
-  /// not ask for a whole performance.
+  /// Logs the performance whose window has closed. A window that the coach itself cut off is not logged, because the
+  /// coach did not ask for a whole performance.
   void NoteVerdict(CoachEvent event) {
     if (!open_) return;
     const bool was_cut = event == CoachEvent::kUnjudged && shown_.mode != CoachMode::kDance;
@@ -166,7 +166,7 @@ class Loop {
     open_.reset();
   }
 
-  /// Logs the first frame of a correction, without the transition to it.
+  /// Logs the first frame of a correction, which is the frame after the transition to it.
   void NoteAct() {
     const bool acts = shown_.mode == CoachMode::kCorrect && !shown_.in_transition;
     if (acts && !log_.corrections.empty() && !log_.corrections.back().act_frame) {
@@ -183,7 +183,7 @@ class Loop {
     log_.words.push_back(std::move(words));
   }
 
-  /// Returns the last frames before the transition points of a transition requested in this frame.
+  /// Returns the last frame before each transition point of a transition that was requested in this frame.
   std::vector<int> TransitionPointsOf(const TransitionRecord& record) const {
     std::vector<int> points;
     double frame = frame_;

@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// The truth of a performance, as its player knows it.
+/// The truth of a performance, which only its player knows.
 struct PlayedPerformance {
   PerformanceTruth truth = PerformanceTruth::kRight;
   std::string faults = "none";  ///< "amplitude+late"
@@ -26,21 +26,21 @@ class Player {
   virtual ~Player() = default;
 
   /// Returns the body's next pose, after the coach showed `shown`. The pose is for a time SkeletonSensor::kAhead frames
-  /// later than what is shown (0.23 s), because nobody reacts at once: a simple visual reaction takes 0.2 to 0.25 s.
+  /// (0.23 s) after `shown`, because nobody reacts at once: a simple visual reaction takes 0.2 to 0.25 s.
   virtual BodyPose Next(const CoachOutput& shown) = 0;
-  /// Returns the latest performance of this repetition of the dance; nullopt if it was not begun.
+  /// Returns the latest performance in this repetition of the dance; nullopt if it has not begun.
   virtual std::optional<PlayedPerformance> PerformanceOf(int repetition) const = 0;
   /// Returns true if the player's patience has run out.
   virtual bool HasGivenUp() const = 0;
   /// Tests the player without a coach, after the time that `performances_later` performances would take. Returns, for
-  /// every move of the dance, the probability of dancing it without a fault. A player without such a probability
-  /// performs each move once: the value is 1 or 0, and a grey performance has no entry.
+  /// every move of the dance, the probability of dancing it without a fault. A player that does not know this
+  /// probability performs each move once; its value is 1 if right and 0 if wrong, and a grey performance has no entry.
   virtual std::vector<double> TakeTest(int performances_later) = 0;
 };
 
-/// A performance that was asked for, as danced and as judged.
+/// A performance that the coach asked for: how it was danced and how it was judged.
 struct LoggedPerformance {
-  int repetition = 0;  ///< of the dance
+  int repetition = 0;  ///< the repetition of the dance
   int move = 0;
   CoachedPerformance judged;
   std::string faults;
@@ -49,17 +49,17 @@ struct LoggedPerformance {
 /// A transition of the coach.
 struct LoggedTransition {
   std::vector<int> points;
-  bool is_bridged = false;  ///< it uses bridge frames, directly or with clips in between
+  bool is_bridged = false;  ///< true: it uses bridge frames, directly or with clips in between
 };
 
-/// The words on the screen from a frame on.
+/// The words on the screen. They are shown from `begin_frame` on.
 struct LoggedWords {
   int begin_frame = 0;
   std::string say, hint;
   std::optional<BodyPose> picture;  ///< the key pose that the hint is about
 };
 
-/// The log of a session.
+/// The record of a session.
 struct SessionLog {
   std::vector<CoachMode> modes;  ///< per frame
   std::vector<LoggedPerformance> performances;
@@ -67,35 +67,35 @@ struct SessionLog {
   std::vector<CoachRecord> records;  ///< frames count from the session's first
   std::vector<LoggedTransition> transitions;
   std::vector<LoggedWords> words;     ///< one entry per change
-  std::vector<double> beat_errors_s;  ///< of the frames danced to music
+  std::vector<double> beat_errors_s;  ///< errors in the frames danced to music
   std::vector<double> beats_s;        ///< times of the music's beats, seconds from the session's start
-  BodyMotion coach;                   ///< as shown
-  BodyMotion learner;                 ///< as danced
-  SkeletonStream sensed;              ///< as the coach sees it, before its filter
-  std::optional<int> given_up_at;     ///< frame
+  BodyMotion coach;                   ///< the coach's motion as shown
+  BodyMotion learner;                 ///< the learner's motion as danced
+  SkeletonStream sensed;              ///< the sensor's stream, before the coach's filter
+  std::optional<int> given_up_at;     ///< the frame in which the learner gave up
   std::vector<double> test;           ///< results of the test without a coach (Player::TakeTest)
 
   int Frames() const { return static_cast<int>(modes.size()); }
 };
 
-/// The parts of a session; all must outlive it.
+/// The parts of a session. All must outlive it.
 struct SessionParts {
   const Coach& coach;
   const Recogniser& recogniser;
   FilterOptions filter;
-  bool sees_truth = false;     ///< the coach sees the learner as danced, not as sensed
-  CaptureMethod capture = {};  ///< with cameras: the causal method that makes skeletons
+  bool sees_truth = false;     ///< true: the coach receives the learner's true motion, not the sensed one
+  CaptureMethod capture = {};  ///< if the sensor is cameras: the causal method that makes skeletons
 };
 
-/// Decides in each frame, instead of the coach's own policy, whether to correct.
+/// Decides in each frame if the coach corrects, instead of the coach's own policy.
 class MomentSource {
  public:
   virtual ~MomentSource() = default;
   virtual bool Now(int frame, const CoachOutput& before) = 0;
 };
 
-/// Runs one session: the player sees the coach, the sensor sees the player, and the coach sees what the sensor reports.
-/// `moments` may be null. Fails, with the reason, if cameras cannot be set up.
+/// Runs one session: the player sees the coach, the sensor observes the player, and the coach receives the sensor's
+/// report. `moments` may be null. Fails, with the reason, if cameras cannot be set up.
 Result<SessionLog> RunSession(const SessionParts& parts, const CoachWorld& world, Player& player,
                               MomentSource* moments);
 

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// A song and a coach who dances it without interrupting or judging early.
+/// A song, and a coach who dances it without interrupting the learner.
 struct Lesson {
   CoachStage stage;
   ReadyCoach coach;
@@ -35,13 +35,13 @@ CoachCondition DrawCondition(const WorldKey& key) {
   if (dice.Chance(0.5)) condition.sight.sensor = SensorV1();
   condition.sight.session.people = People::kMixed;
   condition.learner.skill = dice.Uniform(0.1, 0.8);
-  // Else full mistakes would be rare, and the model must not miss them.
+  // Without this, performances with full mistakes would be rare, and the model must learn not to miss them.
   if (dice.Chance(0.5)) condition.learner.severity = 1;
   return condition;
 }
 
-/// Adds a bag for each window that is not grey. It holds only the nearest measures, because others cannot influence the
-/// fit.
+/// Adds a bag for each window that is not grey. A bag contains only the nearest measures, because others cannot
+/// influence the fit.
 void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
   std::vector<PerformanceMeasures> measured;
   const auto recogniser =

@@ -11,7 +11,7 @@
 namespace etude {
 
 struct CoachedTraining {
-  int sessions = 300;  ///< each of another person, three minutes long
+  int sessions = 300;  ///< number of sessions, each three minutes with another person
   std::uint64_t seed = 1;
   BoostingOptions boosting{.trees = 200, .rate = 0.08};
   OnProgress progress = {};  ///< called with the number of sessions
@@ -19,9 +19,9 @@ struct CoachedTraining {
 
 /// Trains the model of recogniser `coached`. Simulated people of all kinds and skills dance these songs with a coach
 /// who never interrupts, in front of both sensors and with various noises. Every performance is measured in its window,
-/// as the recogniser does in use, and the model is fitted to the truth. Grey performances are left out. The worlds have
-/// other dice than those of every scenario, so no judged person is among them. Only `asked` is fitted. Unknown songs
-/// are an error.
+/// as in use, and the model is fitted to the truth. Grey performances are left out. The worlds have other dice than
+/// those of every scenario, so no judged person is among them. Only LearntModel::asked is fitted. Fails on an unknown
+/// song.
 Result<LearntModel> TrainCoached(std::span<const std::string> songs, const CoachedTraining& training);
 
 }  // namespace etude

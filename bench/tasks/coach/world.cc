@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Returns the tempo at which the song has this move, beats of the move per minute.
+/// Returns the tempo at which the song contains this move, in beats of the move per minute.
 double TempoOf(const Song& song, const std::string& move) {
   const auto part = std::ranges::find(song.parts, move, &SongPart::move);
   return part->half_time ? song.tempo_bpm / 2 : song.tempo_bpm;
@@ -38,7 +38,7 @@ Result<CoachStage> SetCoachStage(const std::string& name) {
 }
 
 CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key) {
-  // About the distance at which Kinect's makers ask players to stand.
+  // This is about the distance at which Kinect's makers ask players to stand, metres.
   constexpr double kMinDistance = 2.5, kMaxDistance = 3.0;
   RandomStream place_dice(key, "sensor-place");
   const double drawn = place_dice.Uniform(kMinDistance, kMaxDistance);

@@ -16,13 +16,13 @@
 
 namespace etude {
 
-/// The data that all worlds of a condition share: a song with its dance and moves.
+/// The data that all worlds of a condition share: a song with its dance and its moves.
 struct CoachStage {
-  std::vector<Move> moves;                   ///< of the dance, in its order, at the song's tempo
+  std::vector<Move> moves;                   ///< the moves of the dance, in its order, at the song's tempo
   std::vector<TaughtMove> taught;            ///< the same moves, as recognisers are taught them
-  std::unique_ptr<ShowableFaults> showable;  ///< the faults that each of them can have; never null
+  std::unique_ptr<ShowableFaults> showable;  ///< the faults that each move can have; never null
   std::unique_ptr<DanceLibrary> library;     ///< never null
-  std::vector<double> natural_jumps_cm;      ///< of the unbroken dance
+  std::vector<double> natural_jumps_cm;      ///< natural jumps of the unbroken dance
 
   const Dance& dance() const { return library->dance(); }
 };
@@ -31,7 +31,7 @@ struct CoachStage {
 Result<CoachStage> SetCoachStage(const std::string& song);
 
 /// One trial: the learner and the position of the sensor. All other random values of a session are drawn while it runs,
-/// from streams keyed by the event (the n-th performance of a move) and by the frame, so that every coach meets the
+/// from streams keyed by the event (the n-th performance of a move) or by the frame. Every coach therefore meets the
 /// same random events.
 struct CoachWorld {
   WorldKey key;
@@ -41,12 +41,12 @@ struct CoachWorld {
   Occluders occluders;
   std::optional<StudioOptions> cameras = {};  ///< if set, used instead of the skeleton sensor
   MusicClockOptions music;
-  int frames = 0;  ///< of the session
+  int frames = 0;  ///< length of the session
   LearnerOptions learner;
   int test_after = 20;  ///< delay of the retention test, as a number of performances that would fill that time
 };
 
-/// Makes the world of `key`, whose scenario must outlive it.
+/// Makes the world of `key`. The scenario in `key` must outlive the world.
 CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key);
 
 }  // namespace etude

@@ -39,7 +39,8 @@ class DetectionTask final : public Task {
                                           keeps_motion);
   }
 
-  /// A session mixes all labelled clips, so a clip is named only if it causes the world to be skipped.
+  /// Returns no clip for an ordinary world, because a session mixes all labelled clips. Returns the clip that causes
+  /// the world to be skipped.
   std::vector<std::string> ClipsOf(const WorldKey& key) const override {
     const TrialClip& clip = ClipAt(key);
     if (clip.is_labelled) return {};

@@ -173,7 +173,7 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
   SessionVerdict verdict;
   verdict.filtered = world.stream;
 
-  // One judgement per performance asked for.
+  // Read one judgement per requested performance.
   const std::vector<DetectionEvent>& asked = world.events;
   const Json& events = fields.List("events", asked.size(), asked.size());
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -182,7 +182,7 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
     if (auto done = event.Finish(); !done) fields.Note(done.error());
   }
 
-  // All detections, each once.
+  // Read all detections, each once.
   const std::vector<std::string> moves = NamesOf(repertoire.taught);
   const int frames = static_cast<int>(world.stream.frames.size());
   std::set<std::pair<std::size_t, int>> calls;  // by move, then by time; duplicates count once
@@ -192,10 +192,10 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
     const std::string move = alarm.RequiredChoice("move", moves);
     const int frame = alarm.Integer("frame", 0, frames - 1);
     if (auto done = alarm.Finish(); !done) fields.Note(done.error());
-    // RequiredChoice has reported an unknown move already.
+    // RequiredChoice has already reported an unknown move.
     if (const auto taught = repertoire.TaughtIndexOf(move)) calls.emplace(*taught, frame);
   }
-  // False alarms are detections outside every performance of their move.
+  // False alarms are the detections outside every performance of their move.
   for (const auto& [move, frame] : calls) {
     verdict.spotted.push_back({move, frame});
     if (!IsPerformance(moves[move], frame, world)) verdict.alarms.push_back({move, frame});
@@ -217,7 +217,7 @@ std::string StateLetters(const SensedFrame& frame) {
 Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire) {
   DetectionExtras extras;
   extras.threshold = verdict.threshold;
-  // The moves with their key poses.
+  // Add the moves with their key poses.
   for (const TaughtMove& move : repertoire.taught) {
     DetectionExtras::Move& told = extras.moves.emplace_back();
     told.name = move.name;
@@ -228,7 +228,7 @@ Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdi
       }
     }
   }
-  // The performances with their judgements, then the alarms.
+  // Add the performances with their judgements, and then the alarms.
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const DetectionEvent& event = world.events[i];
     const Judgement& judgement = verdict.events[i];

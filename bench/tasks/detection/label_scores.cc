@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Returns the mean squared distance along the best warping path. It may stop early and return infinity if the result
-/// exceeds `enough`.
+/// Returns the mean squared distance along the best warping path. May stop early and return infinity if the result
+/// would exceed `enough`.
 double WarpedCost(const std::vector<PoseVector>& a, const std::vector<PoseVector>& b, double enough) {
   if (a.empty() || b.empty()) return kFar;
   const double all = static_cast<double>(a.size() + b.size());
@@ -40,7 +40,7 @@ struct Described {
   std::vector<PoseVector> steps;
 };
 
-/// Returns the move of the nearest performance by anybody else; "" if there is none.
+/// Returns the move of the nearest performance by any other person; "" if there is none.
 std::string NearestByOthers(const Described& one, const std::vector<Described>& all) {
   double lowest = kFar;
   std::string move;
@@ -89,7 +89,7 @@ class PersonLeftOut {
   }
 
  private:
-  /// Evaluates the parts of one stream.
+  /// Evaluates the labelled parts of one stream.
   void TakeStream(const std::string& person, std::span<const LabelledPart> parts) {
     const auto is_theirs = [&](const LabelledPart& part) { return part.person == person; };
     if (std::ranges::none_of(parts, is_theirs)) return;
@@ -173,7 +173,7 @@ void LabelScores::Add(const NamedStream& stream, std::span<const LabelledPart> p
   const SkeletonStream& frames = stream.stream;
   const SeenStream seen = SeeStream(frames, watch_.filter);
   const auto count = static_cast<int>(frames.frames.size()), margin = static_cast<int>(kMargin * frames.rate_hz);
-  // Performances and action points of this recording.
+  // Collect the performances and action points of this recording.
   std::vector<MoveWindow> windows;
   bool has_points = false;
   for (const LabelledPart& part : parts) {
@@ -194,7 +194,7 @@ void LabelScores::Add(const NamedStream& stream, std::span<const LabelledPart> p
     const double score = JudgeAsked(seen, part.begin, end, recogniser_, index);
     performances_.push_back({part.IsRight(), score >= watch_.decision.threshold, score});
   }
-  // Detections outside all of their windows are false alarms.
+  // Count the detections outside all windows of their move as false alarms.
   for (const Spotting& spotting : spottings) {
     const std::string& move = moves_[spotting.move].name;
     alarms_ += IsFalseAlarm(move, spotting.frame, windows);

@@ -12,43 +12,43 @@
 
 namespace etude {
 
-/// The true move of a performance, and the move it was classified as; "" = none.
+/// A classified performance: its true move, the move that the recogniser found ("" = none), and its person.
 struct Classified {
   std::string truth, taken_for, person;
 };
-/// Returns the share of performances that were classified correctly; nothing without any.
+/// Returns the share of performances that were classified correctly; nothing without performances.
 std::optional<double> Accuracy(std::span<const Classified> verdicts);
 
-/// The result of recognising each person with moves taught by all others.
+/// The result of leave-one-person-out: each person is recognised with moves taught by all others.
 struct LeaveOneOut {
   std::vector<std::string> people;         ///< sorted
-  std::vector<Classified> verdicts;        ///< of right performances with a beginning and an end
-  /// The same performances, classified by the nearest whole performance of anybody else: a yardstick.
+  std::vector<Classified> verdicts;        ///< verdicts on right performances with a beginning and an end
+  /// The same performances, classified by the nearest whole performance of any other person. They serve as a yardstick.
   std::vector<Classified> nearest;
-  std::vector<Moment> points, detections;  ///< of recordings with action points, on one time axis
-  /// Performances of moves that nobody else did right; `verdicts` holds them as not recognised.
+  std::vector<Moment> points, detections;  ///< those in recordings with action points, on one time axis
+  /// The number of performances whose move nobody else performed right. `verdicts` contains them as not recognised.
   int untaught_performances = 0;
 };
 
-/// Leaves one person out at a time: teaches all moves by the others' right performances (their wrong ones are
-/// counter-examples), then classifies that person's. Fails for parts without a person (naming their line of `file`),
-/// and for fewer than two people.
+/// Leaves one person out at a time: teaches all moves by the other people's right performances (their wrong ones are
+/// counter-examples), then classifies the performances of the person left out. Fails if a part has no person (naming
+/// the part's line in `file`), or if there are fewer than two people.
 Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, const std::vector<LabelledPart>& parts,
                                       const std::string& file, const WatchOptions& options);
 
-/// Returns the distance of two performances, centimetres RMS per joint with the trunk scaled to 50 cm, by dynamic time
-/// warping of both as a whole (Sakoe and Chiba 1978, symmetric): the usual yardstick for such data sets. Nullopt if one
-/// shows no body.
+/// Returns the distance of two performances, centimetres: the root mean square per joint, with the trunk scaled to 50
+/// cm, by dynamic time warping of both performances as a whole (Sakoe and Chiba 1978, symmetric). It is the usual
+/// yardstick for such data sets. Nullopt if one of the performances shows no body.
 std::optional<double> WarpedDistanceCm(const SkeletonStream& a, const SkeletonStream& b);
 
 /// Scores how well recognised moves agree with labels, over several recordings.
 class LabelScores {
  public:
-  /// All arguments must outlive this; `recogniser` was taught `moves`.
+  /// All arguments must outlive this object. `recogniser` must have been taught `moves`.
   LabelScores(std::span<const TaughtMove> moves, const Recogniser& recogniser, const WatchOptions& watch);
 
-  /// Adds a recording with its parts and the moves spotted in it. The recogniser is asked for each performance from its
-  /// beginning to half a second after its end; the performance counts as called right if its evidence reaches the
+  /// Adds a recording with its labelled parts and the moves spotted in it. The recogniser is asked for each performance
+  /// from its beginning to half a second after its end. The performance is called right if its evidence reaches the
   /// threshold. Labels of moves that were not taught are only counted.
   void Add(const NamedStream& stream, std::span<const LabelledPart> parts, std::span<const Spotting> spottings);
 
@@ -69,11 +69,11 @@ class LabelScores {
   double seconds_ = 0, clock_s_ = 0;
 };
 
-/// Returns one line of JSON: {"stream": "take", "frame": 97, "time_s": 3.2333, "move": "open", "evidence": 0.61},
-/// without the stream if its name is "".
+/// Returns one line of JSON: {"stream": "take", "frame": 97, "time_s": 3.2333, "move": "open", "evidence": 0.61}. The
+/// key "stream" is left out if `stream` is "".
 std::string SpottingLine(const Spotting& spotting, const std::string& move, double rate_hz, const std::string& stream);
 
-/// Returns {"scores": {…}} for programs (docs/schemas/facts.schema.json).
+/// Returns the scores as {"scores": {…}}, for programs (docs/schemas/facts.schema.json).
 Json FactsOf(const LabelScores& scores);
 Json FactsOf(const LeaveOneOut& out);
 

@@ -61,7 +61,8 @@ std::vector<MethodDecision> DecideBy(std::span<const ReadyMethod> methods, const
     auto& [spotting, judging] = decisions.emplace_back(methods[m].method.Decision());
     if (!point || methods[m].method.threshold) continue;
     spotting.threshold = ThresholdAt(trials[m].alarms, point->false_alarms_per_min, spotting.refractory_s);
-    // The threshold stays positive, so a performance without evidence is never judged right, even at full recall.
+    // The threshold stays positive. A performance without evidence is therefore never judged right, even at full
+    // recall.
     constexpr double kMinJudging = 1e-4;
     judging = std::max(kMinJudging, ThresholdAtRecall(trials[m].events, point->recall).value_or(spotting.threshold));
   }

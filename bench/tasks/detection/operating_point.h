@@ -22,7 +22,7 @@ struct ReadyMethod {
   std::unique_ptr<Recogniser> recogniser;
 };
 
-/// The evidence of a session, and a function that tells true detections from false alarms.
+/// The evidence of a session, and a function that returns true for a true detection and false for a false alarm.
 struct AlarmTrial {
   std::shared_ptr<const EvidenceTrace> trace;
   double rate_hz = kJudgedRateHz;
@@ -30,34 +30,35 @@ struct AlarmTrial {
 };
 
 /// Returns the smallest threshold of spotting, to 1 in 2¹⁶, at which all trials together give at most
-/// `false_alarms_per_min`. The rate falls as the threshold rises, except for alarms that a refractory time hides.
-/// Returns 1 if even a threshold of 1 gives more. At least one trial is required, each with frames.
+/// `false_alarms_per_min`. The rate falls as the threshold rises, apart from alarms that a refractory time hides.
+/// Returns 1 if the rate is higher even at a threshold of 1. At least one trial is required, and each must have frames.
 double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);
 
-/// A method's results for other people: its evidence for all moves, and the requested performances, judged without a
-/// threshold.
+/// A method's results for other people: its evidence for all moves, and its scores of the requested performances before
+/// a threshold is applied.
 struct MethodTrials {
   std::vector<AlarmTrial> alarms;
   std::vector<JudgedEvent> events;
 };
 using TrialsOfMethods = std::vector<MethodTrials>;
 
-/// Adds the results, in one world, of each method without a threshold of its own. All methods were taught `repertoire`.
+/// Adds the results of one world, for each method that does not set a threshold. All methods must have been taught
+/// `repertoire`.
 void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<const ReadyMethod> methods,
                const Repertoire& repertoire, TrialsOfMethods& trials);
 
-/// Returns the thresholds of each method: its own, or those of the operating point on its trials, if there is an
-/// operating point. If no performance was right, the threshold of spotting is also used for judging. `trials` come from
-/// all people except the judged one.
+/// Returns the thresholds of each method. A method keeps a threshold that it sets. Otherwise, if there is an operating
+/// point, the threshold is set at that point on the method's trials. If no performance was right, the threshold of
+/// spotting is also used for judging. `trials` come from people other than the judged one.
 std::vector<MethodDecision> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
                                      const std::optional<OperatingPoint>& point);
 
-/// The thresholds of each method of a scenario with simulated people. With an operating point, thresholds that methods
-/// do not set are computed at the first request, on sessions of other people than the judged ones; if the condition has
-/// a mixture of people, every kind has its share.
+/// Computes and keeps the thresholds of each method of a scenario with simulated people. With an operating point,
+/// thresholds that methods do not set are computed at the first request, on sessions of people who are not judged. If
+/// the condition has a mixture of people, every kind is represented.
 class MethodDecisions {
  public:
-  /// The arguments must outlive this.
+  /// The arguments must outlive this object.
   MethodDecisions(const std::vector<ReadyMethod>& methods, const Repertoire& repertoire,
                   const DetectionOptions& options)
       : methods_(methods), repertoire_(repertoire), options_(options) {}

@@ -12,7 +12,7 @@ using MethodKey = Field<Method>;
 
 bool IsSensorFile(std::string_view reference) { return !FindSensorPreset(reference) && reference != kCameraSensor; }
 
-/// The settings of the filters.
+/// Returns the keys of the filters' settings.
 std::vector<MethodKey> FilterFields() {
   const auto holt = [](const std::string& key, double HoltOptions::*member, Range range, const std::string& meaning) {
     const auto value = Path(&Method::filter, &FilterOptions::holt, member);
@@ -118,7 +118,7 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                   {"chair", OccluderKind::kChair},
                   {"person", OccluderKind::kPerson}},
                  "What stands between the sensor and the performer."),
-       // The thresholds of methods that set none.
+       // The thresholds of methods that do not set one.
        Key::Number("threshold", &Options::threshold, kThresholds,
                    "Lowest evidence at which a move counts as performed; for all methods.")
            .WhenAbsent("(each recogniser's own)"),
@@ -171,7 +171,7 @@ std::span<const std::string_view> SensingKeys() {
 
 const FieldTable<DetectionMethod>& DetectionMethodFields() {
   static const FieldTable<Method> table = [] {
-    // From the sensor to skeletons.
+    // The stages from the sensor to skeletons.
     std::vector<MethodKey> fields = {MethodKey::Name("filter", Path(&Method::filter, &FilterOptions::kind),
                                                      FilterNames(), FilterOf,
                                                      "How the sensed joints are smoothed first.")};
@@ -180,7 +180,7 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
         MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
                          "What is replaced by the truth: the sensed skeletons, which shows what the sensor costs."));
     fields.push_back(CaptureField<Method>(&Method::capture));
-    // From skeletons to verdicts.
+    // The stages from skeletons to verdicts.
     fields.push_back(MethodKey::Name("recogniser", Path(&Method::recogniser, &RecogniserOptions::kind),
                                      RecogniserNames(), FindRecogniser, "How a move is recognised."));
     const auto settings = Path(&Method::recogniser, &RecogniserOptions::settings);

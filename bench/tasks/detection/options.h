@@ -25,77 +25,77 @@ constexpr const char* kMovesKey = "moves";
 /// The object between sensor and performer (`MakeOccluders`).
 enum class OccluderKind { kNone, kTable, kChair, kPerson };
 
-/// The operating point at which methods are compared. Its thresholds are set on other people under the same condition.
-/// Half of their performances have faults of any severity, whatever the condition says about the judged people. Each
-/// method spots moves at the threshold that gives `false_alarms_per_min`, and judges performances at the threshold at
-/// which the share `recall` of the right ones is praised. So no method is better only because it says yes, or no, more
-/// often.
+/// The operating point at which methods are compared. Thresholds are set on other people under the same condition. Half
+/// of these people's performances have faults of any severity, whatever the condition says about the judged people.
+/// Each method spots moves at the threshold that gives `false_alarms_per_min`, and judges performances at the threshold
+/// at which it calls the share `recall` of the right performances right. No method can thus appear better merely
+/// because it says yes, or no, more often.
 struct OperatingPoint {
   double false_alarms_per_min = 1;
-  double recall = 0.9;  ///< of judging
-  int sessions = 24;    ///< number of sessions, each of another person
+  double recall = 0.9;  ///< recall of judging
+  int sessions = 24;    ///< number of sessions, each with another person
 };
 
-/// The thresholds of a method for its two decisions: whether any move was performed at any time (spotting), and whether
-/// the performance that was asked for is right (judging).
+/// The thresholds of a method for its two decisions. Spotting decides at any time if a move was performed; judging
+/// decides if the requested performance is right.
 struct MethodDecision {
   DecisionOptions spotting;
   double judging = 0.5;  ///< the evidence at or above which a performance is called right
 };
 
-/// One condition of a detection scenario: who dances, and how well the sensor sees it.
+/// One condition of a detection scenario: the performers and the quality of the sensor.
 ///
 ///     events: 8        # performances in one session
-///     people: mixed    # who dances: toddler, school-child, adult, expert, absent, or a mixture
-///     fault_share: 0.5 # of them have a fault
-///     severity: 0.7    # of every fault; else random
-///     noise: 1         # times every error of the sensor
-///     sensor: v2       # which sensor: v1, v2, a sensor file, or cameras
-///     turn_deg: 0      # how far the performer is turned away from the sensor
-///     occluder: none   # what stands between the two: table, chair, person
+///     people: mixed    # the performers: toddler, school-child, adult, expert, absent, or a mixture
+///     fault_share: 0.5 # share of performances with a fault
+///     severity: 0.7    # severity of every fault; random if absent
+///     noise: 1         # factor of every error of the sensor
+///     sensor: v2       # the sensor: v1, v2, a sensor file, or cameras
+///     turn_deg: 0      # the angle by which the performer is turned away from the sensor
+///     occluder: none   # the object between the two: none, table, chair, person
 struct DetectionOptions {
   std::string moves;  ///< only with recordings: a file of taught moves (etude teach)
   SessionOptions session;
   double noise = 1;
-  /// Without the noise factor; the task opens the sensor that the condition names.
+  /// The sensor's options without the noise factor. The task reads the sensor that the condition names.
   SkeletonSensorOptions sensor = SensorV2();
   double turn_deg = 0;
   std::optional<double> distance_m;  ///< if absent, drawn in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
-  bool has_cameras = false;  ///< `sensor: cameras`: of the members above only the session is read
+  bool has_cameras = false;  ///< `sensor: cameras`; of the members above, only `session` is then used
   CameraSensing cameras;
-  std::optional<double> threshold;                ///< for methods that set none
-  std::optional<OperatingPoint> operating_point;  ///< sets the thresholds of methods that set none
+  std::optional<double> threshold;                ///< threshold of methods that do not set their own
+  std::optional<OperatingPoint> operating_point;  ///< sets the thresholds of methods that do not set their own
 };
 
-/// One way from stream to verdict.
+/// One method: the stages from the sensor's stream to verdicts.
 ///
 ///     - {name: adaptive, filter: holt, recogniser: key-pose, weights: adaptive, threshold: 0.5}
 struct DetectionMethod {
   std::string name;
   FilterOptions filter;
   bool sees_truth = false;  ///< `oracle: [stream]`
-  /// With cameras: how pictures become skeletons; if absent, the defaults of task capture.
+  /// If the sensor is cameras: the method by which pictures become skeletons; nullopt = the defaults of task capture.
   std::optional<CaptureMethod> capture = {};
   RecogniserOptions recogniser;
-  std::optional<double> threshold;  ///< if absent, the recogniser's own
+  std::optional<double> threshold;  ///< nullopt = the recogniser's default
   double refractory_s = DecisionOptions{}.refractory_s;
 
   CaptureMethod Capture() const { return capture.value_or(CaptureMethod{}); }
-  /// Returns one threshold for both decisions: the method's own, else the recogniser's.
+  /// Returns the threshold for both decisions: the method's own, or the recogniser's default.
   MethodDecision Decision() const {
     const double both = threshold.value_or(recogniser.kind->threshold);
     return {.spotting = {.threshold = both, .refractory_s = refractory_s}, .judging = both};
   }
 };
 
-/// Returns the sensor that the condition names; v2 if it names none or cameras.
+/// Returns the options of the sensor that the condition names; v2 if it names none or cameras.
 Result<SkeletonSensorOptions> SensorOf(const TaskInput& input);
-/// Complains of keys that belong to another sensor than the condition's.
+/// Adds an error for each key that belongs to another sensor than the condition's.
 void CheckSensorKeys(Fields& condition, DetectionOptions& options);
-/// If the condition has no cameras, refuses methods that set `capture`; otherwise prepares the cameras for every
-/// method. `methods` has the order of the input's methods; `sight` returns the DetectionMethod in one of them.
+/// Prepares the cameras for every method if the condition's sensor is cameras. Otherwise fails if a method sets
+/// `capture`. `methods` are in the order of the input's methods; `sight` returns a method's DetectionMethod.
 template <typename Methods, typename Sight>
 Result<void> PrepareCameras(const TaskInput& input, const Methods& methods, Sight sight, DetectionOptions& options) {
   RETURN_IF_ERROR(OpenOwnCameras(input, options.cameras.studio));
@@ -112,10 +112,11 @@ Result<void> PrepareCameras(const TaskInput& input, const Methods& methods, Sigh
 }
 
 const FieldTable<DetectionOptions>& DetectionConditionFields();
-/// Return the keys of a condition that say who is simulated, and those that say how they are sensed.
+/// PeopleKeys returns the keys of a condition that describe the simulated people, SensingKeys those that describe the
+/// sensing.
 std::span<const std::string_view> PeopleKeys();
 std::span<const std::string_view> SensingKeys();
-/// A condition may set `threshold` for all methods, so that it can be swept.
+/// Returns the keys of a method. A condition may also set `threshold` for all methods, so that it can be swept.
 const FieldTable<DetectionMethod>& DetectionMethodFields();
 
 }  // namespace etude

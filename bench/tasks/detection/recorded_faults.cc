@@ -35,7 +35,7 @@ BodyPose HalfWay(const BodyPose& from, const BodyPose& to) {
   return half;
 }
 
-/// Returns the frame with the joints at the positions of `pose`.
+/// Returns a copy of the frame with the joints at the positions of `pose`.
 SensedFrame Moved(const SensedFrame& frame, const BodyPose& pose) {
   SensedFrame moved = frame;
   for (const Role role : AllRoles()) moved[role].position = pose[role];
@@ -61,8 +61,8 @@ SkeletonStream Halved(const SkeletonStream& stream) {
   return halved;
 }
 
-/// Returns the root mean square angle, degrees, of the limb that deviates most along the best warping path through both
-/// performances; 0 if one shows no body.
+/// Returns the deviation of the limb that deviates most, degrees: the root mean square angle along the best warping
+/// path through both performances. Returns 0 if one of the performances shows no body.
 double WarpedStrayDeg(const SkeletonStream& meant, const SkeletonStream& danced) {
   struct Way {
     double cost = std::numeric_limits<double>::infinity();
@@ -73,7 +73,7 @@ double WarpedStrayDeg(const SkeletonStream& meant, const SkeletonStream& danced)
   if (from.empty() || to.empty()) return 0;
   std::vector<Way> before(to.size() + 1), now(to.size() + 1);
   before[0].cost = 0;
-  // Dynamic time warping, with the squared angles of each limb summed along the path.
+  // Apply dynamic time warping, summing the squared angles of each limb along the path.
   for (const PoseVector& pose : from) {
     now[0] = {};
     for (std::size_t j = 0; j < to.size(); ++j) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kGrace = 0.5;  // seconds, as after a simulated performance
 
-/// Appends recordings with their labels to a world.
+/// Appends recordings, with their labels, to a world.
 class RecordingAppender {
  public:
   explicit RecordingAppender(DetectionWorld& world) : world_(world) {}
@@ -38,7 +38,8 @@ class RecordingAppender {
         world_.events.push_back(EventOf(part, begin));
       }
     }
-    // A window ends half a second after the performance, or where the next one begins.
+    // A window ends half a second after its performance, or at the beginning of the next performance if that is
+    // earlier.
     for (std::size_t i = first; i < world_.events.size(); ++i) {
       const int next = i + 1 < world_.events.size() ? world_.events[i + 1].window.begin : end;
       FrameInterval& window = world_.events[i].window;
@@ -64,8 +65,8 @@ class RecordingAppender {
   DetectionWorld& world_;
 };
 
-/// Returns the move that was asked of a person who performed another one: `turn` positions further in the list of moves,
-/// or the same one if there is no other.
+/// Returns another move that counts as requested while the person performed `move`: the move that follows it in the
+/// list, plus `turn` further positions. Returns `move` itself if there is no other.
 const std::string& OtherMove(const std::vector<std::string>& moves, const std::string& move, std::size_t turn) {
   const auto at = static_cast<std::size_t>(std::ranges::find(moves, move) - moves.begin());
   const std::size_t others = std::max<std::size_t>(moves.size() - 1, 1);
@@ -90,7 +91,7 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
                PartsOf(set, s));
   };
   std::size_t turn = 0;
-  // Append each recording, then one faulty copy of it per fault.
+  // Append each recording, and then one faulty copy of it for each fault.
   for (const std::size_t s : set.people[person].streams) {
     add(set.streams[s], s, "");
     if (std::ranges::none_of(PartsOf(set, s), &LabelledPart::IsRight)) continue;
@@ -205,7 +206,8 @@ class RecordedTask final : public Task {
  private:
   const std::string& NameOf(std::size_t person) const { return set_.people[person].name; }
 
-  /// Describes what all others taught, to an outside method that judges this person. `FoldOf(person)` must exist.
+  /// Returns the setting for an outside method that judges this person: the moves that all others taught.
+  /// `FoldOf(person)` must have succeeded.
   Payload SettingOf(std::size_t person) const {
     const auto by_others = [&](const LabelledPart& part) { return part.person != NameOf(person); };
     std::vector<ToldExample> examples;
@@ -216,7 +218,7 @@ class RecordedTask final : public Task {
     return TaughtPayload(repertoire.names, repertoire.taught, examples);
   }
 
-  /// Returns the fold in which this person is judged: what all others taught.
+  /// Returns the fold in which this person is judged. It holds the moves that all others taught.
   const Result<Fold>& FoldOf(std::size_t person) const {
     const std::size_t index = taught_ ? 0 : person;  // moves taught beforehand are the same for all
     const auto known = folds_.find(index);
@@ -224,8 +226,8 @@ class RecordedTask final : public Task {
     return folds_.emplace(index, MakeFold(set_, taught_, {NameOf(person)}, methods_)).first->second;
   }
 
-  /// Sets thresholds on other people. The recognisers that see one of them were taught neither by that person nor by
-  /// the judged one.
+  /// Sets thresholds on other people. The recognisers that judge one of them were taught neither by that person nor by
+  /// the judged person.
   const std::vector<MethodDecision>& DecisionsFor(const WorldKey& key) const {
     const auto known = decisions_.find(key.trial);
     if (known != decisions_.end()) return known->second;
@@ -255,12 +257,12 @@ class RecordedTask final : public Task {
   const std::vector<DetectionMethod> methods_;
   const LabelledStreams& set_;
   const Taught taught_;
-  // Caches of values that depend on keys alone; a task has one scenario and one seed.
+  // These are caches of values that depend on keys alone. A task has one scenario and one seed.
   mutable std::map<std::size_t, Result<Fold>> folds_;
   mutable std::map<int, std::vector<MethodDecision>> decisions_;
 };
 
-/// Complains of faults that cannot be made from these recordings.
+/// Fails if a fault cannot be imposed on these recordings.
 Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, const LabelledStreams& set) {
   if (faults.empty()) return {};
   const Node& named = *condition.Find("faults");
@@ -279,7 +281,7 @@ Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, c
   return Fail(named.place, "'{}' needs two moves, found: {}", FaultName(Fault::kWrongMove), fmt::join(set.moves, ", "));
 }
 
-/// Complains of keys that have no effect on recorded people.
+/// Fails if the condition has a key that has no effect on recorded people.
 Result<void> RefuseKeys(const Node& condition, std::span<const std::string_view> keys, std::string_view why) {
   for (const std::string_view key : keys) {
     const Node* named = condition.Find(key);
@@ -295,7 +297,7 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   const LabelledStreams& set = *input.recordings;
   const Node& condition = input.condition.node();
   RETURN_IF_ERROR(RefuseKeys(condition, PeopleKeys(), "people were recorded, nobody is simulated"));
-  // Keys and oracles that do not apply.
+  // Refuse keys and oracles that do not apply.
   const bool are_sensed = std::ranges::any_of(set.streams, [](const NamedStream& s) { return s.motion.has_value(); });
   if (!are_sensed) RETURN_IF_ERROR(RefuseKeys(condition, SensingKeys(), "a recording contains what its sensor saw"));
   if (options.has_cameras) {
@@ -307,7 +309,7 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
                 method.name);
   }
   RETURN_IF_ERROR(CheckFaults(condition, options.session.faults, set));
-  // The moves, the labels, and the number of people.
+  // Find the moves, the labels and the number of people.
   Taught taught;
   if (!options.moves.empty()) {
     ASSIGN_OR_RETURN(taught, ReadMoves(input.texts.at(kMovesKey), options.moves));

@@ -16,33 +16,34 @@
 
 namespace etude {
 
-/// Makes the world of one person: their recordings, one after another, with their labels. Clips are sensed as the
-/// condition says; recordings of a sensor are used as they are. A performance is judged until half a second after its
-/// end, but at most until the next one begins; this also holds for labels that overlap. If the condition names faults,
-/// each recording follows once more with each fault; right performances are then judged by TruthOfFault, and
-/// performances that were wrong before are grey.
+/// Makes the world of one person: their recordings, one after another, with their labels. Clips are sensed by the
+/// condition's sensor; recordings of a sensor are used unchanged. The window of a performance ends half a second after
+/// the performance, or at the beginning of the next one if that is earlier; this also holds for labels that overlap. If
+/// the condition names faults, each recording is followed by one copy with each fault. In the copies, TruthOfFault
+/// decides about right performances, and performances that were already wrong are grey.
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key);
 
-/// Complains of labels that cannot be judged: two performances that begin at the same frame, and, without taught moves
-/// (`are_taught`), a single person, or recordings whose person is unknown.
+/// Fails if labels cannot be judged: if two performances begin at the same frame or, without taught moves
+/// (`are_taught`), if there is a single person or a recording whose person is unknown.
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
 
-/// What recognisers were taught, with some people left out.
+/// The moves that recognisers were taught, and the methods with these recognisers. Some people may have been left out.
 struct Fold {
   Repertoire repertoire;
   std::vector<ReadyMethod> methods;
 };
 
-/// Teaches the methods' recognisers: `taught`, if given; otherwise all moves by everybody except `left_out`, with right
-/// performances as examples and wrong ones as counter-examples. A move that nobody else did right stays untaught. Fails
-/// if no move is left, or if a method needs more examples of a move than there are.
+/// Teaches the methods' recognisers. If `taught` is given, they are taught these moves. Otherwise all people except
+/// `left_out` teach them all moves, with right performances as examples and wrong ones as counter-examples. A move that
+/// nobody else performed right stays untaught. Fails if no move is left, or if a method needs more examples of a move
+/// than there are.
 Result<Fold> MakeFold(const LabelledStreams& set, const std::optional<std::vector<TaughtMove>>& taught,
                       const std::set<std::string>& left_out, const std::vector<DetectionMethod>& methods);
 
-/// Makes a task whose worlds are recorded people, one per trial in the order of their names. Recognisers are taught the
-/// moves of the file that the condition names, or else the performances of all other people. The task keeps the set's
-/// address.
+/// Makes a task whose worlds are recorded people, one per trial, in the order of their names. Recognisers are taught
+/// the moves in the file that the condition names or, without such a file, the performances of all other people. The
+/// recordings in `input` must outlive the task.
 Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const DetectionOptions& options,
                                                std::vector<DetectionMethod> methods);
 

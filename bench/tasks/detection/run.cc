@@ -53,7 +53,7 @@ std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const Seen
 
 namespace {
 
-/// Returns the move with the most evidence in any frame of the window; the first one on a tie.
+/// Returns the move with the most evidence in any frame of the window. If several have the most, returns the first.
 std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const EvidenceTrace& trace) {
   std::optional<std::size_t> named;
   double most = 0;
@@ -69,8 +69,8 @@ std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const Eviden
   return named;
 }
 
-/// Returns the move recognised in a performance. A labelled recording is cut out and classified as a whole, as in the
-/// papers on such data sets; in a session, the evidence within the window decides.
+/// Returns the move recognised in a performance. In a labelled recording, the performance is cut out and classified as
+/// a whole, as in the papers on such data sets. In a session, the evidence within the window decides.
 std::optional<std::size_t> NameOf(const DetectionEvent& event, const DetectionWorld& world, const SeenStream& seen,
                                   const Repertoire& repertoire, const Recogniser& recogniser,
                                   const FrameInterval& window, const EvidenceTrace& trace) {

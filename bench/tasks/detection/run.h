@@ -9,32 +9,32 @@
 
 namespace etude {
 
-/// The result of a method in one session.
+/// The results of a method in one session.
 struct SessionVerdict {
   SkeletonStream filtered;
   std::vector<Judgement> events;  ///< one per event; frames count from the first of its window
-  /// One per event: the move (Repertoire::taught) with the most evidence in its window. Empty for an outside method,
-  /// which names no moves.
+  /// For each event, the index (in Repertoire::taught) of the move with the most evidence in the event's window. Empty
+  /// for an outside method, which names no moves.
   std::vector<std::optional<std::size_t>> named = {};
   std::vector<Detection> alarms;         ///< false alarms, by move (Repertoire::taught), then by time
   std::vector<Detection> spotted = {};   ///< all detections, true and false
-  std::optional<double> threshold = {};  ///< by which events were judged; empty for an outside method
+  std::optional<double> threshold = {};  ///< threshold of judging; empty for an outside method
 };
 
-/// Filters what the sensor saw or, for an oracle, the true motion; each recording by itself. Cameras that failed show
-/// no body.
+/// Filters the sensor's stream or, for an oracle, the true motion. Each recording is filtered separately. If cameras
+/// have failed, the result shows no body.
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method);
 
-/// Returns the evidence of each recording (DetectionWorld::Takes), in order. The recogniser is told the requested move
-/// when the window opens.
+/// Returns the evidence of each recording (DetectionWorld::Takes), in order. The recogniser receives the requested move
+/// when its window opens.
 std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const SeenStream& seen,
                                          const Repertoire& repertoire, const Recogniser& recogniser);
 
-/// Returns one judgement per event, from the evidence of each recording as FollowSession returns it.
+/// Returns one judgement per event. `traces` must be the result of FollowSession.
 std::vector<Judgement> JudgeEvents(const DetectionWorld& world, std::span<const EvidenceTrace> traces,
                                    double threshold);
 
-/// Judges every performance asked for, and collects the false alarms. `seen` must be the result of SeeSession for this
+/// Judges every requested performance and collects the false alarms. `seen` must be the result of SeeSession for this
 /// method.
 SessionVerdict JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
                             const Recogniser& recogniser, const MethodDecision& decision);

@@ -21,7 +21,7 @@ std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<con
 
 namespace {
 
-/// Returns, for each performance that satisfies `is_meant`, whether it was called right.
+/// Returns, for each performance that satisfies `is_meant`, true if it was called right.
 template <typename IsMeant>
 std::vector<bool> CalledRight(const DetectionWorld& world, const SessionVerdict& verdict, IsMeant is_meant) {
   std::vector<bool> called;
@@ -58,7 +58,8 @@ std::optional<double> ShareSpotted(const DetectionWorld& world, const SessionVer
   return RightSpotted(right, calls);
 }
 
-/// Returns the waiting time of each right performance until it was called right, censored when its window closes.
+/// Returns, for each right performance, the time until it was called right. The time is censored when the window
+/// closes.
 std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& verdict) {
   std::vector<Wait> waits;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
@@ -119,7 +120,7 @@ std::string EventsDigest(const SessionVerdict& verdict, const Repertoire& repert
 
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
                   CellResult& result) {
-  // Right and wrong performances against the calls.
+  // Compare the calls with the truth of right and wrong performances.
   const std::vector<JudgedEvent> events = JudgedEvents(world, verdict.events);
   const Confusion confusion = CountConfusion(events);
   const std::vector<Wait> waits = WaitsOf(world, verdict);
@@ -136,7 +137,7 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
   } else {
     result.MeasureOr("action_point_f", PointFScore(world, verdict, repertoire), "");
   }
-  // Scores, waiting times and false alarms.
+  // Measure scores, waiting times and false alarms.
   result.MeasureOr("roc_auc", RocAuc(events), "all performances that are not grey were right, or all wrong");
   result.MeasureOr(
       "latency_s", KaplanMeierMedian(waits),
@@ -174,7 +175,7 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
 
 namespace {
 
-/// Returns the index in AllFaults; −1 for none or an unknown name.
+/// Returns the fault's index in AllFaults; −1 for no fault or an unknown name.
 double IndexOfFault(const std::optional<Fault>& fault) {
   if (!fault) return -1;
   return static_cast<double>(std::ranges::find(AllFaults(), *fault) - AllFaults().begin());
@@ -185,7 +186,7 @@ double IndexOfFault(const std::optional<Fault>& fault) {
 std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
                                       const Repertoire& repertoire) {
   std::vector<double> score, truth, called, fault, severity, asked, danced, named;
-  // One value per performance, grey ones included.
+  // Add one value per performance, including grey ones.
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const DetectionEvent& event = world.events[i];
     score.push_back(verdict.events[i].score);
@@ -201,7 +202,7 @@ std::vector<Series> PerformanceSeries(const DetectionWorld& world, const Session
     const auto& name = verdict.named[i];
     named.push_back(name ? static_cast<double>(repertoire.IndexOf(repertoire.taught[*name].name)) : -1);
   }
-  // Waiting times of right performances.
+  // Add the waiting times of right performances.
   std::vector<double> waited, answered;
   for (const Wait& wait : WaitsOf(world, verdict)) {
     waited.push_back(wait.seconds);

@@ -15,17 +15,17 @@ namespace etude {
 /// One session, in which methods are run and scored.
 class SessionWorld final : public TaskWorld {
  public:
-  /// Returns the thresholds of the methods; the first call may be expensive.
+  /// A function that returns the thresholds of the methods. The first call may be expensive.
   using Decide = std::function<const std::vector<MethodDecision>&()>;
 
-  /// Returns the setting of this world alone.
+  /// A function that returns the setting of this world alone.
   using Set = std::function<Payload()>;
 
-  /// Methods and repertoire must outlive this. `set` is empty if the task's worlds share a setting.
+  /// `methods` and `repertoire` must outlive this object. `set` is empty if the task's worlds share a setting.
   SessionWorld(const std::vector<ReadyMethod>& methods, Decide decide, const Repertoire& repertoire,
                DetectionWorld world, bool keeps_motion, Set set = {});
 
-  /// Computes the thresholds, which worlds share, and films the pictures.
+  /// Computes the thresholds, which all worlds share, and films the pictures.
   void PrepareShared() override;
 
   CellResult Run(std::size_t method) override;

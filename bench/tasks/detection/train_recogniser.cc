@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// A performance that may have ended in a frame, with its measures.
+/// The measures of a performance that may have ended in this frame.
 struct Measured {
   PerformanceOrigin occasion;
   std::size_t move;
@@ -18,10 +18,10 @@ struct Measured {
   PerformanceMeasures measures;
 };
 
-/// Collects the bags of one kind; each keeps its nearest performances.
+/// Collects labelled bags of performances by key. Each bag keeps only its nearest performances.
 class BagMaker {
  public:
-  /// Adds a performance to the bag of this key.
+  /// Adds a performance to the bag with this key.
   void Add(const std::array<int, 3>& key, bool is_right, const PerformanceMeasures& performance) {
     LabelledBag& bag = bags_[key];
     bag.is_right = is_right;
@@ -55,7 +55,7 @@ DetectionOptions DrawCondition(const WorldKey& key) {
   return options;
 }
 
-/// Returns the measures taken while the recogniser follows the session.
+/// Runs a measuring recogniser over the session, and returns its measures.
 std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoire& repertoire,
                                      const TrackingWeights& weights) {
   std::vector<Measured> measured;
@@ -92,8 +92,8 @@ int EventAt(int frame, const DetectionWorld& world) {
   return -1;
 }
 
-/// Sorts the measured performances into bags: one per event for judging; for spotting one per event and move, and
-/// elsewhere one wrong bag per second and move.
+/// Sorts the measured performances into bags. For judging, there is one bag per event. For spotting, there is one bag
+/// per event and move; outside the performances of a move, there is one wrong bag per second and move.
 void AddSession(const DetectionWorld& world, const Repertoire& repertoire, const std::vector<Measured>& measured,
                 std::vector<LabelledBag>& asked, std::vector<LabelledBag>& spotted) {
   BagMaker asked_bags, spotted_bags;

@@ -10,20 +10,20 @@
 namespace etude {
 
 struct RecogniserTraining {
-  int sessions = 800;  ///< each by another person with 16 performances; the first half also teaches spotting
+  int sessions = 800;  ///< each of another person with 16 performances; the first half also teaches spotting
   std::uint64_t seed = 1;
   BoostingOptions asked{.trees = 300, .rate = 0.08, .takes_turns = true};
   BoostingOptions spotted{};
   OnProgress progress = {};  ///< called with the number of sessions
 };
 
-/// Trains the model of recogniser `learnt`: simulated people perform the repertoire's moves in front of both sensors,
-/// with various noises, turns and distances. Performances are measured as the recogniser does in use, and the model is
-/// fitted to the truth. Grey performances are left out. The worlds have other dice than those of every scenario, so no
-/// judged person is among them.
+/// Trains the model of recogniser `learnt`. Simulated people perform the repertoire's moves in front of both sensors,
+/// with various noises, turns and distances. Performances are measured as in use, and the model is fitted to the
+/// truth. Grey performances are left out. The worlds have other dice than those of every scenario, so no judged person
+/// is among them.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
 
-/// Keeps the nearest performances of a bag, nearest first; the others cannot influence the fit.
+/// Keeps only the nearest performances of a bag, nearest first. Others cannot influence the fit.
 void KeepNearest(std::vector<PerformanceMeasures>& performances);
 
 }  // namespace etude

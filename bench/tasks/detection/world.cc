@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Returns a box that faces the sensor. Its centre is `ahead` metres from the performer towards the sensor, and `aside`
+/// Returns a box that faces the sensor. Its centre is `ahead` metres from the performer towards the sensor and `aside`
 /// metres to the side.
 Cuboid BoxBefore(const SensorPlacement& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
   const double sine = std::sin(sensor.turn), cosine = std::cos(sensor.turn);
@@ -96,7 +96,7 @@ std::vector<FrameInterval> DetectionWorld::Takes() const {
 }
 
 SkeletonStream Sense(const BodyMotion& motion, const DetectionOptions& options, const WorldKey& key) {
-  // About the distance at which Kinect's makers ask players to stand.
+  // This is about the distance at which Kinect's makers ask players to stand, metres.
   constexpr double kMinDistance = 2.5, kMaxDistance = 3.0;
   RandomStream place_dice(key, "sensor-place");
   SkeletonSensorOptions errors = options.sensor;

@@ -16,7 +16,7 @@ struct EvaluationStudy : FileStudy<EvaluationOptions, EvaluationMethod> {
   EvaluationSideData side;
 };
 
-/// Returns a recording of both motions, with the joints that are judged.
+/// Returns a recording of both motions. It contains the judged joints only.
 Recording RecordingOf(const MatchedMotions& matched) {
   EvaluationExtras extras;
   extras.truth.rate_hz = matched.pair.rate_hz;
@@ -28,7 +28,7 @@ Recording RecordingOf(const MatchedMotions& matched) {
   return {{}, WriteEvaluationExtras(extras)};
 }
 
-/// One pair of files. The truth is read when the world is made, each answer when it is judged.
+/// The world of one pair of files. The truth is read when the world is made, each answer when it is judged.
 class EvaluationWorld final : public FileWorld {
  public:
   EvaluationWorld(const EvaluationStudy& study, const JudgedFiles& files, bool keeps_motion)

@@ -15,13 +15,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPerson = "{person}";
 
-/// The extensions of motion files, which a folder is searched for.
+/// The extensions of motion files. A folder stands for its files with one of these extensions.
 constexpr std::string_view kEndings[] = {".bvh", ".glb", ".gltf", ".fbx", ".amc", ".npz",
                                          ".npy", ".c3d", ".trc",  ".csv", ".mot", ".vrm"};
 
 constexpr std::string_view kBidsEnding = "_motion.tsv", kBidsHead = "dataset_description.json";
 
-/// Lists the motion files of a folder, sorted; of a BIDS data set those of all people.
+/// Lists the motion files of a folder, sorted. For a BIDS data set, lists the recordings of all people.
 std::vector<std::string> FilesIn(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code error;
@@ -41,8 +41,8 @@ std::vector<std::string> FilesIn(const std::string& folder) {
   return files;
 }
 
-/// Fails if one of the files that a folder or a pattern stands for is a link, or reached by one: whoever sent the
-/// answers may have linked them to the truth. What was named by itself may be a link.
+/// Fails if one of the files that a folder or pattern stands for is a link, or is in a linked folder, because the
+/// sender of the answers may have linked them to the truth. A file that the scenario names itself may be a link.
 Result<void> RefuseLinks(const std::string& reference, std::span<const std::string> files, const Place& place) {
   if (files.size() == 1 && files.front() == reference) return {};
   const fs::path pattern = Split(reference).path;
@@ -79,7 +79,7 @@ std::string NameOfReference(const std::string& reference) {
   if (reference.starts_with(kBuiltinPrefix)) return reference.substr(kBuiltinPrefix.size());
   const SplitReference split = Split(reference);
   std::string stem = fs::path(split.path).stem().string();
-  // In a BIDS data set the tracking system tells truth and answers apart: it is not part of the name.
+  // In a BIDS data set, the tracking system distinguishes truth and answers, so it is not part of the name.
   if (const std::size_t at = stem.find("_tracksys-"); at != std::string::npos && split.path.ends_with(kBidsEnding)) {
     stem.erase(at, stem.find('_', at + 1) - at);
     stem.resize(stem.rfind('_'));
@@ -112,7 +112,7 @@ Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& ref
 
 namespace {
 
-/// Returns references by their names. Fails if two have one name.
+/// Returns the references by their names. Fails if two references have the same name.
 Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>& references, const Place& place) {
   std::map<std::string, std::string> named;
   for (const std::string& reference : references) {
@@ -156,7 +156,7 @@ Result<PairColumns> ReadHeading(const std::vector<std::string>& heading, std::sp
   return columns;
 }
 
-/// Reads the pairs of a CSV. Cells have no quotes and no commas.
+/// Reads the pairs of a CSV file. Its cells must not contain quotes or commas.
 Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::string& file,
                                            std::span<const EvaluationMethod> methods) {
   RETURN_IF_ERROR(CheckUtf8(text, file));
@@ -192,7 +192,7 @@ Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::s
   return pairs;
 }
 
-/// Fails if an answer is its truth under another name, such as a link.
+/// Fails if an answer is the file of its truth under another name, such as a link.
 Result<void> RefuseTruths(const JudgedFiles& files, const Place& place) {
   const SplitReference truth = Split(files.truth);
   for (const std::string& reference : files.answers) {
@@ -206,7 +206,7 @@ Result<void> RefuseTruths(const JudgedFiles& files, const Place& place) {
   return {};
 }
 
-/// Makes the pairs of files of one name. `nodes` are those of the methods.
+/// Pairs truths and answers whose files have the same name. `nodes` are the mappings of the methods.
 Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const EvaluationMethod> methods,
                               std::span<const Node> nodes, const Place& place) {
   ASSIGN_OR_RETURN(const auto truth_files, ExpandFiles(options.truth, Links::kAllowed, place));
@@ -224,7 +224,7 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
     if (method.answers.empty()) return Fail(nodes[m].place, "method {} has no 'answers'", Quote(method.name));
     const Place& of_answers = nodes[m].Find("answers")->place;
     ASSIGN_OR_RETURN(const auto files, ExpandFiles(method.answers, Links::kRefused, of_answers));
-    // One truth and one answer belong together whatever their names.
+    // A single truth and a single answer are a pair, whatever their names.
     if (truths.size() == 1 && files.size() == 1) {
       found.worlds.front().answers.push_back(files.front());
       continue;
@@ -250,9 +250,9 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
   return found;
 }
 
-/// Matches a text and a pattern in which '*' stands for any text.
+/// Returns true if a text matches a pattern in which '*' stands for any text.
 bool Matches(std::string_view pattern, std::string_view text) {
-  // Where the last star stood, and where the text behind it may begin next.
+  // `star` is the position of the last star; `retry` is the position at which the text after the star may begin next.
   std::size_t p = 0, t = 0, star = std::string_view::npos, retry = 0;
   while (t < text.size()) {
     if (p < pattern.size() && pattern[p] == '*') {
@@ -300,7 +300,7 @@ Result<void> FindPeople(const std::string& people, const Place& place, std::vect
 
 Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Node> methods,
                                       const std::map<std::string, std::string>& texts) {
-  // Read the keys that name files; the task reads and checks all keys later.
+  // Read the keys that name files. The task will read and check all keys later.
   EvaluationOptions options;
   Fields fields(condition, "a scenario of task evaluation");
   EvaluationConditionFields().Read(fields, options);

@@ -14,37 +14,37 @@ namespace etude {
 /// The maximum number of pairs of one scenario.
 constexpr std::size_t kMaxPairs = 100'000;
 
-/// TaskKind::find_files of task evaluation. A folder stands for the motion files in it, by their names' extensions.
-/// Pairs are those of a CSV, or else a truth with the answers whose file names are its own but for the extension; if
-/// there is one truth and one answer of each method, they are a pair whatever their names. Pairs are sorted by name.
-/// Fails if two truths, or two answers of a method, have one name; if a method has no answer for any truth; for more
-/// than kMaxPairs; for a CSV that is none; and for answers that are links, unless each is named. An answer without
-/// truth is left out.
+/// Finds the pairs of files of task evaluation (TaskKind::find_files), sorted by name. A folder stands for the motion
+/// files in it, recognised by their extensions. The pairs are those of a CSV file. Without a CSV file, a truth and an
+/// answer are a pair if their file names are equal apart from the extension; if there is a single truth and a single
+/// answer of each method, they are a pair whatever their names. An answer without a truth is left out. Fails if two
+/// truths, or two answers of a method, have the same name; if a method has no answer for any truth; if there are more
+/// than kMaxPairs pairs; if the CSV file is invalid; and if an answer is a link that is not named itself.
 Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Node> methods,
                                       const std::map<std::string, std::string>& texts);
 
-/// Says what happens to links among the files that a folder or a pattern stands for.
+/// The treatment of links among the files that a folder or a pattern stands for.
 enum class Links { kAllowed, kRefused };
 
-/// Lists the files that references stand for, in their order; a folder stands for the motion files in it, a BIDS data
-/// set for the recordings of all people. Fails at `place` if one stands for none, for more than kMaxPairs, or for a
-/// link that is refused.
+/// Lists the files that references stand for, in the order of the references. A folder stands for the motion files in
+/// it, a BIDS data set for the recordings of all people. Fails at `place` if a reference stands for no file or for more
+/// than kMaxPairs files, or if a file is a link and links are refused.
 Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
                                              const Place& place);
 
-/// Splits a line at its commas. A carriage return at its end is dropped.
+/// Splits a line at its commas. A carriage return at the end is dropped.
 std::vector<std::string> SplitAtCommas(std::string_view line);
 
-/// Returns the name of a reference: its file's without folder and extension, and the clip behind '#'. A Motion-BIDS
-/// recording's is without its tracking system, so that truth and answers have one name.
+/// Returns the name of a reference: its file name without folder and extension, with the clip after '#'. The name of a
+/// Motion-BIDS recording leaves out the tracking system, so that truth and answers have the same name.
 std::string NameOfReference(const std::string& reference);
 
-/// Sets the unit of each world to the person in its name (PersonIn); `people` must not be empty. Fails at `place` for a
-/// name without one.
+/// Sets the unit of each world to the person in its name (PersonIn). `people` must not be empty. Fails at `place` if a
+/// name contains no person.
 Result<void> FindPeople(const std::string& people, const Place& place, std::vector<JudgedFiles>& worlds);
 
-/// Returns the part of `name` that "{person}" stands for in a pattern whose '*' stand for any text: the leftmost, then
-/// shortest. Nothing if the name does not match.
+/// Returns the part of `name` for which "{person}" stands in a pattern, where '*' stands for any text. If several parts
+/// are possible, returns the leftmost and, among these, the shortest. Returns nothing if the name does not match.
 std::optional<std::string> PersonIn(std::string_view pattern, std::string_view name);
 
 }  // namespace etude

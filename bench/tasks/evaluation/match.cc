@@ -11,13 +11,13 @@
 namespace etude {
 namespace {
 
-/// A joint by its index in both motions.
+/// A joint that both motions have, by its index in each.
 struct CommonJoint {
   std::string name;
   int truth = -1, answer = -1;
 };
 
-/// Returns the joints of the set that both have; adds the others to `lacking`.
+/// Returns the joints of the set that both motions have. Adds the others to `lacking`.
 std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
                                     std::vector<std::string>& lacking) {
   std::vector<std::string> names;
@@ -43,7 +43,7 @@ std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& ans
   return common;
 }
 
-/// Returns the positions of some joints in the first frames.
+/// Returns the positions of these joints in the first `frames` frames.
 PointTracks Columns(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames) {
   const auto is_whole = [&] {
     for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -61,7 +61,7 @@ PointTracks Columns(const RawMotion& motion, const std::vector<int>& joints, std
   return tracks;
 }
 
-/// Returns the rotations of some joints in the first frames; none if the motion has none.
+/// Returns the rotations of these joints in the first `frames` frames; none if the motion has no rotations.
 std::vector<glm::dquat> TurnsOf(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames) {
   std::vector<glm::dquat> turns;
   for (std::size_t f = 0; f < frames && !motion.rotations.empty(); ++f) {
@@ -70,7 +70,7 @@ std::vector<glm::dquat> TurnsOf(const RawMotion& motion, const std::vector<int>&
   return turns;
 }
 
-/// Returns the columns of these roles; none if one of them is missing.
+/// Returns the positions of the joints with these roles; none if one of the joints is missing.
 PointTracks RoleColumns(const RawMotion& motion, std::initializer_list<Role> roles, std::size_t frames) {
   std::vector<int> joints;
   for (const Role role : roles) joints.push_back(motion.roles[Index(role)]);
@@ -78,8 +78,8 @@ PointTracks RoleColumns(const RawMotion& motion, std::initializer_list<Role> rol
   return has_all ? Columns(motion, joints, frames) : PointTracks{};
 }
 
-/// Returns the answer's or the truth's motion with a root that both have: the file's own where both have one, else the
-/// middle of the hips. `changed` keeps the motion if it is not the given one.
+/// Returns the motion with a root that the other motion has too: its own root if both files have one, otherwise the
+/// midpoint of the hips. `changed` holds the result if it differs from `motion`.
 const RawMotion& WithCommonRoot(const RawMotion& motion, const RawMotion& other, RawMotion& changed) {
   if (!HasOwnRoot(motion) || HasOwnRoot(other)) return motion;
   changed = motion;
@@ -87,7 +87,7 @@ const RawMotion& WithCommonRoot(const RawMotion& motion, const RawMotion& other,
   return changed;
 }
 
-/// Finds the knees and elbows whose three joints are among those judged.
+/// Finds the knees and elbows for which all three joints (above, middle, below) are among the judged joints.
 std::vector<std::array<std::size_t, 3>> FindBends(const std::vector<CommonJoint>& joints, const RawMotion& truth) {
   using enum Role;
   constexpr std::array<std::array<Role, 3>, 4> kBends = {{{kLeftHip, kLeftKnee, kLeftAnkle},
@@ -110,7 +110,7 @@ std::vector<std::array<std::size_t, 3>> FindBends(const std::vector<CommonJoint>
   return bends;
 }
 
-/// Returns the columns of the names that `kept` says.
+/// Returns the columns of `angles` whose names are in `kept`.
 AngleTracks Chosen(const AngleTracks& angles, const std::vector<std::string>& kept) {
   AngleTracks chosen{kept, {}};
   std::vector<std::size_t> columns;
@@ -123,7 +123,7 @@ AngleTracks Chosen(const AngleTracks& angles, const std::vector<std::string>& ke
   return chosen;
 }
 
-/// Finds the angles that both have.
+/// Stores in `matched` the angles that both motions have.
 void MatchAngles(const RawMotion& truth, const RawMotion& sampled, MatchedMotions& matched) {
   if (truth.rotations.empty() || sampled.rotations.empty()) return;
   const AngleTracks of_truth = AnglesOfRotations(truth), of_found = AnglesOfRotations(sampled);
@@ -136,7 +136,8 @@ void MatchAngles(const RawMotion& truth, const RawMotion& sampled, MatchedMotion
   matched.found_angles = Chosen(of_found, common);
 }
 
-/// Returns the parent of each joint among those judged: by the roles, else by the truth's skeleton; −1: none.
+/// Returns the parent of each judged joint among the judged joints, by the roles or, without roles, by the truth's
+/// skeleton; −1 = it has none.
 std::vector<int> FindParents(const std::vector<CommonJoint>& joints, const RawMotion& truth) {
   const auto place_of = [&](int joint) {
     const auto found = std::ranges::find(joints, joint, &CommonJoint::truth);
@@ -161,21 +162,21 @@ std::vector<int> FindParents(const std::vector<CommonJoint>& joints, const RawMo
   return parents;
 }
 
-/// Names at most eight joints.
+/// Returns the names of the first eight joints as text.
 std::string SomeOf(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 8;
   const std::size_t count = std::min(names.size(), kMost);
   return Join(std::span(names).first(count)) + (count < names.size() ? ", …" : "");
 }
 
-/// Returns true if the rates, as their files round them, drift apart by less than a hundredth of a frame over the
-/// truth.
+/// Returns true if the rates, which files state with rounding, drift apart by less than a hundredth of a frame over the
+/// length of the truth.
 bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
   constexpr double kMaxDrift = 0.01;  // frames
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
 }
 
-/// Returns "the answer is 40.2 ms late (39.8 to 40.6), taken out".
+/// Describes a time shift that was removed: "the answer is 40.20 ms late (95 %: 39.80 to 40.60), taken out".
 std::string NoteOn(const TimeShift& lag) {
   constexpr double kToMs = 1000;
   const double ms = kToMs * lag.shift_s;
@@ -187,7 +188,7 @@ std::string NoteOn(const TimeShift& lag) {
   return fmt::format("the answer is {:.2f} ms {}{}, taken out", std::abs(ms), ms < 0 ? "early" : "late", range);
 }
 
-/// Returns which joints are the roots; empty without a root in one of both.
+/// Describes which joints are the roots; "" if one of the motions has no root.
 std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
   const int of_truth = truth.roles[Index(Role::kHipCentre)], of_answer = answer.roles[Index(Role::kHipCentre)];
   if (of_truth < 0 || of_answer < 0) return "";
@@ -247,7 +248,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
                   kMaxTimeShift_s);
     }
   }
-  // Sample the answer at the truth's times; frames of one rate are taken as they are.
+  // Sample the answer at the truth's times. If both have the same rate, its frames are used unchanged.
   const double start_s = matched.lag ? matched.lag->shift_s : 0;
   RawMotion resampled;
   if (!is_same_rate || matched.lag || answer.FrameCount() != frames) {
@@ -270,7 +271,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   matched.bends = FindBends(common, truth);
   matched.parents = FindParents(common, truth);
   MatchAngles(truth, sampled, matched);
-  // Count the frames before the answer's beginning and behind its end.
+  // Count the frames before the answer's beginning and after its end.
   for (std::size_t f = 0; f < frames; ++f) {
     constexpr double kRounding = 1e-6;  // of a frame, as in `Sampled`
     const double at = (start_s + static_cast<double>(f) / rate_hz) * answer.rate_hz;

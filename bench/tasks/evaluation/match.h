@@ -13,30 +13,31 @@
 
 namespace etude {
 
-/// A truth and an answer, joint by joint and frame by frame, and what was done to the answer.
+/// A truth and an answer, matched joint by joint and frame by frame, with a note on the changes made to the answer.
 struct MatchedMotions {
   EvaluatedPair pair;
   std::vector<std::string> joints;                ///< the joints judged
-  std::vector<int> parents;                       ///< of each, the next of them towards the root; −1: none
-  std::vector<std::string> lacking;               ///< joints of the set that one of both has not
-  std::vector<std::array<std::size_t, 3>> bends;  ///< knees and elbows among them: above, middle, below
-  AngleTracks true_angles, found_angles;  ///< the angles that both have, by name; empty: one of both has no rotations
+  std::vector<int> parents;                       ///< for each joint, the next judged joint towards the root; −1: none
+  std::vector<std::string> lacking;               ///< joints of the set that the truth or the answer lacks
+  std::vector<std::array<std::size_t, 3>> bends;  ///< knees and elbows: the joint above, itself, the joint below
+  AngleTracks true_angles, found_angles;  ///< the common angles, by name; empty: one has no rotations
   std::size_t uncovered = 0;              ///< frames of the truth outside the answer
-  std::optional<TimeShift> lag;           ///< that was found and taken out
-  std::string note;                       ///< one line
+  std::optional<TimeShift> lag;           ///< the time shift that was found and removed
+  std::string note;                       ///< a note on the match, in one line
 };
 
-/// The frame of the answer that belongs to the truth's first.
+/// The rule that finds the frame of the answer that belongs to the truth's first frame.
 enum class Lag {
-  kNone,  ///< its first
-  kFind,  ///< the one, or the place between two, that FindTimeShift finds
+  kNone,  ///< the answer's first frame
+  kFind,  ///< the time that FindTimeShift finds, which may be between two frames
 };
 
-/// Matches an answer to a truth. `joints` is a set (JointSetNames). The frames are the truth's, and the answer is
-/// sampled at the truth's times (`Sampled`), later by the lag. Rates that drift apart by less than a hundredth of a
-/// frame over the truth are the same, so frames pair one to one. The root, which also plays hip_centre, is the
-/// files' own if both have one, else midway between the hips in both. Nothing else is changed. Fails if no joint is
-/// common, none is ever seen by both, or a lag is sought and not found.
+/// Matches an answer with a truth. `joints` is the name of a set of joints (JointSetNames). The result has the truth's
+/// frames, and the answer is sampled at the truth's times plus the lag (`Sampled`). If the rates drift apart by less
+/// than a hundredth of a frame over the truth, they count as equal, and frames are paired one to one. The root, which
+/// also has the role hip_centre, is the files' own if both have one; otherwise it is the midpoint of the hips in both.
+/// Nothing else is changed. Fails if there is no common joint, if no joint is ever seen in both, or if a lag is
+/// searched and not found.
 Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view joints, Lag lag);
 
 }  // namespace etude

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// A set of joints: a layout of arrays with so many joints.
+/// A set of joints, given by a layout of arrays with this number of joints.
 struct JointSetOfLayout {
   std::string_view name, layout;
   std::size_t joints;
@@ -18,7 +18,7 @@ constexpr JointSetOfLayout kSets[] = {{"roles-20", "etude", 20},
                                       {"coco-17", "coco", 17},
                                       {"smpl-22", "smpl", 22},
                                       {"smpl-24", "smpl", 24}};
-// Leeds Sports Pose: its neck is the base of the neck, its head the top.
+// In Leeds Sports Pose, the joint "neck" is the base of the neck, and the joint "head" is the top of the head.
 constexpr std::string_view kLsp = "lsp-14";
 constexpr std::string_view kLspJoints[] = {
     "right_ankle", "right_knee",     "right_hip",     "left_hip",   "left_knee",  "left_ankle",      "right_wrist",
@@ -43,6 +43,7 @@ std::vector<std::string> JointsOfSet(std::string_view name) {
 
 const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
   using Key = Field<EvaluationOptions>;
+  // The files that are judged come first.
   static const FieldTable<EvaluationOptions> table{
       {Key::Texts("truth", &EvaluationOptions::truth, "a list of motion files, patterns, folders",
                   "The truths; a truth and the answers of the same name are a pair.")
@@ -50,6 +51,7 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
        {{"pairs", FileKind("a CSV file"), "(files of one name are a pair)",
          "A table of pairs: a column `truth`, a column named after each method and, optionally, a column `name`."},
         [](Fields& fields, EvaluationOptions& options) { options.pairs = fields.Text("pairs", ""); }},
+       // The joints, the noise of controls, the units and the time shift.
        {{"joints", NameKind(JointSetNames()), "roles",
          "Which joints are judged: those with the same role, those with the same name, or those of a set that both "
          "files have."},
@@ -65,6 +67,7 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
        Key::Name("lag", &EvaluationOptions::lag, {{"none", Lag::kNone}, {"find", Lag::kFind}},
                  "none: the first frames of answer and truth belong together; find: the time shift between them is "
                  "found and removed."),
+       // The files that some metrics need.
        {{"statistics", FileKind("a CSV file"), "(L2P has no value)",
          "Means and standard deviations of joints over a training set: a heading `JOINT_x_m,…` and two rows."},
         [](Fields& fields, EvaluationOptions& options) { options.statistics = fields.Text("statistics", ""); }},
@@ -85,7 +88,7 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
 
 namespace {
 
-/// Complains about keys without effect: `answers` of a control, `spoiler` keys of any other method.
+/// Adds an error for keys without effect: `answers` of a control, and keys of the spoiler of any other method.
 void CheckControl(Fields& fields, EvaluationMethod& method) {
   if (method.is_control && !method.answers.empty()) fields.Complain(fields.node().place, "a control has no 'answers'");
   if (!method.is_control && method.spoiler != Spoiler{})
@@ -98,12 +101,14 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
   using Method = EvaluationMethod;
   using Key = Field<Method>;
   const auto part = [](auto member) { return Path(&Method::spoiler, member); };
+  // The answers, or a control, come first.
   static const FieldTable<Method> table{
       {Key::Texts("answers", &Method::answers, "a list of motion files, patterns, folders",
                   "The answers; they have the same names as their truths.")
            .WhenAbsent("(`pairs` names them)"),
        Key::Flag("control", &Method::is_control,
                  "The answer is the truth with the errors that the other keys add, in this order."),
+       // The faults of a control's answer, in the order in which they are added.
        Key::Number("noisy_mm", part(&Spoiler::noisy_mm), {0, 1000},
                    "Standard deviation of white noise, independent for each joint and axis."),
        Key::Number("smoothed_ms", part(&Spoiler::smoothed_ms), {0, 10'000}, "Length of a centred moving mean."),

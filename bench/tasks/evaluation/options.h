@@ -14,8 +14,8 @@ struct EvaluationOptions {
   std::vector<std::string> truth;  ///< files, patterns, folders
   std::string pairs;               ///< the name of a CSV file; "" = pairs are made by name
   std::string joints = "roles";    ///< one of JointSetNames()
-  double noise_mm = 0;             ///< of all controls' answers
-  std::string people;              ///< a pattern for names, such as "{person}_*"; "" = each pair counts for itself
+  double noise_mm = 0;             ///< standard deviation of the noise of all controls' answers
+  std::string people;              ///< a pattern for names, such as "{person}_*"; "" = each pair is a unit of its own
   Lag lag = Lag::kNone;
   std::string statistics;   ///< the name of a file that ReadJointStatistics reads; "" = L2P has no value
   std::string music_beats;  ///< the name of a file that ReadMusicBeats reads; "" = beat alignment has no value
@@ -23,15 +23,15 @@ struct EvaluationOptions {
 
 const FieldTable<EvaluationOptions>& EvaluationConditionFields();
 
-/// Fails unless the condition names its files in one way, and no trials.
+/// Fails unless the condition names its files in exactly one way. Fails also if it states a number of trials.
 Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options);
 
-/// A method of task evaluation: answers that something outside gave, or a control of the metrics.
+/// A method of task evaluation: answers from elsewhere, or a control that tests the metrics.
 struct EvaluationMethod {
   std::string name;
   std::vector<std::string> answers;  ///< files, patterns, folders; empty where `pairs` names them
-  bool is_control = false;           ///< its answer is the truth, spoilt
-  Spoiler spoiler;                   ///< of a control
+  bool is_control = false;           ///< true: its answer is the truth with the spoiler's faults
+  Spoiler spoiler;                   ///< the faults of a control's answer
 };
 
 const FieldTable<EvaluationMethod>& EvaluationMethodFields();
@@ -39,7 +39,8 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields();
 /// Returns the names of the sets of joints: "roles", "same", "roles-20", "h36m-17", "lsp-14", "coco-17", "smpl-22",
 /// "smpl-24".
 std::vector<std::string> JointSetNames();
-/// Returns the joints of a set by name, roles where there are such; empty for "roles" and "same".
+/// Returns the joints of a set, by its name. A joint that has a role is given as its role. Empty for "roles" and
+/// "same".
 std::vector<std::string> JointsOfSet(std::string_view set);
 
 }  // namespace etude

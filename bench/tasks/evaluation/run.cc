@@ -13,7 +13,7 @@ constexpr const char* kNoFit = "the alignment is not determined: fewer than thre
 constexpr const char* kNoRoot = "no root is seen in both";
 constexpr const char* kNoFeet = "the answer has no ankles and toes, or fewer than two frames";
 
-/// The metrics that are a mean joint error after an alignment.
+/// A metric that is the mean joint error after an alignment, and the reason if it has no value.
 struct AlignedError {
   const char* id;
   Alignment alignment;
@@ -28,8 +28,8 @@ constexpr AlignedError kErrors[] = {{"mpjpe_unaligned_mm", Alignment::kNone, "no
                                     {"mpjpe_take_scaled_mm", Alignment::kTakeScaled, kNoFit},
                                     {"mpjpe_each_frame_mm", Alignment::kFrame, kNoFit},
                                     {"mpjpe_each_frame_scaled_mm", Alignment::kFrameScaled, kNoFit}};
-constexpr std::size_t kSegmentFrames = 100;  // of W-MPJPE and WA-MPJPE
-constexpr std::size_t kWindowFrames = 30;    // of NPSS: one of LAFAN1's gaps, a second there
+constexpr std::size_t kSegmentFrames = 100;  // length of a segment of W-MPJPE and WA-MPJPE
+constexpr std::size_t kWindowFrames = 30;    // length of a window of NPSS: a gap of LAFAN1, where it lasts a second
 
 std::optional<double> Times(double factor, std::optional<double> value) {
   return value ? std::optional(factor * *value) : std::nullopt;
@@ -39,7 +39,7 @@ std::string DigestOf(const PointTracks& tracks) {
   Digest digest;
   const auto& points = tracks.positions;
   for (std::size_t at = 0; at < points.size();) {
-    // The points up to the next that is not seen.
+    // Add the points up to the next one that is not seen.
     std::size_t end = at;
     while (end < points.size() && !std::isnan(points[end].x)) ++end;
     if (end > at) digest.Add(std::span(&points[at].x, 3 * (end - at)));
@@ -49,7 +49,8 @@ std::string DigestOf(const PointTracks& tracks) {
   return digest.Hex();
 }
 
-/// Returns each frame's mean error for a curve, to a nanometre: a frame without one repeats the one before.
+/// Returns each frame's mean error for a curve, rounded to a nanometre. A frame without a value repeats the previous
+/// value.
 std::vector<double> CurveOf(const std::vector<double>& errors, std::size_t joints) {
   std::vector<double> curve;
   for (std::size_t at = 0; at < errors.size(); at += joints) {
@@ -97,7 +98,7 @@ void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
   result.MeasureOr("jitter@wham", Jitter(pair.found, rate), "no joint is seen in four frames in a row");
 }
 
-/// Measures the answer alone, on the floor of its file.
+/// Measures the feet and the floor contact of the answer, with the floor of the answer's file.
 void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
   result.MeasureOr("skating_ratio@gmd", SkatingRatio(pair.feet, pair.rate_hz), kNoFeet);
   result.MeasureOr("skate_from_height_mps@kimodo", SkateFromHeight(pair.feet, pair.rate_hz), kNoFeet);
@@ -115,7 +116,8 @@ void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
   result.MeasureOr("floating_mm", floor.floating_mm, "no joint of the answer is seen");
 }
 
-/// Measures the angles that both have, and keeps the sums from which a run measures each angle's agreement.
+/// Measures the angles that both motions have. Also keeps the sums from which the agreement of each angle over a run is
+/// computed.
 void MeasureAngles(const MatchedMotions& matched, CellResult& result) {
   std::vector<double> rms, biases, iccs;
   for (std::size_t column = 0; column < matched.true_angles.names.size(); ++column) {
@@ -134,13 +136,13 @@ void MeasureAngles(const MatchedMotions& matched, CellResult& result) {
   result.MeasureOr("angle_icc_a1", MeanOfSeen(iccs), kNoAngles);
 }
 
-/// Measures what LAFAN1's code does.
+/// Measures the metrics of LAFAN1's code.
 void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData& side, CellResult& result) {
   constexpr const char* kNoRotations = "one of both files has no rotations";
   const auto rotations = RotationsOf(matched.pair);
   result.MeasureOr("l2q@lafan1", rotations ? MeanChannelDistance(rotations->found, rotations->truth) : std::nullopt,
                    rotations ? "no frame shows every joint in both" : kNoRotations);
-  // L2P, if the statistics know every joint.
+  // Measure L2P, if the statistics contain every joint.
   std::string why = "needs `statistics`: means and deviations of joints";
   std::vector<glm::dvec3> means, deviations;
   for (const std::string& joint : matched.joints) {
@@ -160,7 +162,7 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
                               StandardisedChannels(matched.pair.truth.positions, means, deviations));
   }
   result.MeasureOr("l2p@lafan1", l2p, why);
-  // NPSS, and its weight among other pairs.
+  // Measure NPSS, and its weight among other pairs.
   const auto measure = [&](PowerOf kind) {
     return rotations ? MeasurePowerSpectrum(rotations->found, rotations->truth, kWindowFrames, kind) : std::nullopt;
   };
@@ -189,6 +191,7 @@ void MeasureBeats(const EvaluatedPair& pair, const EvaluationSideData& side, Cel
 
 std::vector<std::string> EvaluationMetrics() {
   std::vector<std::string> ids;
+  // The joint errors come first, one for each alignment, and then the other metrics.
   for (const AlignedError& error : kErrors) ids.emplace_back(error.id);
   for (const char* id : {"pck_150mm@mpi_inf_3dhp",
                          "auc_150mm@mpi_inf_3dhp",

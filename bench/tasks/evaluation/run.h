@@ -12,13 +12,13 @@ namespace etude {
 /// Returns the ids of all metrics, in the order in which they are measured.
 std::vector<std::string> EvaluationMetrics();
 
-/// What some metrics need beside the motions.
+/// Data that some metrics need in addition to the motions.
 struct EvaluationSideData {
   std::optional<StatisticsByJoint> statistics;
   std::optional<std::vector<double>> music_beats_s;
 };
 
-/// Measures an answer.
+/// Measures all metrics of an answer.
 CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& side = {});
 
 }  // namespace etude

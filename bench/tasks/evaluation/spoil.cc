@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// Replaces each position by what `change` makes of the frame, the joint, and the position.
+/// Replaces each position by the result of `change(frame, joint, position)`.
 template <typename Change>
 void ChangeEach(RawMotion& motion, Change change) {
   const std::size_t joints = motion.joints.size();
@@ -17,7 +17,8 @@ void ChangeEach(RawMotion& motion, Change change) {
   }
 }
 
-/// Returns the mean of a joint over frames from `begin` to before `end`; those that do not show it do not count.
+/// Returns the mean position of a joint over the frames [begin, end). Frames in which the joint is not seen are left
+/// out.
 glm::dvec3 MeanOf(const RawMotion& motion, std::size_t joint, std::size_t begin, std::size_t end) {
   glm::dvec3 sum(0);
   double count = 0;
@@ -40,7 +41,7 @@ void Smooth(RawMotion& motion, double smoothed_ms) {
   const RawMotion before = motion;
   const auto reach = static_cast<std::size_t>(std::lround(smoothed_ms / 2000 * motion.rate_hz));
   ChangeEach(motion, [&](std::size_t f, std::size_t j, const glm::dvec3& p) {
-    // The window shrinks towards the take's ends, so that it stays centred.
+    // The window shrinks towards the ends of the take, so that it stays centred.
     const std::size_t half = std::min({reach, f, before.FrameCount() - 1 - f});
     return IsSeen(p) ? MeanOf(before, j, f - half, f + half + 1) : p;
   });
@@ -55,7 +56,7 @@ void Fade(RawMotion& motion, double faded_percent) {
   motion.rotations.clear();
 }
 
-/// Holds the ankle and the toes of each foot as long as the toes are low.
+/// Holds the ankle and the toes of each foot at rest as long as the toes are low.
 void LockFeet(RawMotion& motion, double low_m) {
   for (const auto& [ankle, toes] :
        {std::pair(Role::kLeftAnkle, Role::kLeftFoot), {Role::kRightAnkle, Role::kRightFoot}}) {
@@ -74,7 +75,8 @@ void LockFeet(RawMotion& motion, double low_m) {
   motion.rotations.clear();
 }
 
-/// Reflects frames from `begin` on about a plane of constant X, and gives each joint the motion of the other side's.
+/// Mirrors the frames from `begin` on about a plane of constant X. Each joint gets the motion of the joint on the other
+/// side.
 void Mirror(RawMotion& motion, std::size_t begin) {
   const RawMotion before = motion;
   std::vector<std::size_t> other(motion.joints.size());
@@ -92,13 +94,13 @@ void Mirror(RawMotion& motion, std::size_t begin) {
   motion.rotations.clear();
 }
 
-/// A time: a part of the way between two frames.
+/// A time between two frames: `part` is the fraction of the way from frame `from` to frame `to`.
 struct Moment {
   std::size_t from = 0, to = 0;
   double part = 0;
 };
 
-/// Shows, in each frame f, the moment `moment_of(f)`.
+/// Replaces each frame f by the motion at `moment_of(f)`.
 template <typename MomentOf>
 void Retime(RawMotion& motion, MomentOf moment_of) {
   const RawMotion before = motion;
@@ -120,7 +122,7 @@ void Retime(RawMotion& motion, MomentOf moment_of) {
 RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::string& seed_name) {
   constexpr double kPerCent = 100, kCmPerMetre = 100, kMsPerSecond = 1000;
   RawMotion motion = truth;
-  // The space that joints take.
+  // Change the positions of the joints.
   if (spoiler.noisy_mm > 0) AddNoise(motion, spoiler.noisy_mm, seed_name);
   if (spoiler.smoothed_ms > 0) Smooth(motion, spoiler.smoothed_ms);
   if (spoiler.faded_percent > 0) Fade(motion, spoiler.faded_percent);
@@ -131,7 +133,7 @@ RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::stri
                                   spoiler.lifted_cm / kCmPerMetre, 0);
   });
   if (spoiler.feet_locked_cm > 0) LockFeet(motion, spoiler.feet_locked_cm / kCmPerMetre);
-  // The time at which they take it.
+  // Change the times at which the joints have these positions.
   const auto begin_of = [&](double share) {
     return static_cast<std::size_t>(static_cast<double>(truth.FrameCount()) * (1 - share));
   };

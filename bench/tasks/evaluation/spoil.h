@@ -4,27 +4,27 @@
 
 namespace etude {
 
-/// The faults that are added to a truth, in this order, to test metrics on an answer whose faults are known. A fault of
-/// 0 changes nothing.
+/// The faults that are added to a truth, in this order. They test metrics on an answer whose faults are known. A fault
+/// of 0 changes nothing.
 struct Spoiler {
-  double noisy_mm = 0;        ///< standard deviation of white noise, each axis, each joint for itself
+  double noisy_mm = 0;        ///< standard deviation of white noise on each axis of each joint
   double smoothed_ms = 0;     ///< length of a centred moving mean
-  double faded_percent = 0;   ///< of every joint's way from its mean
-  double scaled_percent = 0;  ///< about the world's origin
-  double moved_cm = 0;        ///< along X
+  double faded_percent = 0;   ///< reduction of every joint's distance from its mean position
+  double scaled_percent = 0;  ///< enlargement about the world's origin
+  double moved_cm = 0;        ///< shift along X
   double lifted_cm = 0;
-  double gliding_cm_s = 0;    ///< along X
+  double gliding_cm_s = 0;    ///< speed along X
   double feet_locked_cm = 0;  ///< ankles and toes rest where the toes came below this height, until they leave it
-  double mirrored_share = 0;  ///< of the take's end: the motion of the other side, about the body's middle
-  int kept_frames = 1;        ///< one of so many frames, with straight lines in between
-  double late_ms = 0;         ///< the first pose stands until then
-  double frozen_share = 0;    ///< of the take's end, which stands still
+  double mirrored_share = 0;  ///< share at the take's end in which left and right are exchanged
+  int kept_frames = 1;        ///< only every n-th frame is kept, with linear interpolation in between
+  double late_ms = 0;         ///< delay; the first pose is held until then
+  double frozen_share = 0;    ///< share at the take's end in which the body stands still
 
   bool operator==(const Spoiler&) const = default;
 };
 
-/// Returns a truth spoilt. The noise depends on `seed_name` alone. Rotations stay as far as the spoilt motion has any:
-/// what changes single joints leaves them out.
+/// Returns a copy of a truth with these faults. The noise depends on `seed_name` alone. Rotations are kept only if the
+/// faults leave them valid: faults that move single joints remove the rotations.
 RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::string& seed_name);
 
 }  // namespace etude

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kMaxRecordedSteps = 150;
 constexpr int kEveryUpTo = 60;
 
-/// Lists every iteration up to kEveryUpTo; then iterations i with steps of i / `share`, at least 1; and the last one.
+/// Lists every iteration up to kEveryUpTo. After that, the iteration following i is i + max(1, i / `share`). The last
+/// iteration is always listed.
 std::vector<int> Growing(int last, int share) {
   std::vector<int> iterations;
   for (int i = 0; i < last; i += i < kEveryUpTo ? 1 : std::max(1, i / share)) iterations.push_back(i);
@@ -63,7 +64,7 @@ Result<IkAnswer> ReadIkAnswer(const Json& json, const KinematicTree& tree) {
 std::vector<int> RecordedIterations(int last) {
   for (int share = 2 * kEveryUpTo;; share /= 2) {
     std::vector<int> iterations = Growing(last, share);
-    // With share 1 each listed iteration is twice the one before, so the list is always short enough.
+    // With share 1, each listed iteration is twice the previous one, so the list is always short enough.
     if (iterations.size() <= kMaxRecordedSteps || share == 1) return iterations;
   }
 }
@@ -93,7 +94,7 @@ Recording RecordIk(const KinematicTree& tree, const IkWorld& world, std::span<co
     extras.orientation_error_max_deg.push_back(step.orientation_error_max_deg);
     extras.axis_error_max_deg.push_back(step.axis_error_max_deg);
   }
-  // Record the targets too: noise may have moved them away from the true pose.
+  // Record the targets too, because noise may have moved them away from the true pose.
   for (const EffectorTarget& target : world.problem.targets) {
     auto& target_m = extras.targets_m.emplace_back();
     if (target.position_weight > 0) target_m = target.position;

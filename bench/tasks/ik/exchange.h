@@ -11,13 +11,13 @@ namespace etude {
 
 /// Describes the condition to outside methods, in the format of tree_json.h.
 ///
-/// Setting: the body's tree, and when built-in solvers stop:
+/// The setting holds the body's tree, and the goals at which built-in solvers stop:
 ///
 ///     {"joints": […], "angles": […], "effectors": […],
 ///      "max_steps": 200, "position_goal_cm": 0.1, "orientation_goal_deg": 0.1,
 ///      "asked": ["position", "orientation"]}
 ///
-/// `asked` lists which parts of their targets the effectors must meet, one of them or both; only these are judged.
+/// `asked` lists the parts of the targets that the effectors must reach, one or both; only these are judged.
 Payload DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, const IkTrialOptions& trial);
 
 /// Encodes a problem: the root, the start, and the target of each effector in the setting's order:
@@ -26,9 +26,9 @@ Payload DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, c
 ///      "start_angles_deg": [twenty-nine numbers, all within their limits],
 ///      "targets": [{"effector": "right_foot", "position_m": [x, y, z], "rotation": [[…], […], […]]}, …]}
 ///
-/// The method must find angles that bring every effector to its target (or to its `asked` part): the distance below
-/// `position_goal_cm`, and the angle between each of its three axes (the columns of its rotation) and the target's
-/// below `orientation_goal_deg`.
+/// The method must find angles that bring every effector to its target, or to the `asked` part of it. The distance must
+/// be below `position_goal_cm`. The angle between each of the effector's three axes (the columns of its rotation) and
+/// the same axis of the target must be below `orientation_goal_deg`.
 Payload DescribeProblem(const KinematicTree& tree, const IkProblem& problem);
 
 /// Encodes the truth: the angles from which the targets were made. It is a perfect answer unless the scenario disturbs
@@ -41,35 +41,35 @@ Payload DescribeTruth(const IkWorld& world);
 ///
 ///     {"angles_deg": [twenty-nine numbers], "iterations": 12, "fk_evaluations": 13}
 ///
-/// The last two are optional; without them the cost metrics are missing. `iterations` counts the method's own steps,
-/// `fk_evaluations` its passes of forward kinematics over the whole tree. Angles are never clamped to their limits: an
-/// answer that breaks a limit by more than 10⁻⁶ degrees is measured and counts as unsolved.
+/// `iterations` and `fk_evaluations` are optional; without them the cost metrics are missing. `iterations` counts the
+/// method's own steps, `fk_evaluations` its passes of forward kinematics over the whole tree. Angles are never clamped
+/// to their limits: an answer that exceeds a limit by more than 10⁻⁶ degrees is measured and counts as unsolved.
 struct IkAnswer {
   std::vector<double> angles;  ///< radians
   std::optional<int> iterations;
   std::optional<int> fk_evaluations;
 };
 
-/// Reads an answer. A wrong shape, and angles of more than a million degrees, are errors.
+/// Reads an answer. Fails if it has the wrong shape, or if an angle exceeds a million degrees.
 Result<IkAnswer> ReadIkAnswer(const Json& answer, const KinematicTree& tree);
 
-/// The state after one iteration, for a film.
+/// The state of a solver after one iteration, for a film.
 struct IkRecordedStep {
   int iteration = 0;
   std::vector<double> angles;
   double position_error_max_cm = 0;
   double orientation_error_max_deg = 0;
-  double axis_error_max_deg = 0;  ///< of the worst single axis, by which "solved" is judged
+  double axis_error_max_deg = 0;  ///< error of the worst single axis, by which "solved" is judged
 };
 
-/// Chooses which of the iterations 0…`last` a recording shows: every one up to 60, then at growing intervals, and the
+/// Returns the iterations of 0…`last` that a recording shows: all up to 60, then some at growing intervals, and the
 /// last; at most 150.
 std::vector<int> RecordedIterations(int last);
 
-/// Picks the steps of a trace at the recorded iterations.
+/// Returns the steps of a trace at the recorded iterations.
 std::vector<IkRecordedStep> StepsOf(std::span<const IkTraceEntry> trace);
 
-/// Records tracks "truth", "start" and, step by step, "solution", and IkExtras.
+/// Records a cell: IkExtras and the tracks "truth", "start" and, step by step, "solution".
 Recording RecordIk(const KinematicTree& tree, const IkWorld& world, std::span<const IkRecordedStep> steps);
 
 }  // namespace etude

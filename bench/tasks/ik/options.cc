@@ -7,7 +7,7 @@ namespace {
 
 constexpr Range kShare{0, 1};
 
-// "poses: {uniform: 0.5}", or "poses: 0.5" for short, which a sweep can write.
+// The value is written as "poses: {uniform: 0.5}" or, for short, "poses: 0.5", which can be swept.
 KeyInfo PosesKey() {
   const ValueKind share = NumberKind(kShare);
   const ValueKind mapping = MappingKind(
@@ -53,7 +53,7 @@ void CheckMethod(Fields& method, IkMethod& options) {
 const FieldTable<IkCondition>& IkConditionFields() {
   using Key = Field<IkCondition>;
   static const FieldTable<IkCondition> table{
-      // The true pose, the start and the targets.
+      // The true pose, the start pose and the targets.
       {Key::Name("limit_set", Path(&IkCondition::trial, &IkTrialOptions::limit_set), LimitSetNames(), FindLimitSet,
                  "The joint limits: Etude's adult, or a source of paper B's table 3.1."),
        Key{PosesKey(), ReadPoses},
@@ -83,7 +83,7 @@ const FieldTable<IkCondition>& IkConditionFields() {
        Key{{"targets", NameKind(std::vector<std::string>{"both", "position", "orientation"}), "both",
             "Which parts of their targets effectors must meet for a world to be solved."},
            ReadTargets},
-       // What a cell keeps, and when solvers stop.
+       // The data that a cell keeps, and the goals at which solvers stop.
        Key::Flags("record",
                   {{"effector_errors", Path(&IkCondition::records, &IkRecords::effector_errors)},
                    {"angle_changes", Path(&IkCondition::records, &IkRecords::angle_changes)},

@@ -13,8 +13,8 @@
 namespace etude {
 
 enum class NoiseKind {
-  kGaussian,  ///< the standard deviation is joint_noise_deg
-  kUniform,   ///< within ± joint_noise_deg
+  kGaussian,  ///< normal, with the standard deviation joint_noise_deg
+  kUniform,   ///< uniform within ± joint_noise_deg
 };
 
 /// The pose from which solvers start.
@@ -27,17 +27,18 @@ enum class IkStart {
 /// The difficulty of the trials of a condition.
 struct IkTrialOptions {
   LimitSet limit_set = LimitSet::kAdult;
-  double pose_range = 0.5;  ///< the true pose is uniform in this share of every joint's range, around its middle
+  double pose_range = 0.5;  ///< the true pose is uniform in this share of every range, around its middle
   IkStart start = IkStart::kDisturbed;
   double joint_noise_deg = 15;  ///< size of the disturbance of the start
   NoiseKind noise = NoiseKind::kGaussian;
   TargetNoise target_noise;
-  double unreachable_cm = 0;  ///< how far one target is beyond the reach of every pose; 0: all can be reached
+  double unreachable_cm = 0;  ///< distance of one target beyond the effector's reach; 0: all can be reached
   bool asks_positions = true;
   bool asks_axes = true;
 };
 
-/// The series and the recording that a cell keeps, beside its metrics and the curves of the largest errors.
+/// The optional series and the recording that a cell keeps. Metrics and the curves of the largest errors are always
+/// kept.
 struct IkRecords {
   bool effector_errors = false;
   bool angle_changes = false;
@@ -63,7 +64,7 @@ struct IkMethod {
 const FieldTable<IkCondition>& IkConditionFields();
 const FieldTable<IkMethod>& IkMethodFields();
 
-/// Reads the methods, on top of the options that the condition sets for all.
+/// Reads the methods. Each begins with the options that the condition sets for all methods.
 Result<std::vector<IkMethod>> ReadIkMethods(TaskInput& input, const IkCondition& condition);
 
 }  // namespace etude

@@ -20,8 +20,8 @@ std::string DigestOf(const IkSolution& solution) {
   return digest.Hex();
 }
 
-/// Returns why the solver stopped. The text is the same for all cells that ended alike, so that a report can count
-/// them.
+/// Returns the reason why the solver stopped. Cells that ended in the same way have the same text, so a report can
+/// count them.
 std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, const IkTargetParts& asked) {
   if (asked.axes && !method.solver->uses_axes) return "the solver uses only positions, but axes are asked for";
   switch (solution.status) {
@@ -54,7 +54,7 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
     cell.digests = std::move(digests);
     return cell;
   }
-  // Score the result, and add curves and recording.
+  // Score the result, and add the curves and the recording.
   const IkAccount account{solution.iterations, solution.fk_evaluations, method.options.max_iterations,
                           WhyItStopped(method, solution, AskedOf(world.problem))};
   CellResult cell = ScoreAngles(tree, world, solution.angles, solution.errors, account, records);
@@ -69,10 +69,11 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
 
 namespace {
 
-/// Each solver makes one pass of forward kinematics before its first step, and one in each step.
+/// Returns the largest number of forward-kinematics passes. Each solver makes one pass before its first step and one in
+/// each step.
 double LargestFkCount(int max_steps) { return max_steps + 1; }
 
-/// Adds a cost and its penalised form; both are missing if the method did not report it.
+/// Adds a cost and its penalised form. Both are missing if the method did not report the cost.
 void AddCost(const char* id, const char* penalised_id, const std::optional<int>& spent, double limit, bool solved,
              CellResult& cell) {
   if (spent) {
@@ -106,7 +107,7 @@ CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::spa
   const IkErrorSummary errors = SummariseIkErrors(effector_errors);
   const IkTargetParts asked = AskedOf(world.problem);
   const std::string broken_limits = DescribeBrokenLimits(tree, angles, "angles_deg");
-  // A broken limit makes the world unsolved, but everything is measured.
+  // If a limit is exceeded, the world counts as unsolved, but everything is still measured.
   const bool keeps_limits = broken_limits.empty(), solved = keeps_limits && IsSolvedPractically(errors, asked);
   CellResult cell;
   cell.Measure("position_error_cm", errors.position_cm);
@@ -171,7 +172,7 @@ Series Curve(std::string name, std::span<const IkTraceEntry> trace, const ValueO
   return curve;
 }
 
-/// Appends six series, named `prefix` + "position_error_x_cm", ….
+/// Appends six series with the names `prefix` + "position_error_x_cm", and so on.
 void AppendErrors(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles,
                   std::string_view prefix, std::vector<Series>& series) {
   TreeState state = problem.start;

@@ -14,14 +14,14 @@
 
 namespace etude {
 
-/// Runs one method in one world and scores it: metrics, digests, the error curves of the first iterations, and what
-/// `records` requests. The reason of an unsolved cell says why the solver stopped.
+/// Runs one method in one world and scores it. The result has metrics, digests, the error curves of the first
+/// iterations, and the data that `records` requests. The reason of an unsolved cell says why the solver stopped.
 CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMethod& method, const IkRecords& records);
 
-/// Returns which parts of their targets the effectors of a world must meet: positions, axes or both.
+/// Returns the parts of the targets that the effectors of a world must reach: positions, axes or both.
 IkTargetParts AskedOf(const IkProblem& problem);
 
-/// The cost that a method reports, and the reason if it failed.
+/// The costs that a method reports, and the reason if it did not reach the targets.
 struct IkAccount {
   std::optional<int> iterations, fk_evaluations;  ///< empty if the method does not report them
   int max_steps = 0;
@@ -29,42 +29,42 @@ struct IkAccount {
 };
 
 /// Scores the final angles of a solver or of an outside method: metrics, and the series of the final pose that
-/// `records` requests. A world is solved if its effectors meet the required parts of their targets and no limit is
-/// broken.
+/// `records` requests. A world is solved if its effectors reach the required parts of their targets and no limit is
+/// exceeded.
 CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::span<const double> angles,
                        std::span<const EffectorError> effector_errors, const IkAccount& account,
                        const IkRecords& records);
 
-/// Scores an answer of an outside method, without curves; a recording has two frames, start and answer. `max_steps` is
-/// the limit for its penalised costs.
+/// Scores an answer of an outside method. There are no curves, and a recording has two frames: start and answer.
+/// `max_steps` is the limit for the penalised costs.
 CellResult ScoreIkAnswer(const KinematicTree& tree, const IkWorld& world, const IkAnswer& answer, int max_steps,
                          const IkRecords& records);
 
-/// Returns the ids of all metrics that a cell reports, each by a value or a reason.
+/// Returns the ids of all metrics that a cell reports, by a value or by the reason why the value is missing.
 std::vector<std::string> IkMetrics();
 
 /// Returns the value of a metric for a cell without an answer: 0 for solved shares, twice the limit for penalised costs
-/// (PAR-2); nothing for others.
+/// (PAR-2). Returns nothing for other metrics.
 std::optional<double> IkValueOfFailure(std::string_view metric, int max_steps);
 
 /// The largest number of trace entries that curves show.
 constexpr int kMaxCurveEntries = 200;
 
-/// Returns the curves, of at most 200 entries, of `position_error_max_cm` and `orientation_error_max_deg`, the largest
-/// over the effectors.
+/// Returns the curves `position_error_max_cm` and `orientation_error_max_deg`: the largest error over the effectors,
+/// after each iteration. A curve has at most kMaxCurveEntries entries.
 std::vector<Series> WorstErrorCurves(std::span<const IkTraceEntry> trace);
 
-/// Returns the curves of the same entries for each effector: `right_foot_position_error_cm`,
+/// Returns curves for each effector, with the entries of WorstErrorCurves: `right_foot_position_error_cm`,
 /// `right_foot_x_axis_error_deg`, … (paper B, figure 5.2).
 std::vector<Series> EffectorCurves(const KinematicTree& tree, std::span<const IkTraceEntry> trace);
 
-/// Returns the effectors' errors, along axis "effector", at the start (`start_…`) and at the end:
-/// `position_error_{x,y,z}_cm`, effector minus target along the world's axes, and `orientation_error_{x,y,z}_deg`, the
-/// angle between the effector's axis and its target (table 5.1).
+/// Returns the effectors' errors along the axis "effector", at the start (`start_…`) and at the end (table 5.1).
+/// `position_error_{x,y,z}_cm` is effector minus target along the world's axes. `orientation_error_{x,y,z}_deg` is the
+/// angle between the effector's axis and the target's.
 std::vector<Series> EffectorErrors(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles);
 
-/// Returns differences of angles, along axis "angle", in the tree's order: `angle_change_deg`, the solution minus the
-/// start, and `angle_error_deg`, the solution minus the truth (table 5.2).
+/// Returns differences of angles along the axis "angle", in the tree's order (table 5.2): `angle_change_deg` is the
+/// solution minus the start, `angle_error_deg` the solution minus the truth.
 std::vector<Series> AngleChanges(const IkWorld& world, std::span<const double> angles);
 
 }  // namespace etude

@@ -12,7 +12,7 @@ namespace {
 
 double LengthOf(const KinematicTree& tree, BodyTreeJoint upper_end) { return glm::length(tree.joints[upper_end].p_PJ); }
 
-/// Bends both legs in their planes: the shanks lean forward by `shank`, the thighs backward by `thigh`.
+/// Bends both legs in their planes. The shanks lean forward by `shank`, the thighs backward by `thigh`, radians.
 void BendLegs(const KinematicTree& tree, double shank, double thigh, std::vector<double>& angles) {
   constexpr int kZ = 2;
   const auto set = [&](BodyTreeJoint joint, int axis, double angle) {
@@ -30,14 +30,14 @@ void BendLegs(const KinematicTree& tree, double shank, double thigh, std::vector
 
 TreeState CrouchBeneathStandingHands(const KinematicTree& tree, RandomStream& dice) {
   TreeState state = StandingState(tree);
-  // Crouch by a random angle of the shanks; the thighs lean backward so that the hips move down vertically.
+  // Crouch by a random angle of the shanks. The thighs lean backward, so that the hips move down vertically.
   const double shank = LengthOf(tree, kTreeLeftKnee), thigh = LengthOf(tree, kTreeLeftHip);
   const double lean = Radians(dice.Uniform(8, 19));  // the ankle may turn by 20° under every set of limits
   const double counter = std::asin(shank * std::sin(lean) / thigh);
   BendLegs(tree, lean, counter, state.angles);
   const double drop = shank * (1 - std::cos(lean)) + thigh * (1 - std::cos(counter));
 
-  // Shoulder, elbow and wrist form a triangle (law of cosines); the hand hangs vertically below the shoulder.
+  // Shoulder, elbow and wrist form a triangle (law of cosines). The hand hangs vertically below the shoulder.
   const double upper = LengthOf(tree, kTreeLeftElbow), fore = LengthOf(tree, kTreeLeftWrist);
   const double span = upper + fore - 1.5 * drop;
   const double back = std::acos((upper * upper + span * span - fore * fore) / (2 * upper * span));
@@ -70,8 +70,8 @@ void MakePoses(const KinematicTree& tree, const IkTrialOptions& options, const W
   }
 }
 
-/// Moves the target of one effector straight away from the root, `beyond` metres farther than the border of its reach
-/// in that direction, which is found by bisection.
+/// Moves the target of one effector straight away from the root, until it is `beyond` metres farther than the border of
+/// the effector's reach in that direction. Bisection finds the border.
 void PullOutOfReach(const KinematicTree& tree, double beyond, RandomStream& dice, IkProblem& problem) {
   constexpr double kFarOut = 100;  // metres
   constexpr int kHalvings = 50;    // accurate to 10⁻¹³ m
@@ -93,14 +93,14 @@ IkWorld MakeIkWorld(const KinematicTree& tree, const IkTrialOptions& options, co
   world.truth = StandingState(tree);
   world.problem.start = world.truth;
   world.problem.limits = tree.limits;
-  // The true pose and the start.
+  // Make the true pose and the start pose.
   if (options.start == IkStart::kStretched) {
     RandomStream dice(key, "crouch");
     world.truth = CrouchBeneathStandingHands(tree, dice);
   } else {
     MakePoses(tree, options, key, world);
   }
-  // The targets, with noise, and one out of reach if the options say so.
+  // Make the targets with noise. Move one target out of reach if the options require it.
   world.problem.targets = TargetsMetBy(tree, world.truth);
   for (EffectorTarget& target : world.problem.targets) {
     if (!options.asks_positions) target.position_weight = 0;

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// Encodes each pose as numbers: root, then quaternions (w, x, y, z).
+/// Encodes each pose as a list of numbers: the root's position, then one quaternion (w, x, y, z) per joint.
 Json EncodePoses(std::span<const TreePose> poses) {
   Json encoded = Json::array();
   for (const TreePose& pose : poses) {

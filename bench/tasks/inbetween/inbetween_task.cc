@@ -23,7 +23,7 @@ struct InbetweenStudy {
   OpenOptions opening;
   std::vector<TrainingTree> training;
   GapLibrary library;
-  // The file used last, kept because the windows of one file follow each other.
+  // The file used last. It is kept because successive windows often come from one file.
   mutable std::string reference;
   mutable Result<HiddenWindow> whole;
 
@@ -104,7 +104,7 @@ class InbetweenTask final : public Task {
     return std::make_unique<InbetweenWorld>(study_, WindowOf(key), keeps_motion);
   }
 
-  /// Returns the file's name or, with the key `people`, its person.
+  /// Returns the name of the window's file or, with the key `people`, its person.
   std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {WindowOf(key).unit}; }
 
   Result<Payload> Setting() const override {

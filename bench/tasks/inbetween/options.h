@@ -9,20 +9,20 @@
 
 namespace etude {
 
-/// A condition of task inbetween. The defaults are LAFAN1's protocol.
+/// A condition of task inbetween. The defaults are those of LAFAN1's protocol.
 struct InbetweenOptions {
   std::vector<std::string> truth;     ///< files whose windows are judged
   std::vector<std::string> training;  ///< files that give L2P's deviations, offsets, and the fillers' library
-  std::string people;                 ///< the person in a file's name, as *_{person}; "" = each file counts for itself
-  int window = 65, offset = 40;       ///< frames of a window, and from one window's first to the next one's
+  std::string people;                 ///< the person in a file's name, as *_{person}; "" = each file is a unit
+  int window = 65, offset = 40;       ///< length of a window, and distance of successive windows, frames
   int training_window = 50, training_offset = 20;
   int past = 10;                  ///< frames before the gap, all given
   int gap = 30;                   ///< hidden frames
   int future = 10;                ///< frames that a window must have after the gap
-  int given = 1;                  ///< how many of the future frames are given
+  int given = 1;                  ///< number of future frames that are given
   std::optional<double> rate_hz;  ///< rate to which motions are sampled; nothing: each file's own
   glm::dvec3 facing{0, 1, 0};     ///< the root's axis that is turned to X in the last past frame
-  bool own_offsets = false;       ///< true: each file's own; false: those of the first training file
+  bool own_offsets = false;       ///< true: each file's own offsets; false: those of the first training file
 };
 
 const FieldTable<InbetweenOptions>& InbetweenConditionFields();

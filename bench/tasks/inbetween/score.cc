@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// The joints of some frames in the world.
+/// The positions and rotations of the joints in the world's frame, for several frames.
 struct Globals {
   std::size_t joints = 0;
   std::vector<glm::dvec3> positions;
@@ -36,7 +36,7 @@ std::size_t JudgedCount(const JointTree& tree) {
   return static_cast<std::size_t>(std::ranges::count(tree.is_point, false));
 }
 
-/// Returns the frames from `first` to `last` without the points that have no rotation.
+/// Returns the values of the frames `first` to `last`. Points without a rotation are left out.
 template <typename Value>
 std::vector<Value> JudgedFrames(const std::vector<Value>& values, const JointTree& tree, int first, int last) {
   std::vector<Value> judged;
@@ -47,7 +47,7 @@ std::vector<Value> JudgedFrames(const std::vector<Value>& values, const JointTre
   return judged;
 }
 
-/// Returns the joint that plays a role or, if the file lacks it, the next role towards the hip centre.
+/// Returns the joint that has a role. If the file lacks it, returns the joint of the next role towards the hip centre.
 int JointOf(const std::array<int, kRoleCount>& roles, Role role) {
   for (std::optional<Role> at = role; at; at = ParentOf(*at)) {
     if (roles[Index(*at)] >= 0) return roles[Index(*at)];
@@ -55,7 +55,8 @@ int JointOf(const std::array<int, kRoleCount>& roles, Role role) {
   return 0;
 }
 
-/// Returns the twenty joints above the floor, scaled; one that the file lacks is where its parent is.
+/// Returns the twenty joints of each frame, with heights above the floor, scaled. A joint that the file lacks is put at
+/// its parent.
 std::vector<BodyPose> BodiesOf(const Globals& globals, const std::array<int, kRoleCount>& roles, double floor_m,
                                double scale = 1) {
   std::vector<BodyPose> bodies;
@@ -74,14 +75,15 @@ std::string DigestOf(std::span<const glm::dvec3> positions) {
   return Digest().Add(std::span(&positions.front().x, 3 * positions.size())).Hex();
 }
 
-/// Returns global rotations as channels. Their signs follow from those of the local ones, as in LAFAN1's code.
+/// Returns global rotations as channels. Their signs follow from the signs of the local rotations, as in LAFAN1's
+/// code.
 ChannelTracks ChannelsOf(const std::vector<glm::dquat>& turns, std::size_t joints) {
   ChannelTracks tracks{4 * joints, {}};
   for (const glm::dquat& q : turns) tracks.values.insert(tracks.values.end(), {q.w, q.x, q.y, q.z});
   return tracks;
 }
 
-/// Measures the distances of LAFAN1's code, and the mean joint error.
+/// Measures L2P, L2Q and NPSS of LAFAN1's code, and the mean joint error.
 void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
   const auto part = [&](const auto& values) {
     return JudgedFrames(values, hidden.motion.tree, hidden.first, hidden.last);
@@ -90,7 +92,7 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
   EvaluatedPair pair;
   pair.found = {joints, part(found.positions)};
   pair.truth = {joints, part(truth.positions)};
-  // Positions, divided by the deviations of training (L2P).
+  // Measure L2P: positions, divided by their standard deviations in the training set.
   const auto deviations = JudgedFrames(hidden.deviations, hidden.motion.tree, 0, hidden.deviations.empty() ? -1 : 0);
   const bool all_move =
       std::ranges::none_of(deviations, [](const glm::dvec3& one) { return one.x <= 0 || one.y <= 0 || one.z <= 0; });
@@ -103,19 +105,19 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
   result.MeasureOr(
       "l2p@lafan1", l2p,
       all_move ? "no training clip is as long as a training window" : "a coordinate never moves in training");
-  // Rotations: their distance, and their spectrum.
+  // Measure the distance and the spectrum of the rotations (L2Q and NPSS).
   const ChannelTracks true_turns = ChannelsOf(part(truth.turns), joints);
   const ChannelTracks found_turns = ChannelsOf(part(found.turns), joints);
   result.MeasureOr("l2q@lafan1", MeanChannelDistance(found_turns, true_turns), "");
   const auto npss = MeasurePowerSpectrum(found_turns, true_turns, true_turns.FrameCount(), PowerOf::kRealPart);
   result.MeasureOr("npss@lafan1", npss ? std::optional(npss->value) : std::nullopt, "the truth has no power");
   result.MeasureOr("npss_power@lafan1", npss ? std::optional(npss->power) : std::nullopt, "the truth has no power");
-  // Positions in millimetres, without alignment.
+  // Measure the positions in millimetres, without alignment.
   const FrameFits none{{Similarity{}}, pair.found.FrameCount()};
   result.MeasureOr("mpjpe_unaligned_mm", MeanJointErrorMm(pair, none), "");
 }
 
-/// Returns why `clean_share` cannot be measured; "" if it can.
+/// Returns the reason why `clean_share` cannot be measured; "" if it can.
 std::string WhyNotClean(const HiddenWindow& hidden) {
   if (hidden.motion.rate_hz != kJudgedRateHz) return fmt::format("the rate is not {:g} Hz", kJudgedRateHz);
   for (const Role role : AllRoles()) {
@@ -126,7 +128,8 @@ std::string WhyNotClean(const HiddenWindow& hidden) {
 }
 
 /// Returns true if the filled gap passes all tests of a clean transition (clean_share version 4). The truth is the only
-/// clip, and all frames of its file count as real. The gap's length is given, so the time to settle does not count.
+/// clip, and all frames of its file count as real. The length of the gap is given, so the time to settle does not
+/// count.
 bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Globals& truth) {
   const JudgedFile& file = *hidden.file;
   const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, file.floor_m, file.scale);
@@ -154,7 +157,7 @@ bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Glob
                   .possible = IsPossible(MeasureBody(view, support))});
 }
 
-/// Measures whether a body could move like this: support, foot slide, jitter, and all of `clean_share`.
+/// Measures if a body could move like this: support, foot slide, jitter, and all parts of `clean_share`.
 void MeasureMovement(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
   using enum Role;
   const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, hidden.file->floor_m);
@@ -186,7 +189,7 @@ Recording RecordingOf(const HiddenWindow& hidden, const Globals& found, const Gl
   EvaluationExtras extras;
   extras.truth.rate_hz = hidden.motion.rate_hz;
   extras.truth.joints = hidden.motion.tree.names;
-  // Name the joints after their roles, because readers of clips find them by these names.
+  // Name the joints by their roles, because readers of clips look for these names.
   for (const Role role : AllRoles()) {
     if (hidden.roles[Index(role)] >= 0)
       extras.truth.joints[static_cast<std::size_t>(hidden.roles[Index(role)])] = RoleName(role);
@@ -208,7 +211,7 @@ std::vector<std::string> InbetweenMetrics() {
 std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole) {
   auto file = std::make_shared<JudgedFile>();
   const Globals globals = GlobalsOf(whole.motion.tree, whole.motion.poses);
-  // The floor.
+  // Estimate the height of the floor.
   std::vector<double> lowest;
   for (const BodyPose& body : BodiesOf(globals, whole.roles, 0)) {
     double& height = lowest.emplace_back(body[Role::kHead].y);
@@ -219,7 +222,7 @@ std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole) {
   constexpr double kShare = 0.05;
   file->floor_m = LowerPercentile(std::move(lowest), kShare);
   if (!WhyNotClean(whole).empty()) return file;
-  // The body at the judged size.
+  // Scale the body to the size at which transitions are judged.
   BodyMotion motion{whole.motion.rate_hz, BodiesOf(globals, whole.roles, file->floor_m)};
   file->scale = JudgedProportions().standing_hip_height / StandingHipHeight(motion.poses.front());
   for (BodyPose& pose : motion.poses) {
@@ -236,7 +239,7 @@ CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> fi
   for (std::size_t f = 0; f < filled.size(); ++f) {
     const std::size_t at = static_cast<std::size_t>(hidden.first) + f;
     shown[at] = filled[f];
-    // Choose the sign of each quaternion that is nearer to the frame before.
+    // For each quaternion, choose the sign that is nearer to the quaternion in the previous frame.
     for (std::size_t j = 0; j < filled[f].turns.size(); ++j) {
       glm::dquat& turn = shown[at].turns[j];
       if (glm::dot(turn, shown[at - 1].turns[j]) < 0) turn = -turn;

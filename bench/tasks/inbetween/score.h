@@ -14,8 +14,8 @@
 
 namespace etude {
 
-/// Measurements of a whole file, by which each of its windows is judged. Bodies are scaled so that their hips stand at
-/// 0.90 m.
+/// Measurements of a whole file, with which each of its windows is judged. Bodies are scaled so that their hips stand
+/// at 0.90 m.
 struct JudgedFile {
   double floor_m = 0;  ///< the 5th percentile, over the frames, of the lowest joint's height (hands do not count)
   double scale = 1;    ///< factor from the file's body to the judged one
@@ -24,7 +24,7 @@ struct JudgedFile {
   RealFrames frames;
 };
 
-/// A window of a motion, of which some frames are hidden.
+/// A window of a motion in which some frames are hidden.
 struct HiddenWindow {
   TreeMotion motion;
   int first = 0, last = 0;  ///< the hidden frames, both inclusive; three or more frames are on either side
@@ -37,11 +37,11 @@ struct HiddenWindow {
 /// Returns the ids of all metrics, in the order in which they are measured.
 std::vector<std::string> InbetweenMetrics();
 
-/// Measures a whole file, of which only `motion` and `roles` are set.
+/// Measures a whole file. Only `motion` and `roles` of `whole` must be set.
 std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole);
 
-/// Measures a window whose hidden frames are replaced by `filled`, one for each. With `keeps_motion`, the result's
-/// recording holds this window and the true one.
+/// Measures a window after its hidden frames are replaced by `filled`, which has one pose per hidden frame. With
+/// `keeps_motion`, the result's recording contains this window and the true one.
 CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> filled, bool keeps_motion);
 
 }  // namespace etude

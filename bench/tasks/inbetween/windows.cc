@@ -16,15 +16,15 @@ namespace {
 
 constexpr char kBeforeFirst = '@';
 
-/// Returns the rate of a file, Hz. A file may round its time per frame (0.0083333 s for 120 Hz); a rate that rounding
-/// alone separates from a multiple of the protocol's rate becomes that multiple, so that no frame is interpolated.
+/// Returns the rate of a file, Hz. A file may round its time per frame (0.0083333 s for 120 Hz). If the rate differs
+/// from a multiple of the protocol's rate only by rounding, returns that multiple, so that no frame is interpolated.
 double OwnRate(double rate_hz, const InbetweenOptions& options) {
   constexpr double kFewDigits = 1e-4;
   const double wanted = options.rate_hz.value_or(rate_hz), whole = wanted * std::round(rate_hz / wanted);
   return std::abs(rate_hz - whole) < kFewDigits * rate_hz ? whole : rate_hz;
 }
 
-/// Returns how many frames `frames` become at the protocol's rate.
+/// Returns the number of frames that `frames` frames become at the protocol's rate.
 std::size_t SampledFrames(std::size_t frames, double own_rate_hz, const InbetweenOptions& options) {
   if (!options.rate_hz || frames == 0) return frames;
   constexpr double kRounding = 1e-6;  // of a frame, as in `Sampled`
@@ -32,7 +32,7 @@ std::size_t SampledFrames(std::size_t frames, double own_rate_hz, const Inbetwee
   return static_cast<std::size_t>(last + kRounding) + 1;
 }
 
-/// Calls `visit` with the first frame of each window, as LAFAN1's code takes them.
+/// Calls `visit` with the first frame of each window. The windows are those of LAFAN1's code.
 template <typename Visit>
 void ForEachWindow(std::size_t frames, int window, int offset, const Visit& visit) {
   for (std::size_t first = 0; first + static_cast<std::size_t>(window) < frames;
@@ -41,7 +41,7 @@ void ForEachWindow(std::size_t frames, int window, int offset, const Visit& visi
   }
 }
 
-/// Returns true if two references name one motion, even by different paths.
+/// Returns true if two references name the same motion, even by different paths.
 bool IsSame(const std::string& one, const std::string& other) {
   std::error_code none;
   const SplitReference a = Split(one), b = Split(other);
@@ -60,7 +60,7 @@ int FirstFrameOf(const std::string& window) {
 
 Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> methods,
                                const std::map<std::string, std::string>& /*texts*/) {
-  // Read the keys; the task checks them all later.
+  // Read the keys. The task will check them all later.
   InbetweenOptions options;
   Fields fields(condition, "a scenario of task inbetween");
   InbetweenConditionFields().Read(fields, options);
@@ -105,7 +105,7 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
     return Fail(place, "no file has a window of {} frames: {}", options.window, found.left_out.front().second);
   }
   if (!options.people.empty()) {
-    // The person is part of the file's name, which ends at the '@'.
+    // FindPeople's pattern is for the file's name. In the names of windows, '@' and the first frame follow it.
     RETURN_IF_ERROR(FindPeople(options.people + kBeforeFirst + '*', condition.Find("people")->place, found.worlds));
   }
   return found;
@@ -116,7 +116,7 @@ Result<HiddenWindow> OpenJudged(const std::string& reference, const InbetweenOpt
   ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, opening));
   const bool is_body = clip.format == ClipFormat::kBuiltin || clip.made.has_value();
   ASSIGN_OR_RETURN(auto raw, RawMotionOf(std::move(clip), opening, reference.starts_with(kBuiltinPrefix)));
-  // A body's hip centre is midway between its hips.
+  // Put the hip centre midway between the hips, where it already is in the motion of a body.
   if (!is_body && HasOwnRoot(raw)) AddMidwayHips(raw);
   if (options.rate_hz) {
     raw.rate_hz = OwnRate(raw.rate_hz, options);
@@ -132,11 +132,11 @@ std::vector<TreePose> PlacedWindow(std::span<const TreePose> poses, int first, i
                                    const glm::dvec3& facing) {
   const auto begin = poses.begin() + first;
   std::vector<TreePose> window(begin, begin + count);
-  // Move the mean of the root above the origin.
+  // Move the root so that its mean position is above the origin.
   glm::dvec3 mean(0);
   for (const TreePose& pose : window) mean += pose.root / static_cast<double>(count);
   mean.y = 0;
-  // Turn about the vertical axis, so that the root's axis points along X.
+  // Turn the motion about the vertical axis, so that the root's axis `facing` points along X.
   const glm::dvec3 axis = window[static_cast<std::size_t>(past - 1)].turns[0] * facing;
   const glm::dquat turn = glm::angleAxis(std::atan2(axis.z, axis.x), glm::dvec3(0, 1, 0));
   for (TreePose& pose : window) {
@@ -163,7 +163,7 @@ Result<std::vector<TrainingTree>> Train(const InbetweenOptions& options, const O
       const std::vector<glm::dvec3> zeros(motion.tree.size());
       known = trees.insert(trees.end(), TrainingTree{motion.tree, zeros, zeros, 0});
     }
-    // Add up the positions in all training windows.
+    // Add up the positions over all training windows.
     ForEachWindow(motion.poses.size(), options.training_window, options.training_offset, [&](int first) {
       for (const TreePose& pose :
            PlacedWindow(motion.poses, first, options.training_window, options.past, options.facing)) {

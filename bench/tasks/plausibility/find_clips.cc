@@ -15,19 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A clip of a method.
+/// A clip of a method's answers.
 struct LoneClip {
   std::string reference;
-  std::string folders;  ///< those that wildcards stand for: "walks/", or ""
+  std::string folders;  ///< the folders for which wildcards stand: "walks/", or ""
 };
 
-/// Returns the folder up to the first wildcard: "lib/" of "lib/*/a.bvh".
+/// Returns the folder before the first wildcard: "lib/" for "lib/*/a.bvh".
 std::string FixedFolder(const std::string& pattern) {
   const std::string before = pattern.substr(0, pattern.find_first_of("*?["));
   return before.substr(0, before.rfind('/') + 1);
 }
 
-/// Lists the clips of a file. One that cannot be read stands for itself, so that its row says why.
+/// Lists the clips of a file. If the file cannot be read, returns the file itself, so that its row states the reason.
 std::vector<std::string> ClipsIn(const std::string& reference) {
   constexpr std::array kOfSeveral = {".glb", ".gltf", ".fbx", ".vrm", ".vrma", ".c3d", ".trc"};
   const SplitReference split = Split(reference);
@@ -58,7 +58,7 @@ Result<std::vector<LoneClip>> ClipsOf(const PlausibilityMethod& method, const Pl
   return clips;
 }
 
-/// Names the clips of a method.
+/// Returns the clips of a method by their names. Fails if two clips have the same name.
 Result<std::map<std::string, std::string>> ByName(const std::vector<LoneClip>& clips, const Place& place) {
   std::map<std::string, int> count;
   for (const LoneClip& clip : clips) ++count[clip.folders + NameOfReference(clip.reference)];
@@ -78,7 +78,7 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<LoneClip>& c
 
 Result<FoundFiles> FindLoneClips(const Node& condition, std::span<const Node> methods,
                                  const std::map<std::string, std::string>& /*texts*/) {
-  // Read the keys that name files; the task reads and checks all keys later.
+  // Read the keys that name files. The task will read and check all keys later.
   PlausibilityOptions options;
   Fields fields(condition, "a scenario of task plausibility");
   PlausibilityConditionFields().Read(fields, options);
@@ -86,7 +86,7 @@ Result<FoundFiles> FindLoneClips(const Node& condition, std::span<const Node> me
   if (const Node* trials = condition.Find("trials")) {
     return Fail(trials->place, "'trials' has no use in task plausibility: each clip is judged once");
   }
-  // Find the clips of each method, and the worlds by their names.
+  // Find the clips of each method, and collect the worlds by name.
   std::map<std::string, std::vector<std::string>> answers;
   for (std::size_t m = 0; m < methods.size(); ++m) {
     Fields keys(methods[m], "a method of task plausibility");

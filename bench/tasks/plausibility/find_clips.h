@@ -8,11 +8,12 @@
 
 namespace etude {
 
-/// TaskKind::find_files of task plausibility. A folder stands for the motion files in it, a file of several clips for
-/// each of them. Clips of one name of several methods are one world; a name is the file's, with the folders that a
-/// pattern's wildcards stand for and without extension, and the clip behind '#'. If a method has several of one name,
-/// each is named with its extension. Worlds are sorted by name. Fails if a method's files still have one name, and for
-/// more than kMaxPairs files.
+/// Finds the worlds of task plausibility (TaskKind::find_files), sorted by name. A folder stands for the motion files
+/// in it, and a file with several clips for each of them. Clips of several methods that have the same name are one
+/// world. The name of a clip is its file name without extension. Before it come the folders for which a pattern's
+/// wildcards stand; after it come '#' and the clip, if the file has several. If a method has several clips of one name,
+/// their names include the extension. Fails if a method's clips still have the same name, or if there are more than
+/// kMaxPairs clips.
 Result<FoundFiles> FindLoneClips(const Node& condition, std::span<const Node> methods,
                                  const std::map<std::string, std::string>& texts);
 

@@ -17,7 +17,7 @@ namespace {
 
 using enum FaultKind;
 
-/// What of a kind of fault is measured, and the factor from its unit to the metric's.
+/// A metric of one kind of fault: the quantity that is measured, and the factor from the fault's unit to the metric's.
 struct FaultMetric {
   enum class What { kShare, kLargest, kCount };
   const char* id;
@@ -44,7 +44,7 @@ constexpr FaultMetric kMetrics[] = {{"floats_share", kFloats, FaultMetric::What:
                                     {"bends_max_deg", kBends, FaultMetric::What::kLargest},
                                     {"passes_share", kPasses, FaultMetric::What::kShare}};
 
-/// Stands in a reason between the words about faults and those about the file.
+/// The separator in a reason between the text about faults and the text about the file.
 constexpr std::string_view kAboutFile = " · ";
 
 double ValueOf(const FaultMetric& metric, const std::vector<MotionFault>& faults, double duration_s) {
@@ -76,7 +76,7 @@ std::string DigestOf(const BodyMotion& motion) {
 
 Recording RecordingOf(BodyInPlace body, const MotionFaults& found) {
   PlausibilityExtras extras{.floor_m = found.floor_m, .faults = {}};
-  // A gap may begin before the body and end behind it.
+  // A gap may begin before the body's first frame and end after its last one.
   const auto frame_at = [&](double time_s) {
     const auto frame = static_cast<int>(std::lround((time_s - body.begin_s) * body.motion.rate_hz));
     return std::clamp(frame, 0, static_cast<int>(body.motion.poses.size()) - 1);
@@ -110,14 +110,14 @@ CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool
                              fmt::format("{} frames; faults are sought in {} or more", frames, kMinFramesForFaults));
   }
   const MotionFaults found = FindMotionFaults(body.motion, FaultOptionsOf(body, options.floor_m));
-  // Measure.
+  // Measure all kinds of faults.
   const double duration_s = static_cast<double>(frames - 1) / body.motion.rate_hz;
   const double file_s = body.lost_before_s + duration_s + body.lost_after_s;
   CellResult result;
   result.status = Status::kOk;
   result.Measure("faults", static_cast<double>(found.faults.size()));
   for (const FaultMetric& metric : kMetrics) {
-    // Gaps also lie in the time of the file that shows no whole body.
+    // Gaps are relative to the duration of the file, which includes the time without a whole body.
     result.Measure(metric.id, ValueOf(metric, found.faults, metric.kind == kGaps ? file_s : duration_s));
   }
   result.Measure("wrong_rate", FaultCount(found.faults, kRate) + FaultCount(found.faults, kSpeed) > 0 ? 1 : 0);
@@ -131,7 +131,7 @@ CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool
   } else {
     result.Measure("within_limits", beyond.empty() ? 1 : 0);
   }
-  // Say it in words.
+  // Describe the result in words.
   std::vector<std::string> words;
   for (const std::string& id : beyond) {
     words.push_back(fmt::format("{} is {:.3g}, allowed {:g}", id, values[id], options.limits.at(id)));

@@ -11,7 +11,7 @@ namespace {
 
 using PlausibilityStudy = FileStudy<PlausibilityOptions, PlausibilityMethod>;
 
-/// The clips of one name.
+/// The world of all clips with the same name.
 class PlausibilityWorld final : public FileWorld {
  public:
   PlausibilityWorld(const PlausibilityStudy& study, const JudgedFiles& files, bool keeps_motion)

@@ -5,8 +5,8 @@
 namespace etude {
 namespace {
 
-/// Ours: of all pairs of frames of two clips, 0.4 % have a mean joint distance below it; about as many (0.5 %) have
-/// paper A's d below 0.4.
+/// The default threshold on mean joint distances, centimetres (ours). Of all pairs of frames of two clips, 0.4 % have a
+/// smaller mean joint distance. About as many, 0.5 %, have a d of paper A below 0.4.
 constexpr double kThresholdCm = 6;
 
 void SetThreshold(Fields& /*method*/, PoseDistanceMethod& options) {
@@ -40,7 +40,7 @@ const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields() {
                  "Weights of the fuzzy features: paper A's, or learnt on all clips but the two judged, by logistic "
                  "regression or a genetic algorithm.")
            .With("distance", {"fuzzy"}),
-       // Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
+       // Grades are in [0, 1] and the weights S have sum 8, so no distance exceeds sqrt(8 · 4).
        Key::Number("threshold", &Method::threshold, {0, 6}, "Poses are called alike when d is below it.")
            .With("distance", {"fuzzy"})},
       SetThreshold};

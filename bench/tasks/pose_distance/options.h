@@ -13,7 +13,7 @@ struct PairOptions {
 
 const FieldTable<PairOptions>& PoseDistanceConditionFields();
 
-/// The keys of methods such as
+/// Returns the keys of a method, for example:
 ///
 ///     - {name: fuzzy, distance: fuzzy, weights: adaptive, threshold: 0.4}
 ///     - {name: joints, distance: joint-positions}

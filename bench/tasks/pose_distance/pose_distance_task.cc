@@ -18,7 +18,7 @@ struct PairStudy {
   std::vector<PoseDistanceMethod> methods;
   DancedClips clips;
   FuzzySystem fuzzy;
-  mutable LearntWeights learnt;  ///< caches fits; its answers depend on the question alone
+  mutable LearntWeights learnt;  ///< caches fits; its results depend on the arguments alone
 };
 
 class PoseDistanceWorld final : public TaskWorld {
@@ -52,7 +52,7 @@ class PoseDistanceTask final : public Task {
     return std::make_unique<PoseDistanceWorld>(study_, WorldOf(key));
   }
 
-  /// The blind spot, or the clips of the pairs' first and second poses.
+  /// Returns the name of the blind spot or, for frames, the clips of the pairs' first and second poses.
   std::vector<std::string> ClipsOf(const WorldKey& key) const override {
     if (study_.options.source == PairSource::kBlindSpots) return {ShowBlindSpot(key.trial).name};
     const auto [first, second] = DrawClips(study_.clips, key);

@@ -18,7 +18,7 @@ constexpr Named<PoseDistance> kDistances[] = {{"fuzzy", PoseDistance::kFuzzy},
                                               {"point-cloud", PoseDistance::kPointCloud},
                                               {"joint-positions", PoseDistance::kJointPositions}};
 
-/// Returns the distance of the point clouds of one frame each.
+/// Returns the point-cloud distance of two poses, centimetres. Each cloud consists of a single frame.
 double PointCloudCm(const BodyPose& a, const BodyPose& b) {
   const BodyMotion first{kJudgedRateHz, {a}}, second{kJudgedRateHz, {b}};
   std::array<double, 1> cost{};

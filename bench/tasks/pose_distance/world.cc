@@ -17,14 +17,14 @@ struct Setting {
   double degrees;
 };
 
-/// Returns the standing body with these controls of its right limbs.
+/// Returns the controls of a standing body with these settings for its right limbs.
 Controls Right(std::initializer_list<Setting> settings) {
   Controls controls;
   for (const Setting& setting : settings) controls.Of(Side::kRight, setting.control) = Radians(setting.degrees);
   return controls;
 }
 
-/// Sets controls of the right leg; the body stands on the left one.
+/// Returns the controls of a body that stands on its left leg, with these settings for its right leg.
 Controls RightLeg(std::initializer_list<Setting> settings) {
   Controls controls = Right(settings);
   controls.Of(Side::kRight, kLegFree) = 1;

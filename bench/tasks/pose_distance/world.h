@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// Two poses that look clearly different, but have a small fuzzy distance: paper A's features say how far a limb is
+/// Two poses that look clearly different but have a small fuzzy distance. Paper A's features measure how far a limb is
 /// raised but not in which direction, and their membership functions are flat in ranges that were thought unimportant.
 struct BlindSpot {
   std::string_view name;  ///< "arm forward or sideways"
@@ -35,7 +35,7 @@ struct SeenPair {
   double gap_m = 0;  ///< the truth: PoseGap, the distance of the worst joint after alignment on the floor
 };
 
-/// Pairs of poses to classify as alike or not.
+/// Pairs of poses that a method must classify as alike or not.
 struct PairWorld {
   std::string name;             ///< name of the blind spot; empty for frames
   std::string clip_a, clip_b;   ///< identities of the clips of the poses; empty for a blind spot
@@ -48,7 +48,7 @@ enum class PairSource {
   kFrames,      ///< random frames of two different clips
 };
 
-/// Clips of one body, from which frames are drawn.
+/// Clips performed by one body, from which frames are drawn.
 struct DancedClips {
   BodyProportions proportions;
   std::vector<std::string> names;
@@ -59,16 +59,17 @@ struct DancedClips {
 /// Retargets the clips to the body of the built-in moves.
 DancedClips DanceClips(const ClipLibrary& library);
 
-/// Returns true if there are clips of two different identities.
+/// Returns true if there are clips with two different identities.
 bool HoldsTwoDances(const DancedClips& clips);
 
 PairWorld ShowBlindSpot(int trial);
 
-/// Draws the indices of two clips of different identities; the trial number determines the first. There must be two
-/// identities.
+/// Draws two clips with different identities and returns their indices. The trial number determines the first. There
+/// must be clips with two identities.
 std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, const WorldKey& key);
 
-/// Draws two clips, and `count` pairs of a frame of one and a frame of the other, each uniformly.
+/// Draws two clips, and `count` pairs of frames. Each pair has a random frame of one clip and a random frame of the
+/// other, both with uniform distribution.
 PairWorld DrawFramePairs(const DancedClips& clips, int count, const WorldKey& key);
 
 }  // namespace etude

@@ -20,22 +20,24 @@
 
 namespace etude {
 
-/// Describes, for setting up the studio's cameras, a person who stands as in `first` and will dance there, half a metre
-/// to every side and as high as a jump. The limb lengths are those of that pose.
+/// Describes a person for whom the studio's cameras are set up. The person stands as in `first`, moves up to half a
+/// metre to every side, and jumps. The limb lengths are those of `first`. `places` are the expected poses
+/// (PlacesAround).
 FilmedPerson MakeFilmedPerson(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames);
 std::vector<BodyPose> PlacesAround(const BodyPose& first);
 
-/// Returns the frame that cameras report: every joint is tracked, at its position in the skeleton. Without a skeleton
-/// the frame shows no body, and all joints keep their positions in `last`.
+/// Returns the sensor frame that cameras report: every joint is tracked, at its position in the skeleton. If there is
+/// no skeleton, the frame shows no body, and all joints keep their positions in `last`.
 SensedFrame SensedOf(const std::optional<RecoveredFrame>& recovered, const SensedFrame& last);
 
-/// Cameras that film a motion known beforehand: every capture method works on the same pictures.
+/// Cameras that film a motion that is known beforehand. All capture methods work on the same pictures.
 class CameraTake {
  public:
-  /// `sensing` must outlive this. The motion has 30 Hz.
+  /// `sensing` must outlive this object. The motion must have 30 Hz.
   CameraTake(const CameraSensing& sensing, const BodyMotion& motion, const WorldKey& key);
 
-  /// Takes the pictures, which all methods share; without this call the first method takes them.
+  /// Takes the pictures, which all methods share. Without this call, the first method takes them, and the time counts
+  /// for it.
   void Film() { (void)stages_.GetTake(); }  // every method reports a failure
 
   /// Returns the stream of the whole motion. Fails, with the reason, if there is no renderer, the cameras cannot be
@@ -47,12 +49,12 @@ class CameraTake {
   std::deque<std::pair<CaptureMethod, Result<SkeletonStream>>> seen_;
 };
 
-/// Cameras as the sensor of a loop: a causal method captures the person frame by frame. Its computing time is not
-/// simulated.
+/// Cameras as the sensor of a feedback loop. A causal method captures the person frame by frame. Its computing time is
+/// not simulated.
 class CameraSensor final : public LiveSensor {
  public:
-  /// Sets up the cameras for a person who stands as in `first`, for `frames` frames. `key` must outlive this;
-  /// `method.causal` must be set. Fails as `LiveCapture` does.
+  /// Sets up the cameras for a person who stands as in `first`, for `frames` frames. `key` must outlive this object.
+  /// `method.causal` must be set. Fails if LiveCapture::Begin fails.
   static Result<std::unique_ptr<LiveSensor>> Make(const StudioOptions& studio, const CaptureMethod& method,
                                                   const BodyPose& first, std::size_t frames, const WorldKey& key);
 

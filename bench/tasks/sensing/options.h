@@ -13,11 +13,12 @@ struct CameraSensing {
   std::vector<PersonSource> sources;  ///< of all methods of the scenario, each once
 };
 
-/// The keys of a condition with `sensor: cameras`: those of `task: capture` that do not concern its takes, and
-/// `picture_every`.
+/// Returns the keys of a condition with `sensor: cameras`: the keys of `task: capture` that do not concern its takes,
+/// and `picture_every`.
 const FieldTable<StudioOptions>& CameraSensingFields();
 
-/// The key `capture` of a method: how pictures become skeletons, with the keys that a method of `task: capture` has.
+/// Returns the key `capture` of a method, which says how pictures become skeletons. Its value is a mapping with the
+/// keys of a method of `task: capture`.
 template <typename Method, typename Member>
 Field<Method> CaptureField(Member member) {
   return {{"capture", MappingKind("a mapping, as a method of task capture", CaptureMethodFields().Describe()), "(none)",

@@ -46,7 +46,7 @@ Crowd::Crowd(std::span<const TrackingWorld> worlds)
 }
 
 Crowd::Followed Crowd::FollowNext(const IkOptions& options, Precision precision) {
-  // Copy the roots and targets of this frame into the batch (structure of arrays).
+  // Copy the roots and targets of this frame into the batch, which is a structure of arrays.
   for (std::size_t i = 0; i < worlds_.size(); ++i) {
     assert(next_ < worlds_[i].truth.size());
     const TreeState& state = worlds_[i].truth[next_];
@@ -59,7 +59,7 @@ Crowd::Followed Crowd::FollowNext(const IkOptions& options, Precision precision)
     }
   }
   ++next_;
-  // Solve, and start the next frame from these angles.
+  // Solve the batch. The next frame starts from these angles.
   IkBatchSolution solution = SolveGaussNewtonBatch(tree_, batch_, options, precision);
   for (int d = 0; d < tree_.dof_count(); ++d) std::ranges::copy(solution.angles_of(d), batch_.start_angles(d).begin());
   Followed followed;

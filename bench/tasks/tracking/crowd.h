@@ -17,23 +17,24 @@ struct CrowdOptions {
   std::uint64_t seed = 1;
 };
 
-/// Returns one motion of `frames` frames for each character, all with paper B's body: random windows of the built-in
-/// moves and acts. Fails if these are too short for enough such windows.
+/// Returns one motion of `frames` frames for each character, all with paper B's body. The motions are random windows of
+/// the built-in moves and acts. Fails if these clips are too short for enough windows.
 Result<std::vector<TrackingWorld>> MakeCrowd(const CrowdOptions& options);
 
 /// Follows the motions of many characters at once. Each frame is one batch of `gauss-newton`, in which every character
-/// starts from its last answer, within the joint limits. In double precision each character's result equals, bit for
-/// bit, the result of task `tracking` for that character alone.
+/// starts from its previous answer, within the joint limits. In double precision, each character's result equals, bit
+/// for bit, the result of task `tracking` for that character alone.
 class Crowd {
  public:
-  /// The worlds have the same tree and number of frames; there is at least one. They must outlive this.
+  /// There must be at least one world. All worlds must have the same tree and number of frames, and must outlive this
+  /// object.
   explicit Crowd(std::span<const TrackingWorld> worlds);
 
   struct Followed {
     int met = 0;    ///< number of characters that met all targets
-    int steps = 0;  ///< of all characters together
+    int steps = 0;  ///< steps of all characters together
   };
-  /// Solves the next frame; may be called once per frame of the worlds.
+  /// Solves the next frame. May be called as often as the worlds have frames.
   Followed FollowNext(const IkOptions& options, Precision precision);
 
   std::size_t size() const { return worlds_.size(); }

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// The smallest number of frames of a motion: jerk needs four.
+/// The smallest number of frames of a motion. Jerk needs four frames.
 constexpr int kMinTrackedFrames = 4;
 
 /// One condition of a tracking scenario: the motion to follow.
@@ -18,16 +18,16 @@ struct TrackingOptions {
   double duration_s = 5;
   double rate_hz = kJudgedRateHz;
   TargetNoise target_noise = {};
-  /// The first frame starts at its truth plus noise of this standard deviation; if empty, it starts at the standing
-  /// pose.
+  /// The standard deviation of the noise that is added to the true angles for the start of the first frame, degrees. If
+  /// empty, the first frame starts at the standing pose.
   std::optional<double> joint_noise_deg = {};
   IkOptions common = IkBudget(20);  ///< options that all methods share
 };
 
-/// Where a solver starts in every frame but the first.
+/// The pose from which a solver starts in every frame except the first.
 enum class FrameStart {
-  kWarm,  ///< "warm": at its answer to the frame before
-  kCold,  ///< "cold": at the start of the first frame
+  kWarm,  ///< "warm": the solver's answer to the previous frame
+  kCold,  ///< "cold": the start of the first frame
 };
 
 /// A solver with its settings.

@@ -20,8 +20,8 @@ IkProblem ProblemAt(const TrackingWorld& world, std::size_t frame, const std::ve
   return problem;
 }
 
-/// Appends a frame's solution to the answer; if the solver refused its input, returns an error that says what is wrong
-/// with `problem`.
+/// Appends a frame's solution to the answer. Fails if the solver refused its input; the error says what is wrong with
+/// `problem`.
 Result<void> StoreSolution(IkSolution solution, const IkProblem& problem, const TrackingWorld& world,
                            const TrackingMethod& method, TrackingAnswer& answer) {
   if (solution.status == IkStatus::kBadInput) {
@@ -37,7 +37,7 @@ Result<void> StoreSolution(IkSolution solution, const IkProblem& problem, const 
 Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& method) {
   TrackingAnswer answer;
   answer.iterations.emplace();
-  // Cold frames are independent of each other, so they are solved in one batch.
+  // Frames with a cold start are independent of each other, so they are solved in one batch.
   if (method.start == FrameStart::kCold) {
     std::vector<IkProblem> problems;
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
@@ -49,7 +49,7 @@ Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& 
     }
     return answer;
   }
-  // Warm: each frame starts at the answer to the one before.
+  // With a warm start, each frame starts at the answer to the previous frame.
   const auto solver = Prepare(*method.solver, world.tree);
   for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
     const IkProblem problem = ProblemAt(world, frame, frame > 0 ? answer.angles.back() : world.first_angles);
@@ -63,7 +63,7 @@ namespace {
 
 using Angles = std::vector<std::vector<double>>;  // [frame][angle]
 
-/// The answer measured frame by frame.
+/// The measurements of an answer, frame by frame.
 struct Outcome {
   std::vector<TrackedFrame> frames;
   BodyMotion truth, found;
@@ -143,7 +143,8 @@ void AddIterations(const std::optional<std::vector<int>>& iterations, CellResult
   }
 }
 
-/// Returns "12 of 150 frames not solved; in the first of them, 0, worst effector 3.1 cm, 4°", or "".
+/// Describes the unsolved frames: "12 of 150 frames not solved; in the first of them, 0, worst effector 3.1 cm, 4°".
+/// Returns "" if all frames are solved.
 std::string DescribeFailure(const Outcome& outcome) {
   const auto unsolved = std::count_if(outcome.frames.begin(), outcome.frames.end(), std::not_fn(IsFrameSolved));
   if (unsolved == 0) return "";
@@ -164,7 +165,7 @@ std::vector<std::string> TrackingMetrics() {
 
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion) {
   assert(answer.angles.size() == world.truth.size());
-  // Errors frame by frame.
+  // Measure the errors frame by frame.
   Outcome outcome = MeasureAnswer(world, rate_hz, answer.angles);
   const Angles truth = TrueAngles(world);
   const PoseErrors poses = ComparePoses(outcome.found.poses, outcome.truth.poses);
@@ -172,7 +173,7 @@ CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const Track
                                       [](const TrackedFrame& frame) { return frame.errors.position_cm; });
   const Series orientation = AlongFrames("orientation_error_deg", outcome.frames,
                                          [](const TrackedFrame& frame) { return frame.errors.orientation_deg; });
-  // Metrics over the whole motion.
+  // Measure the metrics of the whole motion.
   CellResult cell;
   cell.digests = {{"world", DigestOf(world)}, {"solution", DigestOf(answer)}};
   cell.Measure("frames_solved", ShareSolvedPractically(outcome.frames));
@@ -182,7 +183,7 @@ CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const Track
   cell.Measure("hidden_angle_error_deg", HiddenAngleDifferenceDeg(Concatenate(answer.angles), Concatenate(truth)));
   cell.Measure("mpjpe_mm", poses.mpjpe_mm);
   cell.MeasureOr("angle_jerk_ratio", AngleJerkRatio(answer.angles, truth), "the true angles are without jerk");
-  // Curves, recording and status.
+  // Add the curves, the recording and the status.
   cell.series = {
       AlongFrames("solved_practical", outcome.frames, [](const auto& frame) { return IsFrameSolved(frame); }), position,
       orientation, Series{"mpjpe_mm", "frame", poses.frame_mpjpe_mm}};

@@ -16,21 +16,22 @@ struct TrackingAnswer {
   std::optional<std::vector<int>> iterations;
 };
 
-/// Lets a solver follow the motion: it solves every frame within the method's budget, from the start that the method's
-/// `start` chooses. An unsolved frame keeps the solver's last angles, and a warm start continues from them. Fails,
-/// naming the frame, if a problem is invalid for the solver.
+/// Lets a solver follow the motion. It solves every frame within the method's budget, from the start that
+/// `method.start` chooses. An unsolved frame keeps the solver's last angles, and a warm start continues from them.
+/// Fails, naming the frame, if a problem is invalid for the solver.
 Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& method);
 
-/// Measures an answer against the given targets and the true motion; the answer has one entry per frame. The cell is
-/// `ok` if every frame is solved practically, else `unsolved`, with the number of unsolved frames and the first of
-/// them; a broken limit makes its frame unsolved. Its series have one value per frame. With `keeps_motion` a recording
-/// has the tracks "truth" and "solution".
+/// Measures an answer against the given targets and the true motion. The answer has one entry per frame. The cell is
+/// `ok` if every frame is solved practically. Otherwise it is `unsolved`, with the number of unsolved frames and the
+/// first of them. An exceeded limit makes its frame unsolved. The cell's series have one value per frame. With
+/// `keeps_motion`, a recording has the tracks "truth" and "solution".
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion);
 
-/// Returns the ids of all metrics that a cell reports, each by a value or a reason.
+/// Returns the ids of all metrics that a cell reports, by a value or by the reason why the value is missing.
 std::vector<std::string> TrackingMetrics();
 
-/// Returns the value of a metric for a cell without an answer: 0 for shares of frames, nothing for others.
+/// Returns the value of a metric for a cell without an answer: 0 for shares of frames. Returns nothing for other
+/// metrics.
 std::optional<double> TrackingValueOfFailure(std::string_view metric);
 
 }  // namespace etude

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kMaxJointSpeed = Radians(1200);  // radians per second
 
-/// Chooses the window of the clip to follow. Its middle frame is at the floor's origin; in a secret world it is at a
-/// random place.
+/// Chooses the window of the clip that is followed. Its middle frame is moved to the floor's origin; in a secret world
+/// it is moved to a random place.
 std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key,
                                    const std::optional<Disguise>& disguise) {
   RandomStream dice(key, "tracking/window");
@@ -28,13 +28,13 @@ std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const Library
   const bool loops = clip.move && clip.move->loops;
   const double step = kJudgedRateHz / options.rate_hz;
   const double last = static_cast<double>(poses.size()) - 1;  // frame of the clip
-  // The length of the window and its random start.
+  // Compute the length of the window, and draw its start.
   auto frames = static_cast<std::size_t>(std::lround(options.duration_s * options.rate_hz));
   if (!loops) frames = std::min(frames, static_cast<std::size_t>(last / step) + 1);
   const double latest = loops ? last : last - step * static_cast<double>(frames - 1);
   const auto start = static_cast<double>(dice.IndexBelow(static_cast<std::uint64_t>(latest) + 1));
 
-  // Sample the clip, disguised or plain.
+  // Sample the clip, with or without a disguise.
   std::vector<BodyPose> window;
   const double end = loops ? std::numeric_limits<double>::infinity() : last;
   for (std::size_t k = 0; k < frames; ++k) {
@@ -42,7 +42,7 @@ std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const Library
     window.push_back(PoseOfClip(poses, disguise ? disguise->FrameOf(start, step, k, end) : plain));
   }
   if (disguise) disguise->ApplyTo(window, options.rate_hz);
-  // Move the middle frame to the origin, or anywhere in a secret world.
+  // Move the middle frame to the origin, or to a random place in a secret world.
   const FloorMove to_origin = ToOrigin(window[frames / 2]);
   for (BodyPose& pose : window) pose = to_origin.Apply(pose);
   if (!disguise) return window;
@@ -52,7 +52,8 @@ std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const Library
   return window;
 }
 
-/// Returns the limits of the frame after one with `angles`: each angle may change by at most `step`.
+/// Returns the limits of the angles in the next frame. Each angle may differ from `angles` by at most `step`, radians,
+/// and must be within the tree's limits.
 std::vector<AngleRange> WithinReach(const KinematicTree& tree, const std::vector<double>& angles, double step) {
   std::vector<AngleRange> ranges = tree.limits;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -61,8 +62,8 @@ std::vector<AngleRange> WithinReach(const KinematicTree& tree, const std::vector
   return ranges;
 }
 
-/// Moves the poses of a secret world within the set of poses that meet the same targets. Even a program that recovers
-/// the disguised motion from its targets then does not know the angles that the targets leave open.
+/// Changes the poses of a secret world, but keeps their targets. Even a program that recovers the disguised motion from
+/// its targets then does not know the angles that the targets leave open.
 class OpenAngles {
  public:
   OpenAngles(const KinematicTree& tree, const WorldKey& key) : tree_(tree), solver_(tree) {
@@ -71,8 +72,8 @@ class OpenAngles {
     for (int i = 0; i < tree.dof_count(); ++i) dice_.emplace_back(key, fmt::format("tracking/open-angle/{}", i));
   }
 
-  /// Returns a pose with the end effectors of `state` that is near random angles and within `ranges`; if no such pose
-  /// was found, returns the pose whose end effectors came closest.
+  /// Returns a pose within `ranges` whose end effectors equal those of `state` and whose angles are near random ones.
+  /// If no such pose is found, returns the pose whose end effectors came closest.
   TreeState Slide(const TreeState& state, const std::vector<AngleRange>& ranges, double seconds) {
     IkProblem problem{state, TargetsMetBy(tree_, state), ranges};
     for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -94,7 +95,7 @@ class OpenAngles {
   std::vector<WanderingDice> dice_;
 };
 
-/// Returns the start of the first frame: the standing pose, or the truth plus noise.
+/// Returns the angles at which the first frame starts: the standing pose, or the truth plus noise.
 std::vector<double> ChooseFirstAngles(const TrackingOptions& options, const KinematicTree& tree,
                                       const std::vector<double>& truth, const WorldKey& key) {
   std::vector<double> angles = StandingState(tree).angles;
@@ -130,7 +131,7 @@ Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const Trackin
     return Fail({}, "too few frames in clip {}: {} at {:g} Hz; tracking needs {}", clip.name, window.size(),
                 options.rate_hz, kMinTrackedFrames);
   }
-  // Fit the body to each frame, near the frame before, and take the targets from the fitted pose.
+  // Fit the body to each frame, close to the previous frame. The fitted pose determines the targets.
   TrackingWorld world{body, {}, {}, {}};
   RandomStream noise(key, "tracking/target-noise");
   std::optional<OpenAngles> open;

@@ -35,7 +35,7 @@ Result<void> CheckLimbs(const BodyPose& pose, const BodyProportions& character, 
   return {};
 }
 
-/// Reads a pose with the character's limb lengths; complaints go to `fields`.
+/// Reads a pose, which must have the character's limb lengths. Errors are collected in `fields`.
 BodyPose ReadOwnPose(const Json& json, const std::string& path, const BodyProportions& character,
                      AnswerFields& fields) {
   const auto pose = ReadPose(json, path);
@@ -44,7 +44,8 @@ BodyPose ReadOwnPose(const Json& json, const std::string& path, const BodyPropor
   return pose.value_or(BodyPose{});
 }
 
-/// Reads the method's own frames. Frame 0 of the segment is its version of the frame left, which is not shown.
+/// Reads the method's own frames. Frame 0 of the segment is the method's version of the frame that is left; it is not
+/// shown.
 std::optional<Segment> ReadBetween(AnswerFields& fields, const BodyProportions& character) {
   const Json& entries = fields.List("between", 0, kMaxBetween);
   Segment segment{.first = 0, .last = static_cast<int>(entries.size()), .own = {BodyPose{}}, .in_place = true};
@@ -78,7 +79,7 @@ void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Segment>&
 
 TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const TransitionRequest& request) {
   TransitionAnswer answer;
-  // Segments: the clip left, clips or frames in between, the clip entered.
+  // Read the segments: the clip that is left, clips or frames in between, and the clip that is entered.
   const int last_of_from = stage.library.tagged[request.from].FrameCount() - 1;
   const int last_of_to = stage.library.tagged[request.to].FrameCount() - 1;
   const int left = fields.Integer("leave_frame", request.request_frame, last_of_from);
@@ -89,7 +90,7 @@ TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const 
   if (between && answer.segments.size() > 1) fields.Note({{}, "through: not together with 'between'"});
   if (between) answer.segments.push_back(*std::move(between));
   answer.segments.push_back({.clip = request.to, .first = entered, .last = last_of_to, .own = {}});
-  // The join and its duration.
+  // Read the join and its duration.
   answer.join = FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
   if (fields.Has("join_s")) {
     answer.segments.back().preferred = PreferredJoin{.blend_s = fields.Number("join_s", kJoins_s)};
@@ -190,11 +191,11 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
     const std::ptrdiff_t end = std::min<std::ptrdiff_t>(window.last - shown_first + 1 + more, count);
     return Track{name, {view.rate_hz, {poses.begin() + begin, poses.begin() + end}}};
   };
-  // The support of a clip is needed even after the clip was left: for the window of the support rules, and one more
-  // frame for velocities.
+  // The support of a clip is needed even after the clip was left: for the window of the support rules, and for one more
+  // frame, from which velocities are computed.
   const int asked = static_cast<int>(std::lround(SupportRules().window_s * view.rate_hz)) + 1;
 
-  // The facts of the transition.
+  // Describe the transition.
   const TransitionRecord& record = outcome.record;
   const FuzzyDistance& worst = WorstDistance(record);
   TransitionExtras extras;
@@ -215,7 +216,7 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
   extras.partials = worst.partials;
   extras.pairs_seen = record.pairs_seen;
   extras.pairs_matched = record.pairs_matched;
-  // The transition points and the candidates, with their distances.
+  // Add the transition points and the candidates, with their distances.
   for (std::size_t i = 0; i < record.distances.size(); ++i) {
     const Segment &old = record.segments[i], &next = record.segments[i + 1];
     extras.points.push_back({.from = NameOf(old, stage),
@@ -235,7 +236,7 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
                                  .cost = candidate.cost,
                                  .outcome = std::string(OutcomeName(candidate.outcome))});
   }
-  // The motion shown, and the clips it was made of.
+  // Record the motion shown, and the clips of which it was made.
   Recording recording{
       {track("coach", view.shown, 0), track("left", view.left, 0, asked), track("wanted", view.wanted, view.last)},
       WriteExtras(extras)};

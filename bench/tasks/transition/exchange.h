@@ -12,10 +12,10 @@
 
 namespace etude {
 
-/// Describes the stage to outside methods, which are asked for transitions. Clips are identified by their index in the
-/// setting, frames by their index in the clip; a pose is sixty numbers (EncodePose).
+/// Describes the stage to outside methods, which must find transitions. Clips are identified by their index in the
+/// setting, frames by their index in the clip. A pose is sixty numbers (EncodePose).
 ///
-/// Setting: the clips as built-in methods see them, all performed by one body:
+/// The setting holds the clips that built-in methods receive, all performed by one body:
 ///
 ///     {"rate_hz": 30, "joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
 ///      "clips": [{"name": "builtin:clap", "poses": [[x, y, z, …], …], "file": "clip-0.bvh"}, …]}
@@ -23,12 +23,12 @@ namespace etude {
 /// The files hold the same poses, for other tools.
 Payload StagePayload(const Stage& stage);
 
-/// Encodes the problem: clip `from` shows its frame `request_frame` when clip `to` is requested.
+/// Encodes the problem: clip `from` plays its frame `request_frame` when clip `to` is requested.
 ///
 ///     {"from": 0, "to": 3, "request_frame": 41, "max_wait_s": 1}
 ///
-/// `max_wait_s` is the scenario's `wait_s`: the longest wait that the caller wishes for. A later transition is allowed
-/// and counts in metric `wait_s`, as for the built-in `wait-for-end`.
+/// `max_wait_s` is the scenario's `wait_s`: the longest wait that the caller wants. A later transition is allowed; its
+/// wait counts in metric `wait_s`, like the wait of the built-in choice `wait-for-end`.
 Payload RequestPayload(const TransitionRequest& request, double max_wait_s);
 
 /// Encodes the truth: the largest jump that still counts as natural in `natural_share`.
@@ -36,54 +36,55 @@ Payload RequestPayload(const TransitionRequest& request, double max_wait_s);
 ///     {"natural_limit_cm": 3.1}
 Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 
-/// The answer of an outside method: how it leads from one clip into the other.
+/// The answer of an outside method, which describes the transition:
 ///
 ///     {"leave_frame": 52, "enter_frame": 10}
 ///
-/// Clip `from` is shown up to and including `leave_frame`. After it, clip `to` is shown from the frame that follows
-/// `enter_frame` to its end: the two frames are shown at the same moment. Clip `to` is turned and moved on the floor
-/// (yaw, x, z), so that its `enter_frame` has the heading and the floor position of the hip centre of the last frame
-/// shown. Optional keys:
+/// Clip `from` is shown up to and including `leave_frame`. After it, clip `to` is shown from the frame after
+/// `enter_frame` to its end, so `leave_frame` and `enter_frame` belong to the same moment. Clip `to` is turned and
+/// moved on the floor (yaw, x, z) until its `enter_frame` has the heading and the hip centre's floor position of the
+/// last frame shown. Optional keys:
 ///
 /// - `"through": [{"clip": 2, "enter_frame": 3, "leave_frame": 40}]`: clips played in between, entered and left by the
 ///   same rule.
-/// - `"join"`: any of the built-in ones, `cut` by default, with its settings at their defaults.
+/// - `"join"`: a built-in join, which has its default settings; `cut` if absent.
 /// - `"join_s": 0.5`: the duration of `minimum-jerk` or `planted-feet`, 0 to 5 s. With it `"fades": true`: the old clip
 ///   continues while it fades out; or `"direct": true`: each limb moves with minimum jerk to its pose in the new clip
 ///   at the end. Other joins have durations of their own.
 /// - `"between": [[x, y, z, …], …]`: the method's own frames, shown after `leave_frame` in the place and heading of
-///   clip `from` as the setting has it. Clip `to` is then aligned with the last of them, which should be the method's
-///   own version of `enter_frame`. They are performed by the same body: a limb more than 2 cm longer or shorter than in
-///   the clips is an error. At most 300. Not together with `through`.
+///   clip `from` in the setting. Clip `to` is then aligned with the last of these frames, which should be the method's
+///   own version of `enter_frame`. The body must be the clips' body: a limb that is more than 2 cm longer or shorter is
+///   an error. There may be at most 300 frames, and no `through`.
 /// - `"between_start": [x, y, z, …]`: with `between`, the method's version of `leave_frame`. It is not shown, but the
 ///   gaps at the transition point are measured to it. Without it, the frames between are assumed to begin at constant
 ///   velocity.
 /// - `"matched": true`: the frames left and entered were chosen because they are similar. Only then `false_smooth` is
 ///   measured.
 ///
-/// A method that finds no transition answers `{"unsolved": "why"}`, like a built-in one that finds no match.
+/// A method that finds no transition answers `{"unsolved": "why"}`. Its cell ends like that of a built-in method that
+/// finds no match.
 struct TransitionAnswer {
-  std::optional<std::string> unsolved;  ///< the reason; the rest is then empty
-  std::vector<Segment> segments;        ///< as in a TransitionRecord
-  const JoinKind* join = nullptr;       ///< never null if there are segments; its settings are the defaults
+  std::optional<std::string> unsolved;  ///< why there is no transition; the other members are then empty
+  std::vector<Segment> segments;        ///< the segments, in the form of a TransitionRecord
+  const JoinKind* join = nullptr;       ///< the join; not null if there are segments; it has default settings
   bool matched = false;
 };
 
-/// Reads an answer. An answer that breaks the rules above is an error that names the position in it.
+/// Reads an answer. Fails if it breaks the rules of TransitionAnswer, naming the position in the answer.
 Result<TransitionAnswer> ReadTransitionAnswer(const Json& answer, const Stage& stage, const TransitionRequest& request);
 
-/// Returns the curve of the largest second differences, from one second before the first transition point to one second
-/// after the last.
+/// Returns the curve of the largest second difference of any joint, from one second before the first transition point
+/// to one second after the last.
 Series JumpSeries(const TransitionOutcome& outcome);
 
-/// Returns the numbers that explain a transition, for cells that keep them: `point_partials`, ten for each transition
-/// point (axis "feature"), and one value for each candidate (axis "candidate"): `candidate_point`,
-/// `candidate_from_frame`, `candidate_to_frame`, `candidate_distance`, `candidate_outcome` (0 taken, 1 too far, 2
-/// later, 3 worse), and its ten `candidate_partials` (axis "feature").
+/// Returns the numbers that explain a transition, for cells that keep them. `point_partials` has ten values for each
+/// transition point (axis "feature"). These have one value for each candidate (axis "candidate"): `candidate_point`,
+/// `candidate_from_frame`, `candidate_to_frame`, `candidate_distance`, and `candidate_outcome` (0 taken, 1 too far, 2
+/// later, 3 worse). `candidate_partials` has ten values for each candidate (axis "feature").
 std::vector<Series> ExplanationOf(const TransitionRecord& record);
 
-/// Records the transition, with 2.5 s before and after it: track "coach", the clips, and TransitionExtras. The record
-/// must have segments.
+/// Records the transition, with 2.5 s before and after it: the track "coach", the clips, and TransitionExtras. The
+/// outcome's record must have segments.
 Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage);
 
 }  // namespace etude

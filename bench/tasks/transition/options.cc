@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-// Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
+// Grades are in [0, 1] and the weights S have sum 8, so no distance exceeds sqrt(8 · 4).
 constexpr Range kThresholds{0, 6};
 constexpr Range kWaits_s{0, 60};
 
@@ -30,6 +30,7 @@ TransitionWay DefaultWay() {
 const FieldTable<TransitionCondition>& TransitionConditionFields() {
   using Options = TransitionCondition;
   using Key = Field<Options>;
+  // The settings that all methods share come first.
   static const FieldTable<Options> table{
       {Key::Number("threshold", &Options::threshold, kThresholds,
                    "Fuzzy distance below which two bridge frames match; for all methods."),
@@ -40,6 +41,7 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
        Key::Flag("explain", &Options::explain,
                  "Whether every cell keeps the ten partial distances of its transition points and candidates as "
                  "series; the report always explains cells that have films."),
+       // The rules by which the library is prepared.
        Key::Name("asked_for", Path(&Options::stage, &StageRules::asks_for_acts), {{"any", false}, {"acts", true}},
                  "Which clips are requested: any other clip, or one of the coach's acts, if there are any, while other "
                  "clips play."),
@@ -63,6 +65,7 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
 const FieldTable<TransitionMethod>& TransitionMethodFields() {
   using Key = Field<TransitionMethod>;
   static const FieldTable<TransitionMethod> table = [] {
+    // The keys that do not depend on a registry.
     FieldTable<TransitionMethod> made{
         {Key::Name("choice", Path(&TransitionMethod::way, &TransitionWay::choice), ChoiceNames(), FindChoice,
                    "Which frames a transition takes, and when: paper A's bridge frames, or an alternative."),
@@ -85,6 +88,7 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
          Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "Maximum time from the request to the transition.")
              .Unit("seconds")
              .WhenAbsent("(the scenario's)")}};
+    // The settings of each choice and each join.
     for (const Key& key : SettingFields<TransitionMethod>(
              "choice", AllChoices(), Path(&TransitionMethod::way, &TransitionWay::choice_settings))) {
       made.fields.push_back(key);

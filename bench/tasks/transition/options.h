@@ -9,27 +9,27 @@
 
 namespace etude {
 
-/// Returns paper A's choice and join.
+/// Returns the choice and the join of paper A.
 TransitionWay DefaultWay();
 
-/// One method, as a scenario names it.
+/// One method of a transition scenario, for example:
 ///
 ///     - {name: fuzzy, choice: fuzzy-bridge, join: cut, weights: adaptive, threshold: 0.4, pick: first}
 struct TransitionMethod {
   std::string name;
-  /// The weights in it are paper A's, because learnt weights depend on the world.
+  /// The choice and the join. Its weights are paper A's, because learnt weights depend on the world.
   TransitionWay way = DefaultWay();
   WeightSource weights = WeightSource::kFixed;
-  double wait_s = 1;  ///< the budget of its requests, seconds
+  double wait_s = 1;  ///< the longest wait of its requests, seconds
 };
 
 /// A condition of a transition scenario.
 struct TransitionCondition {
-  double threshold = kPaperThreshold;  ///< for methods that set none
-  double wait_s = 1;                   ///< for methods that set none
-  /// If true, every cell keeps the explanation of its transition (ExplanationOf); if false, only recordings do.
+  double threshold = kPaperThreshold;  ///< threshold of methods that do not set their own
+  double wait_s = 1;                   ///< longest wait, seconds, of methods that do not set their own
+  /// True if every cell keeps the explanation of its transition (ExplanationOf); false if only recordings keep it.
   bool explain = false;
-  StageRules stage;  ///< its fuzzy system is not set here
+  StageRules stage;  ///< the rules of the stage, without its fuzzy system
 };
 
 const FieldTable<TransitionCondition>& TransitionConditionFields();

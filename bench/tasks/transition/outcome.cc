@@ -14,7 +14,7 @@ Grades GradesAt(const Segment& segment, int frame, const Stage& stage) {
                  stage.fuzzy.memberships);
 }
 
-/// Returns the record of the answer, as a built-in choice would have made it.
+/// Returns the record of an answer, in the form in which a built-in choice makes its record.
 TransitionRecord RecordOf(const TransitionAnswer& answer, const Stage& stage, const TransitionRequest& request) {
   TransitionRecord record;
   record.request_frame = request.request_frame;

@@ -69,7 +69,7 @@ constexpr std::array kTransitionMetrics = {"jump_cm",
                                            "clean_share_v3"};
 constexpr std::array kMatchingMetrics = {"direct_match", "matching_share", "false_smooth_share"};
 
-/// Returns the segments that played from the request until the wanted clip did.
+/// Returns the segments that played from the request until the wanted clip began.
 std::vector<Stay> StaysOf(const TransitionRecord& record) {
   std::vector<Stay> stays;
   for (std::size_t i = 0; i + 1 < record.segments.size(); ++i)
@@ -83,7 +83,7 @@ std::vector<int> PointFrames(const Splice& splice) {
   return frames;
 }
 
-/// Measures the transition points. Returns true if the transition is natural there.
+/// Measures the motion at the transition points. Returns true if the transition is natural there.
 bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResult& result) {
   const Splice& splice = outcome.splice;
   const TransitionSmoothness smoothness = MeasureTransitions(splice.motion, PointFrames(splice));
@@ -95,7 +95,7 @@ bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResul
   const bool natural = IsNatural(smoothness.jump_cm, std::move(nature));
   result.Measure("natural_share", natural ? 1 : 0);
 
-  // Gaps and foot slide at the worst point.
+  // Measure gaps and foot slide at the worst point.
   double pose_gap = 0, velocity_gap = 0, foot_slide = 0;
   for (const PlacedPoint& point : splice.points) {
     pose_gap = std::max(pose_gap, PoseGapCm(point.leaving, point.arriving));
@@ -111,7 +111,7 @@ bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResul
     result.Missing("false_smooth", "the frames were not chosen because they match");
   }
   result.Measure("foot_slide_cmps", foot_slide);
-  // Smoothness of the joints' mean speed around the points, and the remaining metrics.
+  // Measure the smoothness of the joints' mean speed around the points, and the remaining metrics.
   const FrameWindow second = AroundPoints(splice, 1);
   const std::vector<double> speed = MeanJointSpeed(splice.motion, second.first, second.last);
   constexpr const char* kStill = "nothing moves around the transition point, or not long enough";
@@ -132,7 +132,7 @@ SkippedStart SkippedOf(const TransitionOutcome& outcome, const Stage& stage) {
   return start;
 }
 
-/// Measures the whole join, beside both clips.
+/// Measures the whole join and compares it with both clips.
 void ScoreJoin(const TransitionOutcome& outcome, const Stage& stage, bool natural, CellResult& result) {
   const JoinView view = ViewOf(outcome, stage);
   const double limit = CalmerLimitCm(stage, outcome.request.from, outcome.request.to);
@@ -150,7 +150,7 @@ void ScoreJoin(const TransitionOutcome& outcome, const Stage& stage, bool natura
                             .skipped_share = SkippedShare(skipped),
                             .settle_s = SettleSeconds(view),
                             .possible = IsPossible(body)};
-  // Each measure, then the shares that combine them.
+  // Add each measure, and then the shares that combine measures.
   result.MeasureOr("settle_s", clean.settle_s, "the wanted clip was never reached");
   result.Measure("strange_cm_s", clean.strange_cm_s);
   result.Measure("join_slide_cmps", clean.slide_cmps);
@@ -270,7 +270,7 @@ CellResult TransitionRun::Run(std::size_t index) {
   TransitionWay way = method.way;
   way.rules.weights = WeightsOf(method.weights);
   Transition made = MakeTransition(basis_.stage.library, request, way);
-  // A forced transition takes the nearest pair although no frames match.
+  // A forced transition takes the nearest pair, although no frames match.
   CellResult result = Score({.request = request,
                              .matched = way.choice->matches_poses && made.record.branch != Branch::kForced,
                              .rules = way.rules,

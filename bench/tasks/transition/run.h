@@ -17,42 +17,42 @@
 
 namespace etude {
 
-/// Counts the pairs of frames that a fuzzy choice may take, and those that match by its rules.
+/// Counts the pairs of frames that a fuzzy choice may take, and the pairs among them that match by the rules of `way`.
 MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, const TransitionWay& way);
 
-/// Measures the metrics of a transition (docs/reference/metrics.md) from the segments that it plays. A transition through
-/// a clip in between has two transition points; each metric takes the worse of them.
+/// Measures the metrics of a transition (docs/reference/metrics.md) from the segments that it plays. A transition
+/// through a clip in between has two transition points. Each metric is that of the worse point.
 void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellResult& result);
 
-/// Measures the metrics of the pairs that a transition could have used; they are missing for a method without a
-/// threshold.
+/// Measures the metrics of the pairs of frames that a transition could have used. They are missing for a method without
+/// a threshold.
 void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result);
 
 /// Returns the ids of all metrics, in the order in which they are measured.
 std::vector<std::string> TransitionMetrics();
 
-/// Returns the value of a metric for a method without a transition (Task::ValueOfFailure): 0 for `natural_share` and
-/// the other shares over all cells. If missing transitions were not counted, a method could raise its share by failing
-/// in hard cases. Returns nullopt for the other metrics: a jump that was not made has no size, and 0 for `false_smooth`
-/// would reward the failure.
+/// Returns the value of a metric for a method that made no transition (Task::ValueOfFailure). It is 0 for
+/// `natural_share` and the other shares over all cells: if missing transitions were not counted, a method could raise
+/// its share by failing in hard cases. Returns nullopt for other metrics: a jump that was not made has no size, and 0
+/// for `false_smooth` would reward the failure.
 std::optional<double> TransitionFailureValue(std::string_view metric);
 
 /// Records the metrics of ScoreTransition as missing, for a world in which no transition was found.
 void MeasureNoWay(CellResult& result);
 
-/// The data that the runs of a task share; all of it must outlive them.
+/// The data that the runs of a task share. All of it must outlive them.
 struct TransitionBasis {
   const std::vector<TransitionMethod>& methods;
   const Stage& stage;
-  LearntWeights& learnt;  ///< caches fits; its answers depend on the question alone
-  double max_wait_s = 0;  ///< sent to outside methods; built-in ones have their own
+  LearntWeights& learnt;  ///< caches fits; its results depend on the arguments alone
+  double max_wait_s = 0;  ///< the wait that is sent to outside methods; built-in ones have their own
   bool explain = false;   ///< true: every cell keeps the explanation of its transition
 };
 
-/// One request on the task's stage, in which methods are run and scored.
+/// The world of one request on the task's stage, in which methods are run and scored.
 class TransitionRun final : public TaskWorld {
  public:
-  /// A world whose request is an error is skipped.
+  /// If the request is an error, the world is skipped.
   TransitionRun(const TransitionBasis& basis, Result<TransitionRequest> request, bool keeps_motion);
 
   std::optional<std::string> WhySkipped() const override;

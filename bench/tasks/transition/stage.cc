@@ -40,7 +40,7 @@ double CalmerLimitCm(const Stage& stage, int from, int to) {
 }
 
 Stage SetStage(const ClipLibrary& library, const StageRules& rules) {
-  // Tag all clips on one body.
+  // Retarget all clips to one body, and tag them.
   Stage stage;
   stage.fuzzy = rules.fuzzy;
   std::vector<std::string> names;
@@ -56,7 +56,7 @@ Stage SetStage(const ClipLibrary& library, const StageRules& rules) {
                       .most_per_class = rules.most_per_class,
                       .weights = rules.fuzzy.weights};
   stage.library = MakeLibrary(std::move(names), clips, JudgedProportions(), tags, rules.tween);
-  // Measure each clip's own jumps and foot slide, for comparison.
+  // Measure each clip's own jumps and foot slide, with which transitions are compared.
   for (const BodyMotion& motion : stage.library.motions) {
     stage.natural_jumps_cm.push_back(NaturalJumpsCm(motion));
     const int last = static_cast<int>(motion.poses.size()) - 1;

@@ -16,30 +16,31 @@ struct StageRules {
   HeadRule head;
   int min_clips = TagRules{}.min_clips;
   int most_per_class = TagRules{}.most_per_class;
-  TweenRules tween;            ///< of clips in between
+  TweenRules tween;            ///< the rules of clips in between
   bool asks_for_acts = false;  ///< true: the coach's acts are requested while other clips play, if there are both
 };
 
-/// A library of clips prepared for transitions: all performed by one body (`JudgedProportions`), tagged, and each with
-/// its own natural jumps for comparison.
+/// A library of clips prepared for transitions. All clips are performed by one body (`JudgedProportions`) and tagged.
+/// The natural jumps of each clip are measured, because transitions are compared with them.
 struct Stage {
-  MotionLibrary library;                ///< its clip names are those that rows and videos show
+  MotionLibrary library;                ///< the clips, with the names that rows and videos show
   std::vector<std::string> identities;  ///< the source of each clip; equal for equal clips
   std::vector<std::vector<double>> natural_jumps_cm;
   std::vector<double> natural_slides_cmps;  ///< foot slide over each clip
-  RealFrames real_frames;                   ///< of all clips
-  FuzzySystem fuzzy;                        ///< by which the clips are tagged
-  std::vector<int> playing;                 ///< clips that may play at the time of a request: all, or all but the acts
+  RealFrames real_frames;                   ///< the frames of all clips
+  FuzzySystem fuzzy;                        ///< the fuzzy system by which the clips are tagged
+  std::vector<int> playing;                 ///< clips that may play at a request: all, or all except the acts
   std::vector<int> wanted;                  ///< clips that may be requested
 };
 
-/// Clips with fewer frames have no unbroken window of eleven frames with second differences.
+/// The smallest number of frames of a usable clip. A shorter clip has no unbroken window of eleven frames with second
+/// differences.
 constexpr int kMinClipFrames = 13;
 
-/// Returns the natural jumps with which a transition between these two clips is compared, centimetres
-/// (docs/reference/metrics.md). A clip played in between does not influence them.
+/// Returns the natural jumps, centimetres, with which a transition from clip `from` to clip `to` is compared
+/// (docs/reference/metrics.md). A clip that plays in between has no influence.
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
-/// Returns the smaller of both clips' natural limits.
+/// Returns the smaller of the natural limits of two clips, centimetres.
 double CalmerLimitCm(const Stage& stage, int from, int to);
 
 /// Prepares the clips of a library.

@@ -6,11 +6,11 @@
 
 namespace etude {
 
-/// Returns the clip that plays in this trial; the stage must not be empty.
+/// Returns the index of the clip that plays in this trial. The stage must contain clips.
 int FromClip(const Stage& stage, const WorldKey& key);
 
-/// Draws one trial: the clip that plays, the requested clip, and the time of the request. The method sets the waiting
-/// time. An error is the reason why this world is skipped.
+/// Draws one trial: the clip that plays, the requested clip, and the time of the request. The method will set the
+/// waiting time. If this fails, the error is the reason why the world is skipped.
 Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key);
 
 }  // namespace etude

@@ -9,12 +9,12 @@ namespace etude {
 namespace {
 
 constexpr double kCrossover = 0.9;
-constexpr double kSpreadIndex = 1;      // of a crossover operator that is not used
-constexpr double kMutation = 0.2;       // probability per gene
-constexpr double kMutationWidth = 0.1;  // standard deviation
+constexpr double kSpreadIndex = 1;      // parameter of a crossover operator that is not used
+constexpr double kMutation = 0.2;       // probability of mutation, per gene
+constexpr double kMutationWidth = 0.1;  // standard deviation of a mutation
 constexpr unsigned kTournament = 2;
 
-/// The negative score, which Pagmo minimises, over genes in [0, 1].
+/// The problem that Pagmo minimises: the negative score, as a function of genes in [0, 1].
 struct Problem {
   const std::function<double(std::span<const double>)>* score = nullptr;
   std::size_t genes = 0;
@@ -32,7 +32,8 @@ void Evolve(const std::function<double(std::span<const double>)>& score, std::sp
   while (population.size() < static_cast<std::size_t>(options.population))
     population.push_back(population.random_decision_vector());
 
-  // One generation per call, to report progress; the algorithm keeps its random state between calls.
+  // Each call runs one generation, so that progress can be reported. The algorithm keeps its random state between
+  // calls.
   const pagmo::algorithm algorithm(pagmo::sga(1u, kCrossover, kSpreadIndex, kMutation, kMutationWidth, kTournament,
                                               "binomial", "gaussian", "tournament", algorithm_seed));
   for (int generation = 1; generation <= options.generations; ++generation) {
