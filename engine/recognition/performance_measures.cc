@@ -99,7 +99,7 @@ struct Mean {
 /// Measures of one limb, as lengths of differences of unit vectors: 1 corresponds to 60 degrees.
 struct LimbMeasures {
   double error = 0;    ///< root mean square
-  double centred = 0;  ///< the same after the means of seen and taught are subtracted
+  double centred = 0;  ///< root mean square after the means of seen and taught are subtracted
   double missing = 0;  ///< missing share of the taught amplitude; negative if the amplitude is too large
 };
 
@@ -206,8 +206,8 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
 
 namespace {
 
-/// Calls `relate(own, difference)` with the index of every measure and the index of its difference from the person's
-/// usual value.
+/// Calls `relate(own, difference)` for every measure: `own` is its index, and `difference` the index of its difference
+/// from the person's usual value.
 template <typename Relate>
 void ForEachOwn(const Relate& relate) {
   for (const MeasureSlice& slice : {kOwnMeasures, kClockSlice, kRigidSlice}) {
