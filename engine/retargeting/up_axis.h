@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// The evidence for the axis of a file that points up, from the strongest: the user, the file itself, the rule of its
-/// format, and the posture of the body.
+/// The evidence for a file's up axis, from the strongest: the user, the file itself, the rule of its format, or the
+/// posture of the body.
 enum class UpEvidence { kTold, kFile, kFormat, kPosture };
 /// Returns "told", "file", "format" or "posture".
 std::string_view UpEvidenceName(UpEvidence evidence);
