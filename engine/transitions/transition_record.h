@@ -96,7 +96,7 @@ struct TransitionRecord {
   Branch branch = Branch::kNone;
   int request_frame = 0;
   std::vector<Segment> segments;         ///< none: no transition was found; two: direct; three: with an in-between
-  std::vector<FuzzyDistance> distances;  ///< between the two frames of each transition point: segments.size() − 1 entries
+  std::vector<FuzzyDistance> distances;  ///< one per transition point: segments.size() − 1 entries
   /// The taken pair and the best others, at most kMaxCandidates, in order of frames.
   std::vector<Candidate> candidates;
   std::int64_t pairs_seen = 0;     ///< pairs of frames within the budget, including those after a first match

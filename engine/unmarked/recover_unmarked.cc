@@ -65,7 +65,7 @@ std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px) {
     if (!(keypoint.confidence > 0)) continue;
     joints.push_back({role, keypoint.pixel, sigma_px / std::sqrt(std::min(1.0, keypoint.confidence))});
   }
-  std::ranges::stable_partition(joints, [](const SeenJoint& joint) {  // put the hands last, which fixes the order in which the fit adds joints
+  std::ranges::stable_partition(joints, [](const SeenJoint& joint) {  // the hands come last
     return joint.role != Role::kLeftHand && joint.role != Role::kRightHand;
   });
   return joints;

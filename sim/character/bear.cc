@@ -7,7 +7,7 @@ namespace {
 
 using enum Role;
 
-// Colours, sRGB.
+// Colours in sRGB.
 constexpr Rgb8 kFur{222, 155, 72};
 constexpr Rgb8 kLightFur{250, 224, 178};
 constexpr Rgb8 kDark{58, 36, 28};
@@ -15,9 +15,9 @@ constexpr Rgb8 kBlush{240, 138, 112};
 constexpr Rgb8 kShine{255, 255, 255};
 constexpr Rgb8 kRibbon{32, 150, 170};
 
-// All lengths are in centimetres. The skeleton is an adult's, and the head has a toy's proportions.
+// All lengths are in centimetres. The skeleton has an adult's proportions, and the head a toy's.
 
-/// The trunk reaches from below the seat to the throat, which the head hides. A low seat makes an adult's long legs
+/// The trunk reaches from below the seat to the throat, which the head covers. A low seat makes an adult's long legs
 /// look short.
 const Tube kTrunk{.name = "trunk",
                   .chain = {kHipCentre, kSpine, kShoulderCentre},

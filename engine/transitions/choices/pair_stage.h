@@ -48,8 +48,8 @@ double SlideOf(std::span<const BodyPose> played);
 
 /// How much of a join the ground could not support.
 struct Burden {
-  int unsupported = 0;  ///< zero-moment point's distance from the supports above 10 cm and the clips' own, m·s
-  double beside = 0;    ///< excess distance of the zero-moment point from the supports, over 10 cm and the clips' own, m·s
+  int unsupported = 0;  ///< the longest run of frames in which FindSupport finds no support
+  double beside = 0;    ///< zero-moment point's distance from the supports above 10 cm and the clips' own, m·s
   double glide = 0;     ///< how far the slowest support glides, beyond the same joint of a clip, metres
 };
 
