@@ -16,7 +16,7 @@ struct FrameRange {
   int first = 0, last = 0;
 };
 
-/// Returns the longest stretches of frames in which `is_marked` is true, in order.
+/// Returns all runs of frames in which `is_marked` is true, each as long as possible, in order.
 std::vector<FrameRange> RangesOf(const std::vector<bool>& is_marked);
 
 /// A displacement that all joints share, between the frames `before` and `after`.

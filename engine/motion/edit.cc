@@ -230,7 +230,7 @@ Clip WithoutScales(Clip clip) {
 Clip WithWorldAxesAtRest(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::all_of(joints, [](const Joint& joint) { return joint.rest.rotation == kNoTurn; })) return clip;
-  // If R₀ are a joint's axes at rest in the world, the new frame is the old one rotated by R₀⁻¹.
+  // The new frame of a joint is its old frame rotated by R₀⁻¹, where R₀ are the joint's axes at rest in the world.
   std::vector<glm::dquat> at_rest(joints.size());
   const auto above = [&](std::size_t joint) {
     return joints[joint].parent < 0 ? kNoTurn : at_rest[joints[joint].parent];
@@ -270,8 +270,8 @@ Clip WithRootAt(const Clip& clip, int joint) {
     child = std::exchange(parent, next);
   }
   parents[joint] = -1;
-  // Order the joints so that parents come first: each joint as soon as its parent has an index, otherwise in the old
-  // order.
+  // Order the joints so that parents come first. A joint follows as soon as its parent has an index; otherwise the old
+  // order is kept.
   std::vector<int> order, place(old.size(), -1);
   while (order.size() < old.size()) {
     for (int i = 0; i < static_cast<int>(old.size()); ++i) {

@@ -25,8 +25,9 @@ inline constexpr double kFootSkate_s = 0.4, kEvenFootSkate_s = 0.25;  ///< one f
 // Jumps and pops.
 inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;
 inline constexpr double kPop_m = 0.25, kSurePop_m = 0.45, kPopTimesUsual = 6, kUsualPop = 0.95;
-/// In clips with fewer than kPopFrames / (1 − kUsualPop) frames, the usual size of third differences leaves out the
-/// `kPopFrames` largest. A pop by this limit exceeds `kShortPop_m`. Clips below `kShortClipFrames` have no such limit.
+/// In clips of kShortClipFrames to kPopFrames / (1 − kUsualPop) frames, the usual size of third differences ignores the
+/// `kPopFrames` largest ones; a pop exceeds `kShortPop_m` and kPopTimesUsual times that size. Clips below
+/// `kShortClipFrames` have no such limit.
 inline constexpr double kShortPop_m = 0.36, kShortClipFrames = 45, kPopFrames = 9;
 
 // Freezes.

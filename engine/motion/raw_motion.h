@@ -31,8 +31,8 @@ struct RawMotion {
   /// The file's rest pose: each joint's position and global rotation; both are empty if `rotations` is.
   std::vector<glm::dvec3> rest_positions;
   std::vector<glm::dquat> rest_rotations;
-  /// The file's labels of contacts with the floor, frames × 4: left heel, left toes, right heel, right toes; empty: the
-  /// file has none.
+  /// The file's labels of contacts with the floor, frames × 4: left heel, left toes, right heel, right toes. Empty if
+  /// the file has no such labels.
   std::vector<bool> contacts;
   std::vector<std::string> notes;  ///< one sentence for each conversion or guess of the reader
 

@@ -218,7 +218,7 @@ class NearestFollower final : public StepFollower {
     for (std::size_t move = 0; move < spotted.size(); ++move) {
       spotted[move] = EvidenceAgainst(std::min(held_still_[move], kUnknownMotionDistance), move);
     }
-    // The requested move counts as soon as the window is long enough for one of its examples.
+    // The requested move has evidence only if the window is long enough for one of its examples.
     return fits_in_window ? EvidenceAgainst(kFar, *asked()) : 0.0;
   }
 

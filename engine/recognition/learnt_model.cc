@@ -74,7 +74,7 @@ struct Split {
   double gain = 0;
 };
 
-/// Selects the performances and measures that tree number `tree` is fitted to.
+/// Selects the performances and the measures to which tree number `tree` is fitted.
 struct Turn {
   std::size_t tree;
   bool is_taken;

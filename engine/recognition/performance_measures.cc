@@ -120,7 +120,7 @@ LimbMeasures MeasureLimb(const LimbSums& sums) {
 constexpr std::array<std::size_t, 4> kMiddle = {0, 1, 2, 11};
 constexpr std::array<std::array<std::size_t, 2>, 4> kPairs = {{{3, 4}, {5, 6}, {7, 8}, {9, 10}}};
 
-/// Writes the limbs' measures to the beginning, and returns their number.
+/// Writes the limbs' measures to the beginning of `measures`, and returns their number.
 std::size_t PutLimbs(const std::array<LimbMeasures, kPosePartCount>& limbs, std::span<double> measures) {
   std::size_t next = 0;
   for (double LimbMeasures::*what : {&LimbMeasures::error, &LimbMeasures::centred, &LimbMeasures::missing}) {
@@ -302,8 +302,8 @@ void PersonBaseline::Relate(PerformanceMeasures& performance) const {
 }
 
 double PersonBaseline::Shift() const {
-  // A window opens one reaction time after the coach begins, and people follow slightly later than the window opens
-  // (ours).
+  // Seconds, for a person without performances (ours). A window opens one reaction time after the coach begins; people
+  // usually begin slightly before it opens.
   constexpr double kUnknown = -0.1;
   return latest_.empty() ? kUnknown : usual_[kClockSlice.first];
 }

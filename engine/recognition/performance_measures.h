@@ -29,7 +29,7 @@ constexpr std::size_t kClockMeasures = 8;
 /// Computes ClockMeasures step by step.
 class ClockComparison {
  public:
-  /// Compares with `pattern`, in parts of kLimbs, which must outlive this object.
+  /// `pattern` is the example, in parts of kLimbs. It must outlive this object.
   explicit ClockComparison(std::span<const PoseVector> pattern);
 
   /// Takes the next step of the window.
@@ -65,7 +65,7 @@ constexpr std::size_t kRigidMeasures = 41;
 /// limb, at the lag and pace that fit best. Parts of a performance that come too early or too late remain errors.
 class RigidComparison {
  public:
-  /// Compares with `pattern`, in parts of kLimbs, which must outlive this object.
+  /// `pattern` is the example, in parts of kLimbs. It must outlive this object.
   explicit RigidComparison(std::span<const PoseVector> pattern) : pattern_(pattern), distances_(pattern.size()) {}
 
   /// Takes the next step of the window.

@@ -29,7 +29,7 @@ struct TrackingWeights {
   /// reports as not tracked.
   double not_tracked_weight = 0.0;
 
-  /// Returns the weight of an angle whose joints have `state` at worst.
+  /// Returns the weight of an angle; `state` is the worst tracking state of the angle's joints.
   double Of(TrackingState state) const {
     if (weighting == Weighting::kFixed || state == TrackingState::kTracked) return 1.0;
     return state == TrackingState::kInferred ? inferred_weight : not_tracked_weight;

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The units of distance: the median distance between two people who do the same move. Joint distances are in metres;
-/// limb distances are lengths of differences of unit vectors. They were measured on six people in front of an OpenNI
-/// sensor, each performance against the nearest one by another person. Distances in this file are squared and in these
-/// units.
+/// limb distances are lengths of differences of unit vectors. The medians were measured on six people in front of an
+/// OpenNI sensor, each performance against the nearest one by another person. Distances in this file are squared and in
+/// these units.
 constexpr double kJointUnit = 0.08, kLimbUnit = 0.15;
 /// The number of nearest examples whose distances are averaged, because a single example may be unusual.
 constexpr std::size_t kNearestExamples = 3;

@@ -16,7 +16,7 @@ class BodySampler {
   BodySampler(const Clip& clip, const JointMap& map);
 
   BodyPose Rest();
-  /// Returns the pose at a frame counted from 0, also between frames (SampleFrame); it must lie within the clip.
+  /// Returns the pose at a frame number from 0, which may be fractional (SampleFrame) and must lie within the clip.
   BodyPose At(double frame);
 
  private:
@@ -30,7 +30,7 @@ class BodySampler {
   std::vector<GlobalTransform> globals_;
 };
 
-/// Returns the step at which about a hundred frames of a clip are sampled.
+/// Returns n such that every n-th frame gives about a hundred frames of the clip.
 std::size_t SampleStep(const Clip& clip);
 /// Samples the clip's joints at about a hundred frames, evenly spaced, in the file's axes.
 std::vector<BodyPose> SampledPoses(const Clip& clip, BodySampler& sampler);

@@ -111,7 +111,7 @@ std::vector<WrittenPart> WrittenParts() {
 glm::dvec3 InOpenSim(const glm::dvec3& v) { return {v.z, v.y, -v.x}; }
 
 glm::dmat3 InOpenSim(const glm::dmat3& turn) {
-  // Column j is the image of OpenSim's axis j, converted to our axes, rotated, and converted back.
+  // Compute column j: OpenSim's axis j, converted to our axes, rotated by `turn`, and converted back.
   return {InOpenSim(turn * glm::dvec3(0, 0, 1)), InOpenSim(turn * glm::dvec3(0, 1, 0)),
           InOpenSim(turn * glm::dvec3(-1, 0, 0))};
 }

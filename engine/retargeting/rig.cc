@@ -137,8 +137,8 @@ std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& p
   return turns;
 }
 
-/// Chooses the sign of each quaternion that is nearer to the previous frame's quaternion, because some programs
-/// interpolate the components.
+/// A rotation has two unit quaternions, q and −q. Chooses for each joint the one nearer to the previous frame's,
+/// because some programs interpolate the components.
 void KeepSign(const LocalPose& before, LocalPose& frame) {
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (glm::dot(before[i].rotation, frame[i].rotation) < 0) frame[i].rotation = -frame[i].rotation;

@@ -24,7 +24,7 @@ TreeState Moved(const KinematicTree& tree, const TreeState& state, std::span<con
 /// Returns the mean of two poses; the root's rotation is half-way between theirs.
 TreeState MeanState(const TreeState& a, const TreeState& b);
 
-/// Extrapolates a motion: adds `share` of the change from `before` to `last` to `last`.
+/// Extrapolates a motion: adds to `last` the fraction `share` of the change from `before` to `last`.
 TreeState Extrapolated(const TreeState& before, const TreeState& last, double share);
 
 }  // namespace etude

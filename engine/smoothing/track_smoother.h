@@ -17,8 +17,8 @@ struct PointMeasurement {
 /// Ornstein–Uhlenbeck process). A point that is lost in full motion therefore comes to rest instead of moving away.
 struct PointMotion {
   double frame_s = 1.0 / 30;  ///< seconds from frame to frame
-  /// The spectral density of the acceleration along each axis, m²/s³: in a short time t the variance of the velocity
-  /// grows by this · t. Typical values are 1 for a trunk and 100 for a hand.
+  /// The spectral density q of the acceleration along each axis, m²/s³: in a short time t the variance of the velocity
+  /// grows by q · t. Typical values are 1 for a trunk and 100 for a hand.
   double acceleration_density = 10;
   /// The time constant of the velocity's decay, seconds. The default suits limbs, which reverse about twice a second
   /// *(ours)*. A very large value means constant velocity.

@@ -23,9 +23,9 @@ class Bodies {
   void Add(std::string_view id, std::size_t frame, const RolePositions& places,
            const std::array<TrackingState, kRoleCount>& states);
 
-  /// Copies one body into the recording's frames. Takes the requested body, counted by first appearance; otherwise the
-  /// one in most frames; of several, the one that moves most, because in crowded rooms sensors sometimes take furniture
-  /// for a person. JoinContinued runs first.
+  /// Copies one body into the recording's frames. Takes the requested body, counted by first appearance; without a
+  /// request, the body in most frames. If several are in equally many frames, takes the one that moves most, because in
+  /// crowded rooms sensors sometimes take furniture for a person. JoinContinued runs first.
   Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
 
  private:

@@ -7,7 +7,8 @@
 
 namespace etude {
 
-/// Which neighbours of a pixel are connected to it: the four that share an edge, or also the four that share a corner.
+/// The neighbours that are connected to a pixel: the four that share an edge with it, or also the four that share a
+/// corner.
 enum class Connectivity { kFour, kEight };
 
 /// The connected components of a mask, stored as runs of pixels.

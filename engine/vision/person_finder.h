@@ -21,8 +21,8 @@ class ColourLikelihood {
 
   /// Finds the pixels that more likely show the person than the room. The picture must have the background's size.
   Mask Detect(const ColourImage& picture);
-  /// Learns the colours of the `person` found in the picture last passed to `Detect`. To exclude shadows, only pixels
-  /// that no light of the room explains and that are away from the rim are learnt.
+  /// Learns the colours of the `person` found in the picture last passed to `Detect`. Pixels near the rim, and pixels
+  /// that the room explains in some light, are not learnt, because they may be shadow.
   void Learn(const ColourImage& picture, const Mask& person);
 
  private:

@@ -22,7 +22,7 @@ constexpr double kOffBeats = 1;  // at the largest deviation, limited by kMaxOff
 constexpr double kMaxOffBeat = 0.7 / kPi;
 constexpr double kUnstopped = 0.35;  // share danced before a person stops
 
-/// Returns 1 in the first `severity` of the performance and 0 after it, with a smooth change.
+/// Returns 1 while `share` is below `severity`, and 0 above, with a smooth change between.
 double First(double share, double severity) {
   return 1 - Smootherstep((share - severity * (1 + kChange)) / kChange + 1);
 }

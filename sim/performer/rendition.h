@@ -16,7 +16,7 @@ namespace etude {
 constexpr double kBlendSeconds = 0.45;
 
 /// Returns the time within a performance, seconds. It equals `time` between 0 and `length`. It accelerates from rest in
-/// the blend before and decelerates to rest in the blend after, because no motion starts or stops abruptly.
+/// the blend before and decelerates to rest in the blend after, so motions neither start nor stop abruptly.
 inline double EasedTime(double time, double length) {
   if (time < 0) {
     const double t = std::max(time, -kBlendSeconds) + kBlendSeconds;

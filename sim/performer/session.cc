@@ -67,7 +67,7 @@ class Dance {
     vigour_ = VigourAfter(rendition_.style().person(), event.start_s);
   }
 
-  /// Returns the weight of the dance over standing: 0 outside the event, 1 inside.
+  /// Returns the weight of the dance in the blend with standing: 0 outside the event, 1 inside.
   double Weight(double time_s) const {
     const double since = time_s - starts_s_ - late_s_;
     const double inside =

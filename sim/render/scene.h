@@ -64,7 +64,7 @@ struct Figure {
   std::vector<Capsule> shape;
   PartColours colours{};
   std::vector<Surface> surfaces{};
-  /// Invisible capsules that cast the figure's shadow in furnished rooms, in which surfaces cast none.
+  /// Invisible capsules that cast the figure's shadow in furnished rooms, because surfaces cast no shadow there.
   std::vector<Capsule> shadow{};
   /// If set, the label of all pixels of the figure, kBystander or kClutter, replaces the labels of its parts.
   std::optional<Part> seen_as{};

@@ -44,7 +44,8 @@ double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSens
   return options.fast_quiet + (1 - options.fast_quiet) * activity * activity;
 }
 
-/// The line of sight and two axes across it, and the growth of errors from the reference distance to this one.
+/// The line of sight to a joint, two axes across it, and the growth of errors from the reference distance to the
+/// joint's distance.
 struct Sight {
   glm::dmat3 axes;  ///< columns: across, across, along
   double across_growth, along_growth;

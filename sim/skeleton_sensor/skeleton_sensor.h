@@ -134,7 +134,7 @@ class SkeletonSensor final : public LiveSensor {
   /// Reports a joint as inferred while it is hidden, and as not tracked while it is out of view. The report describes
   /// the pose `options.Lag()` frames before.
   std::optional<SensedFrame> Update(const BodyPose& pose) override;
-  /// Returns the reports of the last `kAhead` frames, at the end of a motion. It must be the last call.
+  /// Returns the reports of the last `kAhead` frames, at the end of a motion. No other call may follow.
   std::vector<SensedFrame> Finish();
 
  private:

@@ -198,8 +198,7 @@ Choice Ranked(const char* name, const char* description, bool uses_fuzzy) {
           .plan = PlanWith<Plan, Settings>};
 }
 
-// Returns the table of choices. It is made on the first call, because the strings it uses must be initialised before
-// it.
+// Returns the table of choices. The table is made on the first call, when the strings that it uses are initialised.
 std::span<const Choice> Table() {
   static const std::array kChoices = {
       // Choices that search for good frames.

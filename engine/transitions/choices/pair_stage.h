@@ -15,8 +15,8 @@ namespace etude {
 constexpr std::array kWays = {JoinStyle::kDirect, JoinStyle::kFades};
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
 
-/// The second difference of each joint in each frame of the window, metres: the larger value of both motions. A motion
-/// that has ended has none.
+/// The second difference of each joint in each frame of the window, metres: the larger value of both motions. It is 0
+/// for a motion that has ended.
 using OwnAccelerations = std::vector<std::array<double, kRoleCount>>;
 
 /// Sums up the cost of a join. Its frames are added in order, from the transition point on.

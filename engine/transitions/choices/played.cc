@@ -115,9 +115,9 @@ constexpr int kFloatingFrames = 4;  // a join with this many consecutive unsuppo
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part
 constexpr std::size_t kMaxCompared = 20'000;  // maximal number of pairs of frames whose features are compared
 
-/// Divides the wait into parts, and finds for each part the nearest pair that can be joined without a clip between
-/// (NeedsClip). In a long clip only every `stride`-th frame is compared. Pairs close to those in `tried` are skipped.
-/// Parts without such a pair add none.
+/// Divides the wait into parts, and finds in each part the nearest pair that can be joined without a clip between
+/// (NeedsClip), if there is one. In a long clip only every `stride`-th frame is compared. Pairs close to those in
+/// `tried` are skipped.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                     const AllowedFrames& allowed, std::span<const FramePair> tried = {}) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];

@@ -101,7 +101,8 @@ const SettingTable<DeadOptions>& DeadSettings() {
 }
 
 Blend DeadBlending(const JoinInput& input, const DeadOptions& options) {
-  // Use the old motion's velocities. They are offsets relative to the last shown frame, where the offset is zero.
+  // Continue the last shown frame with the old motion's velocities: for a target that stands still in that frame, the
+  // offset is zero and the offset's velocity is the old motion's.
   const DecayLaw law = [options](const Offset& offset, double seconds) {
     return DecayingWay(offset.velocity, seconds, options.half_life_s);
   };
