@@ -75,10 +75,12 @@ std::string GravitySentence(const MotionFault& fault) {
 }
 
 std::string SentenceOf(const MotionFault& fault, bool is_always) {
+  // Prepare the time, the joint and the size, which most sentences contain.
   const std::string when =
       is_always ? "in all frames" : fmt::format("from {:.2f} to {:.2f} s", fault.from_s, fault.to_s);
   const std::string joint(fault.joint ? RoleName(*fault.joint) : "");
   const double cm = 100 * fault.size;
+  // Write the sentence of the fault's kind.
   switch (fault.kind) {
     case kFloats:
       if (is_always) return fmt::format("floats: the feet never touch the floor, and rest {:.0f} cm above it", cm);

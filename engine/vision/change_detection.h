@@ -71,7 +71,7 @@ struct ChangeOptions {
   /// A larger difference between hues is a change, radians. Pixel noise of 2 levels rotates the hue of a moderately
   /// coloured wall (30 levels of chroma) by 4° rms, so this is about four standard deviations.
   double hue_threshold = Radians(16);
-  /// hue-gated: a hue counts only if both pixels have at least this saturation …
+  /// hue-gated: a hue counts only if both pixels are more saturated than this …
   double min_saturation = 0.10;
   /// … and at least this far from grey, in levels: in the dark, saturation is noise.
   double min_chroma = 14;

@@ -16,7 +16,7 @@ constexpr double kHeadDeviation = 0.035, kShoulderDeviation = 0.079, kElbowDevia
                  kFingerDeviation = 0.026, kHipDeviation = 0.107, kKneeDeviation = 0.087, kAnkleDeviation = 0.089,
                  kToeDeviation = 0.068;
 
-// Relative deviations by role. Hip centre and spine are never marked.
+// The standard deviations σ behind RelativeDeviations, by role. Hip centre and spine are never marked.
 constexpr std::array<double, kRoleCount> kDeviations = {
     0,
     0,

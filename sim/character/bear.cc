@@ -134,16 +134,19 @@ Character BearCharacter() {
   const BodyPose rest = StandingPose();
   CharacterBuilder bear("bear", rest);
 
+  // Body and ears.
   const int fur = bear.AddMaterial("fur", kFur);
   for (const Tube& tube : {kTrunk, kHeadShape}) bear.Add(fur, MakePiece(tube, rest));
   for (const Tube& tube : {kArm, kLeg}) bear.AddOnBothSides(fur, MakePiece(tube, rest));
   for (const Blob& blob : {kFoot, kEar}) bear.AddOnBothSides(fur, MakePiece(blob, rest));
 
+  // Light fur on belly, muzzle, tail, inner ears, palms and soles.
   const int light = bear.AddMaterial("light fur", kLightFur);
   bear.Add(light, MakePiece(kTummy, kTrunk, rest));
   for (const Blob& blob : {kMuzzle, kTail}) bear.Add(light, MakePiece(blob, rest));
   for (const Blob& blob : {kInnerEar, kPalm, kSole}) bear.AddOnBothSides(light, MakePiece(blob, rest));
 
+  // Face.
   const int dark = bear.AddMaterial("dark", kDark);
   bear.Add(dark, MakePiece(kNose, rest));
   bear.Add(dark, MakePiece(kLip, rest));
@@ -153,6 +156,7 @@ Character BearCharacter() {
   bear.AddOnBothSides(bear.AddMaterial("blush", kBlush), MakePiece(kCheek, rest));
   bear.AddOnBothSides(bear.AddMaterial("shine", kShine), MakePiece(kGlint, rest));
 
+  // Bow tie.
   const int ribbon = bear.AddMaterial("ribbon", kRibbon);
   bear.AddOnBothSides(ribbon, MakePiece(kBow, rest));
   bear.Add(ribbon, MakePiece(kKnot, rest));

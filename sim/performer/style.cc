@@ -121,7 +121,7 @@ bool IsSwitch(std::size_t control) {
 /// harmonics. The squares sum to .978; the constant has nearly half of the variance.
 constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
 
-/// Draws a standard normal number for each term, times the term's share.
+/// Draws a standard normal number, clamped to ±2.5, for each term, times the term's share.
 std::array<double, 7> DrawTerms(RandomStream& random) {
   std::array<double, 7> terms{};
   for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = kTermShares[i] * std::clamp(random.Normal(), -2.5, 2.5);
