@@ -17,9 +17,9 @@ namespace etude {
 /// name. `values` holds one value per setting, in order; empty means the defaults.
 struct Choice {
   std::string name;
-  std::string description;     ///< one line for users
-  bool matches_poses = false;  ///< true if it takes similar frames; only then `false_smooth` is measured
-  bool uses_fuzzy = false;     ///< true if the rules' weights and threshold apply
+  std::string description;                   ///< one line for users
+  bool matches_poses = false;                ///< true if it takes similar frames; only then `false_smooth` is measured
+  bool uses_fuzzy = false;                   ///< true if the rules' weights and threshold apply
   std::vector<NumberSetting> settings = {};  ///< settings of this choice, in addition to the rules of all fuzzy choices
   /// Returns the frames that the choice may take; null for choices that do not compare poses.
   AllowedFrames (*allowed)(const MotionLibrary& library, const TransitionRequest& request,

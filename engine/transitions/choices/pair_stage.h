@@ -93,8 +93,8 @@ class PairStage {
   std::span<const double> playing_beside_, wanted_beside_;  // MotionLibrary::beside_feet
   const int before_;                                        // number of frames of `playing_` before the pair's frame
   std::span<const BodyPose> playing_;                       // the playing clip around the join
-  std::vector<BodyPose> wanted_;                 // the wanted clip from the pair on, aligned on the floor
-  std::optional<SupportFinder> support_finder_;  // finds supports in both clips
+  std::vector<BodyPose> wanted_;                            // the wanted clip from the pair on, aligned on the floor
+  std::optional<SupportFinder> support_finder_;             // finds supports in both clips
 };
 
 /// Moves all joints of a pose by the same vector.

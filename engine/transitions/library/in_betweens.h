@@ -65,9 +65,9 @@ struct InBetweenRules {
   TweenRules tween;
 };
 
-/// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14). It consists of bridge frames and can therefore
-/// be joined to any two clips. Ours is a star: key poses from all over the library, with tweens from any key to any
-/// other, directly or through a hub.
+/// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14). It consists of bridge frames and can
+/// therefore be joined to any two clips. Ours is a star: key poses from all over the library, with tweens from any key
+/// to any other, directly or through a hub.
 struct InBetweenNet {
   /// A bridge frame from which in-betweens are built.
   struct Key {
