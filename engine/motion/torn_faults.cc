@@ -145,7 +145,7 @@ class TornFinder {
     double largest = 0;
     for (int f = 0; f < frames(); ++f) {
       if (wrong[f])
-        largest = std::max(largest, std::abs(distances[f] - median));  // a joint that is not seen gives NaN, which is never larger
+        largest = std::max(largest, std::abs(distances[f] - median));  // NaN: a joint not seen, which is never larger
     }
     return largest;
   }
