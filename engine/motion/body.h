@@ -11,8 +11,8 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// The twenty joints of the canonical body, which are those of Kinect v1; the data of both papers and of all file
-/// formats are mapped to them. Parents come before children. "Left" is the person's own left: if the person faces +Z
+/// The twenty joints of the canonical body: the joints of Kinect v1. The data of both papers and of all file formats
+/// are mapped to these joints. Parents come before children. "Left" is the person's own left: if the person faces +Z
 /// and Y is up, left is +X.
 enum class Role {
   kHipCentre,  ///< midway between the hips (paper B's navel)
@@ -65,7 +65,7 @@ struct BodyPose {
 /// The frame rate at which all motions are evaluated (docs/reference/metrics.md).
 constexpr double kJudgedRateHz = 30.0;
 
-/// A sequence of frames at a constant rate. Sensors see it, pipelines produce it, and metrics evaluate it.
+/// A sequence of frames at a constant rate.
 struct BodyMotion {
   double rate_hz = kJudgedRateHz;
   std::vector<BodyPose> poses;
@@ -85,8 +85,8 @@ std::span<const Bone, 8> ArmAndLegBones();
 
 double BoneLength(const BodyPose& pose, const Bone& bone);
 
-/// A rigid motion on the floor: a rotation about the vertical axis, then a translation. It changes where and in which
-/// direction a clip is danced, but not the dance.
+/// A rigid motion on the floor: a rotation about the vertical axis, then a translation. It changes where a clip is
+/// danced and which way it faces, but not the dance.
 struct FloorMove {
   double yaw = 0;  ///< radians about +Y
   double x = 0;    ///< metres
@@ -96,10 +96,10 @@ struct FloorMove {
   BodyPose Apply(const BodyPose& pose) const;
 };
 
-/// Returns the unit horizontal direction that the body faces: perpendicular to the lines of hips and shoulders, +Z at
-/// rest. Returns +Z for a degenerate pose (hips and shoulders on vertical lines).
+/// Returns the unit horizontal direction that the body faces: perpendicular to the lines through the hips and through
+/// the shoulders, +Z at rest. Returns +Z for a degenerate pose (both lines vertical).
 glm::dvec3 Facing(const BodyPose& pose);
-/// Returns the angle of `Facing` about +Y from +Z, in (−π, π].
+/// Returns the heading: the angle of `Facing` about +Y, measured from +Z, in (−π, π].
 double Heading(const BodyPose& pose);
 /// Returns the move that puts `pose` at the origin of the floor, with the hip centre above it, facing +Z.
 FloorMove ToOrigin(const BodyPose& pose);
@@ -108,8 +108,8 @@ FloorMove ToOrigin(const BodyPose& pose);
 /// other. Heights and limbs do not change.
 FloorMove AlignOnFloor(const BodyPose& pose, const BodyPose& onto);
 
-/// Returns the distance of two poses, ignoring heading and position on the floor: the largest distance of a joint after
-/// `AlignOnFloor`, metres.
+/// Returns the largest distance between the same joints of two poses, metres, after `AlignOnFloor`. Heading and
+/// position on the floor therefore do not count.
 double PoseGap(const BodyPose& a, const BodyPose& b);
 
 }  // namespace etude

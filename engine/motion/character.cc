@@ -9,8 +9,8 @@ struct Move {
   glm::dvec3 shift{0};
 };
 
-/// Returns the cofactor matrix, which is the inverse transpose up to a positive factor, and also exists for flattened
-/// joints.
+/// Returns the cofactor matrix of `axes`: the inverse transpose times the determinant. It also exists if `axes` is
+/// singular (a joint with a scale of 0).
 glm::dmat3 NormalAxes(const glm::dmat3& axes) {
   const glm::dmat3 cofactors(glm::cross(axes[1], axes[2]), glm::cross(axes[2], axes[0]), glm::cross(axes[0], axes[1]));
   const bool is_mirrored = glm::dot(axes[0], cofactors[0]) < 0;
@@ -26,7 +26,7 @@ glm::dvec3 TransformedNormal(const glm::dmat3& normal_axes, const glm::dvec3& no
 }  // namespace
 
 DeformedMesh Deform(const SkinnedMesh& mesh, const std::vector<GlobalTransform>& globals) {
-  // Compute the map of every binding.
+  // Compute the affine map of every binding.
   std::vector<Move> moves;
   std::vector<glm::dmat3> normal_moves;
   for (const SkinnedMesh::Binding& binding : mesh.bindings) {

@@ -20,7 +20,7 @@ struct Material {
 
 /// A surface that follows a skeleton by linear blend skinning (glTF's skin). A rigid mesh has one binding.
 struct SkinnedMesh {
-  /// A joint that may move vertices.
+  /// A joint that vertices may follow.
   struct Binding {
     int joint = 0;               ///< of the character's skeleton
     glm::dmat4 inverse_bind{1};  ///< from the mesh's frame to the joint's, in the bind pose

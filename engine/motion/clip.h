@@ -22,7 +22,7 @@ struct LocalTransform {
 /// One frame: a local transform for every joint of the skeleton.
 using LocalPose = std::vector<LocalTransform>;
 
-/// A joint of a clip's own skeleton. Parents come before their children; a root's parent is −1.
+/// A joint of a clip's own skeleton. Parents come before their children; the parent index of a root is −1.
 struct Joint {
   std::string name;
   int parent = -1;
@@ -33,7 +33,7 @@ struct Joint {
 struct Skeleton {
   std::vector<Joint> joints;
 
-  /// Returns the index of the joint of that name, or −1.
+  /// Returns the index of the joint with this name, or −1.
   int Find(const std::string& name) const;
 };
 
@@ -60,7 +60,7 @@ struct GlobalTransform {
 void ComputeGlobals(const Skeleton& skeleton, const LocalPose& pose, std::vector<GlobalTransform>& out);
 
 /// Interpolates between two transforms: rotations by slerp along the shorter great arc, translations and scales
-/// linearly.
+/// linearly. `part` is 0 at `from` and 1 at `to`.
 LocalTransform Between(const LocalTransform& from, const LocalTransform& to, double part);
 
 /// Returns the pose of a clip at a frame number from 0, which may be fractional and is clamped to the clip. Every
@@ -69,13 +69,13 @@ LocalTransform Between(const LocalTransform& from, const LocalTransform& to, dou
 /// returns the frame unchanged. The clip must have at least one frame.
 LocalPose SampleFrame(const Clip& clip, double frame);
 
-/// Returns a skeleton of the twenty roles by name, in metres, Y up, rooted at the hip centre. Its rest pose is `rest`,
-/// with all axes parallel to the world's. Characters are bound to it.
+/// Returns a skeleton that names its joints after the twenty roles, in metres, Y up, rooted at the hip centre. Its rest
+/// pose is `rest`, with all axes parallel to the world's. Characters are bound to this skeleton.
 Skeleton BodySkeleton(const BodyPose& rest);
 
-/// Converts a motion to a clip of BodySkeleton(its first frame). All rotations are the identity: every joint has its
-/// own translation from its parent, so ComputeGlobals returns every position exactly, even if limbs change their
-/// lengths. The motion must have at least one frame.
+/// Converts a motion to a clip whose skeleton is BodySkeleton of the first frame. All rotations are the identity, and
+/// every joint has its own translation from its parent. ComputeGlobals therefore returns every position exactly, even
+/// if limbs change their lengths. The motion must have at least one frame.
 Clip ToClip(const BodyMotion& motion, std::string name);
 
 }  // namespace etude

@@ -12,7 +12,7 @@ namespace {
 
 using PoseSteps = std::array<glm::dvec3, kRoleCount>;
 
-/// Returns the steps of all joints from frame `f` to the next.
+/// Returns how far each joint moves from frame `f` to the next, metres.
 PoseSteps StepsFrom(const BodyMotion& motion, int f) {
   PoseSteps steps;
   for (std::size_t j = 0; j < kRoleCount; ++j) steps[j] = motion.poses[f + 1].joints[j] - motion.poses[f].joints[j];
@@ -20,7 +20,7 @@ PoseSteps StepsFrom(const BodyMotion& motion, int f) {
 }
 
 /// Returns, for each frame but the last, how far every joint's step to the next frame differs from the mean of the
-/// steps before and after it: half of the third difference. 0 where one of these is missing.
+/// steps before and after: minus half of the third difference. The value is 0 for the first and the last step.
 std::vector<PoseSteps> ThirdDifferences(const BodyMotion& motion) {
   const int last_step = static_cast<int>(motion.poses.size()) - 2;
   std::vector<PoseSteps> differences(motion.poses.size() - 1);
@@ -46,8 +46,8 @@ glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
   return median;
 }
 
-/// Returns the length of `median` if enough vectors agree with it, those of one foot among them, else 0. Fast arms and
-/// legs need not agree.
+/// Returns the length of `median` if enough joints' vectors are near it, among them the vector of an ankle; otherwise
+/// 0. Fast arms and legs may deviate.
 double AgreedLength(const PoseSteps& vectors, const glm::dvec3& median, double relative, double absolute) {
   const double length = glm::length(median), tolerance = relative * length + absolute;
   const auto agrees = [&](const glm::dvec3& v) { return glm::distance(v, median) < tolerance; };
@@ -56,7 +56,7 @@ double AgreedLength(const PoseSteps& vectors, const glm::dvec3& median, double r
   return count >= fault_limits::kAgreeingShare * kRoleCount ? length : 0;
 }
 
-/// Joins the marked frames that are at most two frames apart.
+/// Groups frames: neighbours at most two frames apart share a group.
 std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
   constexpr int kMaxGap = 2;
   std::vector<FrameRange> groups;
@@ -93,7 +93,7 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
     std::vector<double> elsewhere(mean.begin(), mean.begin() + range.first);
     elsewhere.insert(elsewhere.end(), mean.begin() + range.last + 1, mean.end());
     if (elsewhere.empty()) continue;
-    // If the body is never so still elsewhere, judge more strictly.
+    // If the body is never nearly still in other frames, use a stricter limit.
     constexpr std::size_t kMinElsewhere = 20;
     const bool is_never_as_still = elsewhere.size() > kMinElsewhere && Quantile(elsewhere, 0.02) > kNeverAsStill;
     const double limit = is_never_as_still ? kNeverAsStill : fault_limits::kAbrupt_m_s;
@@ -108,15 +108,15 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
   return frozen;
 }
 
-/// Returns true if a freeze begins or ends within three frames of the span.
+/// Returns true if a frozen stretch begins or ends within three frames of `span`.
 bool IsAtFrozenEnd(const FrameRange& span, const std::vector<FrameRange>& frozen) {
   constexpr int kNear = 3;
   const auto is_near = [&](int frame) { return span.first - kNear <= frame && frame <= span.last + kNear; };
   return std::ranges::any_of(frozen, [&](const FrameRange& f) { return is_near(f.first) || is_near(f.last); });
 }
 
-/// Measures the displacement over these steps, in addition to the mean of the steps around them, for the whole body or
-/// for `joint`.
+/// Measures the displacement over `steps` of `joint`, or of the whole body without `joint`. The mean of the steps just
+/// before and after is subtracted.
 Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::optional<Role> joint = std::nullopt) {
   const PoseSteps before = StepsFrom(motion, steps.first - 1), after = StepsFrom(motion, steps.last + 1);
   Displacement found{.before = steps.first, .after = steps.last + 1};
@@ -130,8 +130,8 @@ Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::opt
   return found;
 }
 
-/// A displacement also changes the third differences of the neighbouring steps, by half of its size; returns only the
-/// main steps. `size_of` returns a step's difference.
+/// Narrows `steps` to the main steps of a displacement: a displacement also changes the third differences of the
+/// neighbouring steps, by half of its size. `size_of` returns a step's third difference.
 template <typename SizeOf>
 FrameRange MainSteps(FrameRange steps, double largest, SizeOf size_of) {
   constexpr double kMainShare = 0.6;
@@ -156,7 +156,7 @@ std::vector<Displacement> FindCommon(const BodyMotion& motion, const std::vector
   return found;
 }
 
-/// A joint whose third difference is large at the step `step`.
+/// A large third difference of one joint at one step.
 struct Hot {
   int step = 0;
   Role joint = Role::kHipCentre;
@@ -170,7 +170,7 @@ std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::v
   std::vector<double> sizes(common.size());
   for (const Role joint : AllRoles()) {
     const std::size_t j = Index(joint);
-    // A third difference is that of four frames, all of which must show the joint.
+    // A third difference is computed from four frames, all of which must show the joint.
     const auto is_seen = [&](std::size_t f) {
       const std::size_t from = std::max<std::size_t>(f, 1) - 1, to = std::min(f + 3, unseen.size());
       return std::none_of(unseen.begin() + from, unseen.begin() + std::max(from, to),
@@ -180,7 +180,8 @@ std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::v
       const bool counts = unseen.empty() || is_seen(f);
       sizes[f] = counts ? glm::distance(differences[f][j], common[f]) : 0;
     }
-    // Two large pops of a short clip, each in three or four frames, are not what is usual there.
+    // In a short clip, two large pops of three or four steps each must not raise the quantile that stands for usual
+    // motion.
     const auto count = static_cast<double>(sizes.size());
     const double share = count < kShortClipFrames ? kUsualPop : std::min(1 - kPopFrames / count, kUsualPop);
     const double large = std::max(kPopTimesUsual * Quantile(sizes, share), kShortPop_m);
@@ -209,7 +210,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
       largest[Index(h.joint)] = std::max(largest[Index(h.joint)], h.size);
     }
     const auto at = static_cast<std::size_t>(std::ranges::max_element(largest) - largest.begin());
-    // A joint that pops takes the joints beyond it along, so name the innermost joint.
+    // A joint that pops also displaces the joints farther out on its limb, so name the innermost joint.
     Role joint = AllRoles()[at];
     for (auto parent = ParentOf(joint); parent && largest[Index(*parent)] > kAsLarge * largest[at];
          parent = ParentOf(joint)) {
@@ -222,10 +223,10 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
   return pops;
 }
 
-/// Returns the mean of what the joints show at step `f`, each weighted by how little it shows around it: a foot that
-/// stands shows nothing but the step.
+/// Returns the weighted mean of the joints' excesses (see FindVelocitySteps) at step `f`. A joint's weight is the
+/// inverse of its squared excesses in the frames around, so a standing foot weighs most.
 glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
-  constexpr int kNear = 2, kFar = 6;   // the step itself shows at its neighbours, too
+  constexpr int kNear = 2, kFar = 6;   // a velocity step also changes the excesses of the neighbouring frames
   constexpr double kSmallest = 1e-10;  // square metres
   glm::dvec3 sum{0};
   double weights = 0;
@@ -240,11 +241,12 @@ glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
   return {sum.x / weights, sum.z / weights};
 }
 
-/// Finds steps of the velocity along the floor: second differences that their neighbours do not share.
+/// Finds steps of the velocity along the floor: second differences that stand out from those of the neighbouring
+/// frames.
 std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Displacements& found) {
   constexpr double kTolerance = 0.4;
   constexpr int kNear = 3;
-  // Compute the second differences along the floor beyond the mean of those before and after.
+  // Compute each second difference along the floor, and its excess over the mean of its two neighbours.
   const int frames = static_cast<int>(motion.poses.size());
   std::vector<PoseSteps> bends(motion.poses.size()), excesses(motion.poses.size());
   for (int f = 1; f + 1 < frames; ++f) {
@@ -259,7 +261,7 @@ std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Disp
       excesses[f][j] = bends[f][j] - 0.5 * (bends[f - 1][j] + bends[f + 1][j]);
     }
   }
-  // Take those that the joints share, away from displacements and frozen frames.
+  // Take the excesses that most joints share, except near displacements and frozen frames.
   std::vector<VelocityStep> steps;
   for (int f = 2; f + 2 < frames; ++f) {
     const double length = AgreedLength(excesses[f], MedianOfJoints(excesses[f]), kTolerance, 0);

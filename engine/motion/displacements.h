@@ -16,14 +16,14 @@ struct FrameRange {
   int first = 0, last = 0;
 };
 
-/// Returns the longest stretches of frames in which `is_marked` is true, in order.
+/// Returns all runs of frames in which `is_marked` is true, each as long as possible, in order.
 std::vector<FrameRange> RangesOf(const std::vector<bool>& is_marked);
 
-/// A displacement of all joints alike between the frames `before` and `after`.
+/// A displacement that all joints share, between the frames `before` and `after`.
 struct Displacement {
   int before = 0, after = 0;
-  glm::dvec3 lasting{0};  ///< of the frames from `after` on, metres
-  glm::dvec3 largest{0};  ///< of a frame after `before` up to `after`, metres
+  glm::dvec3 lasting{0};  ///< metres; how far the frames from `after` on are displaced
+  glm::dvec3 largest{0};  ///< metres; the largest displacement of a frame after `before` up to `after`
 };
 
 /// A displacement of one joint alone.
@@ -33,22 +33,22 @@ struct Pop {
   double size = 0;  ///< metres
 };
 
-/// A change of the velocity of all joints alike, along the floor, that happens from one frame to the next.
+/// A sudden change of the velocity along the floor, from one frame to the next, that all joints share.
 struct VelocityStep {
-  int frame = 0;         ///< the last frame with the velocity before
+  int frame = 0;         ///< the last frame with the old velocity
   glm::dvec2 change{0};  ///< x and z, metres per second
 };
 
-/// The displacements in a motion: changes between frames that are not movements of a body.
+/// The displacements in a motion: changes from frame to frame that no real body makes.
 struct Displacements {
   std::vector<FrameRange> frozen;    ///< frames that repeat the pose of the first one, for 0.9 s or more
-  std::vector<Displacement> common;  ///< none at either end of a frozen stretch
-  std::vector<Pop> pops;             ///< none there either
-  std::vector<VelocityStep> steps;   ///< none there either
+  std::vector<Displacement> common;  ///< never at the ends of frozen stretches
+  std::vector<Pop> pops;             ///< never there either
+  std::vector<VelocityStep> steps;   ///< never there either
 };
 
-/// Finds displacements by third differences, as FindMotionFaults states. The motion must have at least eight frames.
-/// `unseen`: FaultOptions::unseen.
+/// Finds displacements by third differences; FaultRules states the rules. The motion must have at least eight frames.
+/// `unseen`: see FaultOptions::unseen.
 Displacements FindDisplacements(const BodyMotion& motion, std::span<const JointSet> unseen = {});
 
 }  // namespace etude

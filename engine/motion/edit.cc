@@ -34,7 +34,7 @@ bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsLetter(char c) { return IsLower(c) || IsUpper(c); }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// Returns the index after the namespace: "mixamorig:LeftArm".
+/// Returns the index after the namespace, such as "mixamorig:" in "mixamorig:LeftArm".
 std::size_t StartOfName(std::string_view name) { return name.find_last_of(':') + 1; }
 
 /// Returns the index after the word that begins at `at` (marked by | in "Left|Arm", "l|Shldr", "L|Thigh",
@@ -54,7 +54,8 @@ std::string Replaced(std::string_view name, std::size_t at, const SideWord& turn
   return std::string(name.substr(0, at)).append(turn.to).append(name.substr(at + turn.from.size()));
 }
 
-/// Returns the possible names on the other side of a joint whose name may begin with a side, the most likely first.
+/// If the name may begin with a side and no word boundary follows ("lfemur"), returns its possible names on the other
+/// side, the most likely first.
 std::vector<std::string> IfGlued(std::string_view name) {
   std::vector<std::string> others;
   const std::size_t start = StartOfName(name);
@@ -102,7 +103,7 @@ namespace {
 
 constexpr glm::dquat kNoTurn{1, 0, 0, 0};
 
-/// Reflects a transform between frames that are both reflected: M T M with M = diag(−1, 1, 1).
+/// Reflects a transform whose two frames are both reflected: M T M with M = diag(−1, 1, 1).
 void Reflect(LocalTransform& local) {
   local.translation.x = -local.translation.x;
   local.rotation.y = -local.rotation.y;
@@ -113,14 +114,15 @@ bool HasScales(const LocalPose& pose) {
   return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
 }
 
-/// Returns the rotation nearest to a matrix, its polar factor, by Newton's iteration (Higham 1986). Returns nullopt for
-/// a matrix that mirrors, or that is too flat to invert.
+/// Returns the rotation nearest to a matrix (its polar factor), by Newton's iteration (Higham 1986). Returns nullopt
+/// for a matrix that mirrors, or that is too flat to invert.
 std::optional<glm::dquat> NearestRotation(glm::dmat3 axes) {
   const double size = std::sqrt(glm::dot(axes[0], axes[0]) + glm::dot(axes[1], axes[1]) + glm::dot(axes[2], axes[2]));
   constexpr double kFlat = 1e-9;
   if (!(glm::determinant(axes) > kFlat * size * size * size)) return std::nullopt;
   axes /= std::cbrt(glm::determinant(axes));
-  // Convergence is quadratic near the solution; for the flattest allowed matrix, about forty halvings come before.
+  // Newton's iteration first halves large singular values about once a step (forty times for the flattest allowed
+  // matrix), then converges quadratically.
   constexpr int kMaxSteps = 60;
   constexpr double kSame = 1e-15;
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -135,7 +137,7 @@ std::optional<glm::dquat> NearestRotation(glm::dmat3 axes) {
   return glm::normalize(glm::quat_cast(axes));
 }
 
-/// Converts poses of a skeleton to poses without scales.
+/// Converts poses of a skeleton to poses whose scales are 1.
 class ScaleRemover {
  public:
   explicit ScaleRemover(const Skeleton& skeleton) : skeleton_(skeleton), rotations_(skeleton.joints.size()) {}
@@ -228,7 +230,7 @@ Clip WithoutScales(Clip clip) {
 Clip WithWorldAxesAtRest(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::all_of(joints, [](const Joint& joint) { return joint.rest.rotation == kNoTurn; })) return clip;
-  // If R₀ are a joint's axes at rest in the world, the new frame is the old one rotated by R₀⁻¹.
+  // The new frame of a joint is its old frame rotated by R₀⁻¹, where R₀ are the joint's axes at rest in the world.
   std::vector<glm::dquat> at_rest(joints.size());
   const auto above = [&](std::size_t joint) {
     return joints[joint].parent < 0 ? kNoTurn : at_rest[joints[joint].parent];
@@ -268,8 +270,8 @@ Clip WithRootAt(const Clip& clip, int joint) {
     child = std::exchange(parent, next);
   }
   parents[joint] = -1;
-  // Order the joints so that parents come first: each joint as soon as its parent has an index, otherwise in the old
-  // order.
+  // Order the joints so that parents come first. A joint follows as soon as its parent has an index; otherwise the old
+  // order is kept.
   std::vector<int> order, place(old.size(), -1);
   while (order.size() < old.size()) {
     for (int i = 0; i < static_cast<int>(old.size()); ++i) {
@@ -280,8 +282,8 @@ Clip WithRootAt(const Clip& clip, int joint) {
   }
   Clip rooted{.name = clip.name, .skeleton = {}, .rate_hz = clip.rate_hz, .frames = {}};
   std::vector<GlobalTransform> globals;
-  // Converts a pose: a joint that keeps its parent keeps its transform; for other joints it is computed from their
-  // poses in the world.
+  // Convert a pose: a joint that keeps its parent keeps its transform. The transforms of the other joints are computed
+  // from poses in the world.
   const auto in_order = [&](const LocalPose& pose) {
     ComputeGlobals(clip.skeleton, pose, globals);
     LocalPose moved;

@@ -9,13 +9,13 @@
 
 namespace etude {
 
-/// Resamples a clip: returns its poses at k / rate_hz seconds (SampleFrame), from the first frame to the last one
-/// within the clip. The first frame is unchanged; at the same rate nothing changes. `rate_hz` > 0; the clip must have
-/// at least one frame.
+/// Resamples a clip: returns its poses (SampleFrame) at k / rate_hz seconds, from the first frame to the last such time
+/// within the clip. The first frame is unchanged; at the clip's own rate nothing changes. `rate_hz` > 0; the clip must
+/// have at least one frame.
 Clip Resample(const Clip& clip, double rate_hz);
 
-/// Returns the frames of [from_s, to_s], seconds from the first frame; both ends are rounded to the nearest frame.
-/// Fails if the range ends before it begins, or if it is not within the clip.
+/// Returns the frames from `from_s` to `to_s`, seconds from the first frame, ends included. Both ends are rounded to
+/// the nearest frame. Fails if the range ends before it begins, or if it is not within the clip.
 Result<Clip> Trim(const Clip& clip, double from_s, double to_s);
 
 /// Returns the mirror image of a clip: every transform is reflected in the plane x = 0, and joints named for one side
@@ -24,20 +24,20 @@ Clip Mirror(Clip clip);
 /// Returns the mirror image of a motion of the twenty joints: left and right roles are exchanged.
 BodyMotion Mirror(const BodyMotion& motion);
 
-/// Returns the same motion without scales, for formats that have none (BVH). Joints keep their positions in the world,
-/// so translations may change from frame to frame. Rotations are those nearest to the scaled axes (their polar
+/// Returns the motion without scales, for formats that have none (BVH). Joints keep their positions in the world, so
+/// translations may change from frame to frame. Each rotation is the one nearest to the scaled axes (polar
 /// decomposition); a joint whose axes are flattened or mirrored keeps its own rotation.
 Clip WithoutScales(Clip clip);
 
-/// Returns the same motion of a skeleton whose rest pose has no rotations: every joint's axes at rest are the world's,
-/// as in BVH. Joints keep their positions in the world, in every frame and at rest. Scales must be 1.
+/// Returns the motion on a skeleton without rotations at rest: every joint's axes at rest are the world's, as in BVH.
+/// Joints keep their positions in the world, in every frame and at rest. Scales must be 1.
 Clip WithWorldAxesAtRest(Clip clip);
 
-/// Returns the same motion with a single root: several roots become children of a new one that stays at the origin.
+/// Returns the motion with a single root. Several roots become children of a new joint that stays at the origin.
 Clip WithOneRoot(Clip clip);
 
-/// Returns the same motion of a skeleton whose root is `joint` (an index): parents and children are exchanged along the
-/// path from it to the old root; all other joints keep their parents. Joints keep their positions in the world, in
+/// Returns the motion on a skeleton whose root is the joint with index `joint`: along the path from `joint` to the old
+/// root, parents become children; all other joints keep their parents. Joints keep their positions in the world, in
 /// every frame and at rest. Scales must be 1.
 Clip WithRootAt(const Clip& clip, int joint);
 
@@ -48,8 +48,8 @@ Clip WithRootAt(const Clip& clip, int joint);
 std::string OtherSide(std::string_view name);
 
 /// Renames every joint to its OtherSide. A side without a word boundary ("lfemur", "leftarm", "L5") counts only if the
-/// skeleton also has a joint with the other side's name; otherwise it is the beginning of a word, or a vertebra.
-/// Applying the function twice returns the skeleton itself.
+/// skeleton also has a joint with the other side's name; otherwise the letter belongs to the word ("lumbar") or numbers
+/// a vertebra ("L5"). Two calls return the original skeleton.
 Skeleton WithSidesSwapped(Skeleton skeleton);
 
 }  // namespace etude

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// A flight: the fall of the mass centre, metres per second², and the height of its arc, metres.
+/// A flight: the downward acceleration of the mass centre, metres per second², and the height of its arc, metres.
 struct Flight {
   FrameRange frames;
   double fall = 0, sag = 0;
@@ -20,7 +20,7 @@ std::vector<Flight> FindFlights(const GroundView& ground) {
   constexpr double kClear = 0.03, kMinClearance = 0.04, kMaxSeconds = 2, kMinSag = 0.02;
   constexpr double kMaxStray = 0.1, kMinFall = 1.2, kMinUpright = 0.5;
   constexpr int kMinFrames = 3, kEnoughFrames = 5;
-  // In flight, all feet have left the floor, and no other joint is near it.
+  // Mark frames in which all feet have left the floor and no other joint is near the floor.
   std::vector<bool> is_clear(ground.frames());
   for (int f = 0; f < ground.frames(); ++f) is_clear[f] = ground.FootHeight(f) > kClear && ground.IsOnFeet(f);
   // Fit the height of the mass centre in each flight.
@@ -50,7 +50,8 @@ void FindFalls(const GroundView& ground, std::vector<MotionFault>& faults) {
   constexpr double kHalf = 0.5;
   std::vector<Flight> flights = FindFlights(ground);
   if (flights.empty()) return;
-  // Take the median of the falls, each weighted by its sag, because long flights are measured best.
+  // Take the weighted median of the accelerations. The weight is the height of the arc, because long flights are
+  // measured best.
   std::ranges::stable_sort(flights, {}, &Flight::fall);
   double whole = 0, sum = 0;
   for (const Flight& flight : flights) whole += flight.sag;

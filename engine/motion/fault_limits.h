@@ -1,32 +1,33 @@
 #pragma once
 
-/// The thresholds of FindMotionFaults; FaultRules puts them into words. Metres, seconds, degrees.
+/// The thresholds of FindMotionFaults, in metres, seconds and degrees. FaultRules states the rules in words.
 namespace etude::fault_limits {
 
-inline constexpr double kAgreeingShare = 0.7;  ///< share of the joints that move alike if the whole body is displaced
+inline constexpr double kAgreeingShare = 0.7;  ///< share of joints that move alike in a whole-body displacement
 
 // Floats and sinks.
 inline constexpr double kFloatInAll_m = 0.10, kSink_m = 0.06, kSink_s = 0.15;
-inline constexpr double kLevel_m = 0.04;  ///< a vertical displacement
-inline constexpr double kStand_m = 0.15;  ///< above this height, feet that rest stand on something
+inline constexpr double kLevel_m = 0.04;  ///< minimum vertical displacement
+inline constexpr double kStand_m = 0.15;  ///< feet that rest higher than this are taken to stand on an object
 
-/// A body is too high if its lowest joint stays above a height for longer than people do.
+/// A body floats if its lowest joint stays above `height_m` for more than `longest_s`.
 struct Hovering {
   double height_m, longest_s;
   bool is_upright;  ///< counts only frames in which the body is upright
 };
 inline constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.09, 2, true}};
 
-// Skates: a step of the velocity, and a velocity that the standing feet share.
+// Skates: limits for steps of the velocity, for a velocity that standing feet share, and for one foot.
 inline constexpr double kStep_m_s = 0.12, kMinCarried_s = 0.25, kMaxCarried_s = 20;
 inline constexpr double kGlide_m_s = 0.14, kGlide_s = 0.5;
-inline constexpr double kFootSkate_s = 0.4, kEvenFootSkate_s = 0.25;  ///< one foot; at one velocity
+inline constexpr double kFootSkate_s = 0.4, kEvenFootSkate_s = 0.25;  ///< one foot, at any or at constant velocity
 
 // Jumps and pops.
 inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;
 inline constexpr double kPop_m = 0.25, kSurePop_m = 0.45, kPopTimesUsual = 6, kUsualPop = 0.95;
-/// In a clip of `kShortClipFrames` or more, the usual leaves out at least `kPopFrames`; by it a pop exceeds
-/// `kShortPop_m`.
+/// In clips of kShortClipFrames to kPopFrames / (1 − kUsualPop) frames, the usual size of third differences ignores the
+/// `kPopFrames` largest ones; a pop exceeds `kShortPop_m` and kPopTimesUsual times that size. Clips below
+/// `kShortClipFrames` have no such limit.
 inline constexpr double kShortPop_m = 0.36, kShortClipFrames = 45, kPopFrames = 9;
 
 // Freezes.

@@ -7,13 +7,14 @@
 
 namespace etude {
 
-// Each function appends the faults of its kinds, by the rules of FindMotionFaults. Sentences are left empty.
+// Each function appends the faults of its kinds, by the rules of FindMotionFaults. It leaves the faults' sentences
+// empty.
 
 /// Appends jumps, floats and sinks.
 void FindLevelFaults(const GroundView& ground, std::vector<MotionFault>& faults);
-/// Appends skates, of both feet and of one. `unseen`: FaultOptions::unseen.
+/// Appends skates of both feet and of one foot. `unseen`: see FaultOptions::unseen.
 void FindSkates(const GroundView& ground, std::span<const JointSet> unseen, std::vector<MotionFault>& faults);
-/// Appends the flight that shows another gravity, if there is one.
+/// Appends one fault if flights show an acceleration that is not gravity's.
 void FindFalls(const GroundView& ground, std::vector<MotionFault>& faults);
 
 }  // namespace etude

@@ -11,7 +11,7 @@ namespace {
 
 using enum Role;
 
-/// Returns the median of the values in the 2 cm that contain most values: the height at which feet rest most.
+/// Returns the mode: the median of the values in the 2 cm interval that contains most values.
 double Mode(std::vector<double> values) {
   constexpr double kWidth = 0.02;
   std::ranges::sort(values);
@@ -26,8 +26,8 @@ double Mode(std::vector<double> values) {
   return Median({begin, begin + static_cast<std::ptrdiff_t>(count)});
 }
 
-/// Returns true if trunk and legs are upright. (Below the joints of a person who sits or lies are seats, cushions or
-/// the thickness of the body.)
+/// Returns true if trunk and legs are upright. (A person who sits or lies has a seat, a cushion or flesh between joints
+/// and floor.)
 bool IsUprightPose(const BodyPose& pose) {
   constexpr double kSteep = 0.7;
   const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre];
@@ -43,7 +43,7 @@ bool IsUprightPose(const BodyPose& pose) {
 
 GroundView::GroundView(const BodyMotion& motion, const Displacements& displacements, std::optional<double> floor)
     : motion_(motion), displacements_(displacements), offsets_(motion.poses.size()) {
-  // Sum the displacements. The few frames within a displacement stay where they are.
+  // Sum the displacements: the frames within a displacement get its largest size, the frames after it its lasting size.
   for (const Displacement& d : displacements.common) {
     for (int f = d.before + 1; f < d.after; ++f) offsets_[f] += d.largest;
     for (int f = d.after; f < frames(); ++f) offsets_[f] += d.lasting;
@@ -64,7 +64,7 @@ GroundView::GroundView(const BodyMotion& motion, const Displacements& displaceme
   toe_rest_ = Mode(toes);
   ankle_rest_ = Mode(ankles);
   if (ankle_rest_ > toe_rest_ + kMaxAnkle) ankle_rest_ = toe_rest_ + kUsualAnkle;
-  // Decide the floor.
+  // Choose the height of the floor.
   constexpr double kFar = 0.6, kLow = 0.05, kBelowJoint = 0.02;
   const double low = Quantile(lowest_, kLow);
   is_floor_found_ = !floor && std::abs(low) > kFar;

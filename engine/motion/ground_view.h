@@ -14,10 +14,10 @@ namespace etude {
 /// The joints of the feet.
 inline constexpr std::array kFootJoints = {Role::kLeftFoot, Role::kRightFoot, Role::kLeftAnkle, Role::kRightAnkle};
 
-/// A motion without the displacements of its whole body, and its floor.
+/// Shows a motion without the displacements of its whole body, and its floor.
 class GroundView {
  public:
-  /// `motion` and `displacements` must outlive this object. FindMotionFaults states how the floor is found.
+  /// `motion` and `displacements` must outlive this object. FindMotionFaults says how the floor is found.
   GroundView(const BodyMotion& motion, const Displacements& displacements, std::optional<double> floor);
 
   const BodyMotion& motion() const { return motion_; }
@@ -30,21 +30,23 @@ class GroundView {
   const glm::dvec3& Offset(int frame) const { return offsets_[frame]; }
   /// Returns a joint's position without the displacements.
   glm::dvec3 Place(int frame, Role role) const { return motion_.poses[frame][role] - offsets_[frame]; }
-  /// Returns a joint's velocity without the displacements, over a fifteenth of a second in each direction.
+  /// Returns a joint's velocity without the displacements, metres per second: the mean over a fifteenth of a second
+  /// before and after the frame.
   glm::dvec3 Velocity(int frame, Role role) const;
 
-  /// Returns the height at which this joint of the feet rests most, without the displacements.
+  /// Returns the height at which a foot joint rests most often, without the displacements, metres.
   double RestHeight(Role role) const {
     return role == Role::kLeftFoot || role == Role::kRightFoot ? toe_rest_ : ankle_rest_;
   }
   /// Returns the lower of the rest heights of toes and ankles.
   double LowestRest() const { return toe_rest_ < ankle_rest_ ? toe_rest_ : ankle_rest_; }
-  /// Returns the height of the feet: the smallest height of a joint of the feet above its rest height.
+  /// Returns the smallest height of a foot joint above its rest height, metres, without the displacements.
   double FootHeight(int frame) const;
-  /// Returns the height of the lowest joint, finger tips ignored, with displacements.
+  /// Returns the height of the lowest joint, metres, with the displacements. Finger tips are ignored.
   double Lowest(int frame) const { return lowest_[frame]; }
   const std::vector<double>& lowest() const { return lowest_; }
-  /// Returns true if only feet and hands are near the floor: other joints are 20 cm above the height where feet rest.
+  /// Returns true if only feet and hands are near the floor: all other joints are at least 20 cm above the lowest rest
+  /// height.
   bool IsOnFeet(int frame) const;
   /// Returns true if trunk and legs are upright.
   bool IsUpright(int frame) const { return is_upright_[frame]; }

@@ -19,16 +19,16 @@ void FindJumps(const GroundView& ground, std::vector<MotionFault>& faults) {
   }
 }
 
-/// Frames of equal vertical displacement.
+/// Frames that share a vertical displacement.
 struct Level {
   FrameRange frames;
   double offset = 0;
 };
 
-/// Returns the displacement of the frames that are where they should be: those in which the feet rest near the floor,
-/// the clip begins and ends, and most of its time passes.
+/// Returns the vertical displacement of the frames that are at the right height: the level with the lowest cost. A
+/// level costs less if its feet rest near the floor, if the clip begins and ends on it, and if it lasts long.
 double ReferenceOffset(const GroundView& ground, const std::vector<Level>& levels) {
-  constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.1;  // heights of joints in feet on the floor
+  constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.1;  // metres; levels that differ by kSame are equal
   constexpr double kPerMetre = 2, kForTime = 0.04, kForEnd = 0.03;
   const double rest = ground.LowestRest() - ground.floor();
   std::optional<double> best;
@@ -51,7 +51,7 @@ double ReferenceOffset(const GroundView& ground, const std::vector<Level>& level
   return reference;
 }
 
-/// The frames that are displaced, and the displacement that is none.
+/// The frames that were reported as displaced, and the offset of the level at the right height.
 struct Told {
   std::vector<bool> frames;
   double reference = 0;
@@ -80,7 +80,7 @@ Told FindDisplacedLevels(const GroundView& ground, std::vector<MotionFault>& fau
   return told;
 }
 
-/// Returns true if feet rest in at least half of these frames: the body stands on something.
+/// Returns true if a foot rests in at least half of these frames: the body then stands on something.
 bool FindsRest(const GroundView& ground, const FrameRange& span) {
   constexpr double kSlow = 0.15, kEnough = 0.5;
   int resting = 0;
@@ -91,7 +91,7 @@ bool FindsRest(const GroundView& ground, const FrameRange& span) {
   return resting >= kEnough * (span.last - span.first + 1);
 }
 
-/// Returns the float or the sink of a body that is too high or too low in the whole clip.
+/// Returns a fault if the body is too high or too low in the whole clip.
 std::optional<MotionFault> FindWrongHeight(const GroundView& ground, const Told& told) {
   constexpr double kHighAtAll = 0.08, kEnoughUpright = 0.3, kMinUprightShare = 0.5;
   const FrameRange all{0, ground.frames() - 1};
@@ -104,7 +104,7 @@ std::optional<MotionFault> FindWrongHeight(const GroundView& ground, const Told&
   return std::nullopt;
 }
 
-/// Appends the times in which the feet are below the floor, in frames without a displacement.
+/// Appends the stretches in which the feet are below the floor, outside of displaced frames.
 void FindLow(const GroundView& ground, const Told& told, std::vector<MotionFault>& faults) {
   std::vector<bool> is_deep(ground.frames());
   for (int f = 0; f < ground.frames(); ++f) {
@@ -119,9 +119,9 @@ void FindLow(const GroundView& ground, const Told& told, std::vector<MotionFault
   }
 }
 
-/// Appends the times in which the body is too high without a displacement, by the first of three rules that finds one.
-/// Nobody jumps for a second, but some people sit on high chairs or stand on steps. In recorded dance, toes stay up to
-/// 5 cm above their lowest twentieth for two seconds, 9 cm for one.
+/// Appends the stretches in which the body is too high, outside of displaced frames. The first of the three Hovering
+/// rules that finds a fault decides. Nobody jumps for a second, but some people sit on high chairs or stand on steps.
+/// In recorded dance, toes stay up to 5 cm above their 5th percentile for two seconds, and 9 cm for one second.
 void FindHigh(const GroundView& ground, const Told& told, std::vector<MotionFault>& faults) {
   for (const fault_limits::Hovering& kind : fault_limits::kHoverings) {
     std::vector<bool> hovers(ground.frames());

@@ -26,13 +26,13 @@ constexpr std::array kLegs = {Leg{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
                               Leg{kRightHip, kRightKnee, kRightAnkle, kRightFoot}};
 constexpr std::array kArms = {Arm{kLeftElbow, kLeftWrist, kLeftHand}, Arm{kRightElbow, kRightWrist, kRightHand}};
 
-/// Appends a fault for every stretch of frames in which `value` is above `limit` for at least `min_s` seconds, or falls
-/// below it for less than 0.4 s; its size is the largest value.
+/// Appends a fault for every stretch of at least `min_s` seconds in which `value` is above `limit`; gaps of less than
+/// 0.4 s are bridged. A fault's size is its largest value.
 void AppendRanges(const BodyMotion& motion, const std::vector<double>& value, double limit, double min_s,
                   MotionFault fault, std::vector<MotionFault>& faults) {
   std::vector<bool> is_beyond;
   constexpr double kMaxGap_s = 0.4;
-  int last = -1;  // frame beyond the limit
+  int last = -1;  // the last frame above the limit
   for (const double v : value) {
     const int f = static_cast<int>(is_beyond.size());
     is_beyond.push_back(v > limit);
@@ -58,11 +58,11 @@ bool Shows(std::span<const JointSet> unseen, int frame, std::initializer_list<Ro
 /// The changes of a limb's length, relative to its median.
 struct LengthChanges {
   Role end = kHead;           ///< the limb's far end
-  std::vector<double> share;  ///< change by frame, as a share of the median; 0 in frames that do not count
+  std::vector<double> share;  ///< change by frame, as a share of the median; 0 in ignored frames
   double usual = 0;           ///< median over the frames that show the limb
 };
 
-/// Returns the changes of upper arms, forearms, thighs and shanks. Frames near pops do not count.
+/// Returns the changes of upper arms, forearms, thighs and shanks. Frames near pops are ignored.
 std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span<const JointSet> unseen,
                                              const std::vector<Pop>& pops) {
   constexpr double kMinLength = 0.02;
@@ -96,8 +96,9 @@ std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span
   return all;
 }
 
-/// A limb stretches if its length differs from its median by 3 % in a twentieth of a second or more. One fault covers
-/// all of these frames. Between markers, which skin moves over bones, it must differ by fifteen times the usual.
+/// Appends limbs whose lengths differ from their medians by more than 3 %, in frames that last a twentieth of a second
+/// in all. One fault covers all of these frames. Joints that were found from markers move, because skin moves over
+/// bones; their limbs must differ by fifteen times the usual deviation.
 void FindStretches(const BodyMotion& motion, const FaultOptions& options, const std::vector<Pop>& pops,
                    std::vector<MotionFault>& faults) {
   constexpr int kMinFrames = 3;
@@ -123,7 +124,7 @@ void FindStretches(const BodyMotion& motion, const FaultOptions& options, const 
   }
 }
 
-/// Returns KneeOverextension without toes: the knee is a hinge whose axis is the line of the hips.
+/// Returns KneeOverextension for a leg without toes: the line of the hips serves as the axis of the knee.
 double OverextensionByHips(const BodyPose& pose, Role hip, Role knee, Role ankle) {
   const glm::dvec3 thigh = pose[knee] - pose[hip], shank = pose[ankle] - pose[knee];
   const glm::dvec3 left = UnitOr(pose[kLeftHip] - pose[kRightHip], {1, 0, 0});
@@ -182,7 +183,8 @@ double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
   const glm::dvec3 u = b - a, v = d - c, w = a - c;
   const double uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v), uw = glm::dot(u, w), vw = glm::dot(v, w);
   const double normal = uu * vv - uv * uv;
-  // Take the nearest point of the first line, then of the second segment, then of the first again.
+  // Take the point of the first line nearest to the second line, the point of the second segment nearest to that, and
+  // again the nearest point of the first segment.
   double s = normal > kTiny ? std::clamp((uv * vw - uw * vv) / normal, 0.0, 1.0) : 0;
   const double t = vv > kTiny ? std::clamp((uv * s + vw) / vv, 0.0, 1.0) : 0;
   s = uu > kTiny ? std::clamp((uv * t - uw) / uu, 0.0, 1.0) : 0;

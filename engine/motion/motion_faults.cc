@@ -29,7 +29,7 @@ void AppendDisplacements(const BodyMotion& motion, const Displacements& displace
   }
 }
 
-/// Appends the times in which joints are not shown that other frames show.
+/// Appends the stretches in which joints are not shown, if other frames show these joints.
 void AppendGaps(const BodyMotion& motion, const FaultOptions& options, std::vector<MotionFault>& faults) {
   using fault_limits::kGap_s;
   JointSet always;
@@ -55,7 +55,7 @@ void AppendGaps(const BodyMotion& motion, const FaultOptions& options, std::vect
   }
 }
 
-/// Appends the speed if most frames show a joint that is faster than the feet of sprinters.
+/// Appends a fault if in the median frame a joint is faster than the feet of sprinters.
 void AppendSpeed(const BodyMotion& motion, std::vector<MotionFault>& faults) {
   const double speed = ComputeStatistics(motion).speed_median_m_s;
   if (speed <= fault_limits::kFast_m_s) return;
@@ -75,10 +75,12 @@ std::string GravitySentence(const MotionFault& fault) {
 }
 
 std::string SentenceOf(const MotionFault& fault, bool is_always) {
+  // Prepare the time, the joint and the size, which most sentences contain.
   const std::string when =
       is_always ? "in all frames" : fmt::format("from {:.2f} to {:.2f} s", fault.from_s, fault.to_s);
   const std::string joint(fault.joint ? RoleName(*fault.joint) : "");
   const double cm = 100 * fault.size;
+  // Write the sentence of the fault's kind.
   switch (fault.kind) {
     case kFloats:
       if (is_always) return fmt::format("floats: the feet never touch the floor, and rest {:.0f} cm above it", cm);
@@ -116,7 +118,7 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
 
 std::vector<FaultRule> MakeFaultRules() {
   using namespace fault_limits;
-  // Words that several rules use.
+  // Phrases that several rules use.
   const auto cm = [](double metres) { return fmt::format("{:g} cm", 100 * metres); };
   const auto percent = [](double share) { return fmt::format("{:g} %", 100 * share); };
   const std::string whole_body = fmt::format("{} of the joints, one ankle among them,", percent(kAgreeingShare));
@@ -224,7 +226,7 @@ MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& opti
   const std::size_t count = found.faults.size();
   FindFalls(ground, found.faults);
   if (found.faults.size() == count) AppendSpeed(motion, found.faults);
-  // Date, describe and sort them.
+  // Convert times to the file's time, describe the faults and sort them.
   const double duration = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
   for (MotionFault& fault : found.faults) {
     const bool is_always = fault.from_s <= 0 && fault.to_s >= duration;
@@ -243,7 +245,7 @@ std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults) 
   std::vector<std::string> sentences;
   int left_out = 0;
   for (const MotionFault& fault : faults) {
-    // Distances from the spine are the worse the smaller they are.
+    // A smaller distance from the spine is worse; otherwise a larger size is worse.
     const auto is_worse = [&](const MotionFault& other) {
       if (other.kind != fault.kind || &other == &fault) return false;
       if (other.size == fault.size) return &other < &fault;

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// Ways in which a motion cannot be that of a person, or its file is read wrongly.
+/// Faults that no motion of a real person has. Either the motion is wrong or its file was read wrongly.
 enum class FaultKind {
   kFloats,     ///< the feet rest above the floor; size: height, metres
   kSinks,      ///< the body is below the floor; size: depth, metres
@@ -23,27 +23,27 @@ enum class FaultKind {
   kBends,      ///< a knee bends backwards; size: degrees
   kTorn,       ///< a joint is not where its neighbours have it, or (without a joint) left and right are exchanged;
                ///< size: how far off, metres
-  kGaps,       ///< joints are not shown; size: seconds
+  kGaps,       ///< some frames lack joints that other frames show; size: seconds
   kPasses,     ///< a forearm or a hand passes through trunk or head; size: its distance from the spine's line, metres
-  kRate,       ///< in flight the body falls by another gravity: a wrong rate or unit; size: metres per second²
-  kSpeed,      ///< most frames show a joint faster than people are; size: metres per second
+  kRate,       ///< in flight the body falls with another acceleration than gravity's; size: metres per second²
+  kSpeed,      ///< in the median frame a joint is faster than people are; size: its speed, metres per second
 };
 
-/// What is said of a kind of fault, in the order of FaultKind.
+/// The name, unit and rule of a kind of fault. FaultRules lists them in the order of FaultKind.
 struct FaultRule {
   std::string_view
       name;  ///< "floats", "sinks", "skates", "jumps", "pops", "freezes", "stretches", "bends", "passes", …
-  std::string_view unit;  ///< of its size: "m", "m/s", "s", "share", "deg" or "m/s2"
-  std::string rule;       ///< when a motion shows it, with the thresholds (fault_limits.h)
+  std::string_view unit;  ///< of the fault's size: "m", "m/s", "s", "share", "deg" or "m/s2"
+  std::string rule;       ///< the rule in words, with the thresholds (fault_limits.h)
 };
 const std::vector<FaultRule>& FaultRules();
 std::string_view FaultName(FaultKind kind);
 std::string_view FaultUnit(FaultKind kind);
 
-/// A fault, the time that it takes, and what it looks like.
+/// One fault in a motion.
 struct MotionFault {
   FaultKind kind = FaultKind::kFloats;
-  double from_s = 0, to_s = 0;     ///< its first and its last frame
+  double from_s = 0, to_s = 0;     ///< times of its first and last frame
   std::optional<Role> joint = {};  ///< the joint at fault; a limb is named by its far end; absent: the whole body
   double size = 0;                 ///< unit: FaultKind
   std::string text = {};           ///< a sentence for people: "floats 6 cm from 1.20 to 3.20 s"
@@ -51,31 +51,33 @@ struct MotionFault {
 
 struct MotionFaults {
   double floor_m = 0;           ///< the height of the floor that the motion is judged by
-  bool is_floor_found = false;  ///< the motion is far from height 0, so its floor is the height where its feet rest
+  bool is_floor_found = false;  ///< true if the motion is far from height 0 and its floor is where its feet rest
   std::vector<MotionFault> faults = {};  ///< by kind, then by time
 };
 
-/// How the faults of a motion are sought.
+/// Options of FindMotionFaults.
 struct FaultOptions {
-  std::optional<double> floor_m = {};  ///< the height of the floor; absent: 0, or found
-  double begin_s = 0;                  ///< the time of the first frame, from which faults are dated
-  /// The joints that a frame does not show, because the file lacks them and a reader placed them; empty: none. Nothing
-  /// is said of limbs that end there.
+  std::optional<double> floor_m = {};  ///< the height of the floor; absent: see FindMotionFaults
+  double begin_s = 0;                  ///< the time of the first frame; the times of faults count from it
+  /// For each frame, the joints that it does not show, because the file lacks them and a reader guessed their
+  /// positions; empty: all joints are shown. Limbs that end at such joints are not judged.
   std::vector<JointSet> unseen = {};
-  double lost_before_s = 0, lost_after_s = 0;  ///< time of the file before and behind the motion, which joints lack
-  bool is_of_markers = false;  ///< its joints were found from markers on the skin, so limbs need not keep their lengths
+  double lost_before_s = 0, lost_after_s = 0;  ///< time of the file before and after the motion, without needed joints
+  bool is_of_markers = false;  ///< true: joints were found from markers on the skin, so the lengths of limbs may change
 };
 
-/// The fewest frames in which faults are sought.
+/// Shorter motions are not judged.
 constexpr std::size_t kMinFramesForFaults = 8;
 
-/// Finds the faults of a motion without a truth, in metres, Y up, at its own rate (resampling hides frames that are
-/// displaced or repeated). *(Ours.)* The floor is `floor_m`, else height 0; a motion whose lowest joint stays more than
-/// 60 cm from 0 has no floor at 0, and the height at which its feet rest is used. FaultRules states the rules.
-/// Fewer than kMinFramesForFaults frames show no fault. All positions must be finite.
+/// Finds the faults of a motion without knowing its true motion; the method is our own. FaultRules states the rules.
+/// The motion is in metres, Y up, with finite positions, and at its own rate, because resampling hides displaced or
+/// repeated frames. The floor is at `floor_m`, or at height 0 without `floor_m`. But without `floor_m`, if the 5th
+/// percentile of the lowest joint's height is more than 60 cm from 0, the floor is found from the height at which the
+/// feet rest. A motion of fewer than kMinFramesForFaults frames returns no faults.
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options = {});
 
-/// Returns the sentences of the faults, of each kind the three largest; a last one counts the others.
+/// Returns the sentences of the three largest faults of each kind. One more sentence counts the faults left out, if
+/// any.
 std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults);
 
 }  // namespace etude

@@ -8,19 +8,20 @@
 
 namespace etude {
 
-/// The body as a linear inverted pendulum (Kajita et al. 2001): a mass that stays at its height above the joints that
-/// bear it.
+/// Models the body as a linear inverted pendulum (Kajita et al. 2001): a mass that keeps its height above the joints
+/// that bear it.
 
-/// Returns the acceleration of a mass centre in frame `frame`, metres per second²: its second difference over a tenth
-/// of a second in each direction, or that of the nearest frame that has both neighbours. 0 in a shorter motion.
+/// Returns the acceleration of the mass centre in frame `frame`, metres per second²: the second difference over a tenth
+/// of a second in each direction. Near the ends, the nearest frame with both neighbours is used. Returns 0 if the
+/// motion is too short.
 glm::dvec3 AccelerationAt(std::span<const glm::dvec3> centres, int frame, double rate_hz);
 
-/// Returns the zero-moment point (x, z): where the ground bears the body of which `centres` holds the mass centre in
-/// every frame. `ground` is the height of the floor there.
+/// Returns the zero-moment point (x, z), metres: the point of the ground in which the ground's force on the body has no
+/// horizontal moment. `centres` holds the mass centre in every frame; `ground` is the height of the floor.
 glm::dvec2 ZeroMomentPoint(std::span<const glm::dvec3> centres, int frame, double rate_hz, double ground);
 
-/// Returns the distance, seen from above, from the zero-moment point to the joints that bear the body, metres; nothing
-/// without such joints. `centres` holds the mass centre in every frame, `pose` is that of frame `frame`.
+/// Returns the horizontal distance from the zero-moment point to the joints that bear the body, metres; nullopt without
+/// such joints. `centres` holds the mass centre in every frame; `pose` is the pose in frame `frame`.
 std::optional<double> ZeroMomentOffset(std::span<const glm::dvec3> centres, int frame, double rate_hz,
                                        const BodyPose& pose, const JointSet& bears);
 

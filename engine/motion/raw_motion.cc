@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-constexpr double kSameFrame = 1e-6;  // of a frame; times of equal rates meet frames up to rounding
+constexpr double kSameFrame = 1e-6;  // of a frame; tolerates rounding where both rates are equal
 
 bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
@@ -27,7 +27,7 @@ void AddMidwayHips(RawMotion& raw) {
   const int left = raw.roles[Index(Role::kLeftHip)], right = raw.roles[Index(Role::kRightHip)];
   if (left < 0 || right < 0) return;
   const std::size_t joints = raw.joints.size(), frames = raw.FrameCount();
-  // Copy each frame with one joint more.
+  // Copy each frame and add the new joint.
   std::vector<glm::dvec3> positions;
   positions.reserve(frames * (joints + 1));
   std::vector<glm::dquat> rotations;
@@ -68,7 +68,7 @@ RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::
   if (!motion.rotations.empty()) sampled.rotations.assign(count * joints, glm::dquat(1, 0, 0, 0));
   if (!motion.contacts.empty()) sampled.contacts.assign(count * kFootContacts, false);
   for (std::size_t i = 0; i < count; ++i) {
-    // The two frames around this time.
+    // Find the two frames around this time.
     double at = (start_s + static_cast<double>(i) / rate_hz) * motion.rate_hz;
     if (std::abs(at - std::round(at)) < kSameFrame) at = std::round(at);
     if (at < 0 || at > static_cast<double>(frames) - 1) continue;

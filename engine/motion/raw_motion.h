@@ -13,16 +13,16 @@
 
 namespace etude {
 
-/// The columns of RawMotion::contacts.
+/// The number of columns of RawMotion::contacts.
 constexpr std::size_t kFootContacts = 4;
 
 /// A motion as its file has it: all joints, the file's own rate and floor. Only its unit and its up axis are converted,
 /// to metres and Y up.
 struct RawMotion {
-  std::string name;  ///< the reference it was read from
+  std::string name;  ///< the name under which the file was requested
   double rate_hz = 30;
   std::vector<std::string> joints;  ///< names
-  /// The joints that the file does not name: BVH's End Sites, and the hip centre that its reader adds.
+  /// Indices of joints that the file does not name: BVH's End Sites, and the hip centre that its reader adds.
   std::vector<int> added;
   std::vector<int> parents;         ///< of the joints; −1: a root; empty: the file has points, not a skeleton
   std::array<int, kRoleCount> roles = NoRoles();  ///< the joint that plays each role, by Index(role); −1: none
@@ -31,14 +31,15 @@ struct RawMotion {
   /// The file's rest pose: each joint's position and global rotation; both are empty if `rotations` is.
   std::vector<glm::dvec3> rest_positions;
   std::vector<glm::dquat> rest_rotations;
-  /// What the file says of contacts with the floor, frames × 4: left heel, left toes, right heel, right toes; empty: it
-  /// says nothing.
+  /// The file's labels of contacts with the floor, frames × 4: left heel, left toes, right heel, right toes. Empty if
+  /// the file has no such labels.
   std::vector<bool> contacts;
-  std::vector<std::string> notes;  ///< what its reader converted or guessed, a sentence each
+  std::vector<std::string> notes;  ///< one sentence for each conversion or guess of the reader
 
   std::size_t FrameCount() const { return joints.empty() ? 0 : positions.size() / joints.size(); }
   const glm::dvec3& At(std::size_t frame, std::size_t joint) const { return positions[frame * joints.size() + joint]; }
-  /// Returns the joint that plays a role of this name, else the joint of that name (case is ignored), else −1.
+  /// Returns the index of the joint that plays the role named `joint`, otherwise of the joint with that name (case is
+  /// ignored), otherwise −1.
   int Find(std::string_view joint) const;
 
   static constexpr std::array<int, kRoleCount> NoRoles() {
@@ -48,7 +49,7 @@ struct RawMotion {
   }
 };
 
-/// The name of the joint that is added where no joint of a file plays the hip centre.
+/// The name of the joint that AddMidwayHips adds.
 constexpr const char* kMidwayHips = "(midway between the hips)";
 
 /// Appends a joint midway between the hips, which then plays the hip centre. It gets the orientation of the joint that
@@ -57,15 +58,15 @@ void AddMidwayHips(RawMotion& motion);
 /// Returns true if a joint of the file itself plays the hip centre.
 bool HasOwnRoot(const RawMotion& motion);
 
-/// A position that was not seen.
+/// Returns the position that stands for "not seen": three NaNs.
 glm::dvec3 NotSeen();
 inline bool IsSeen(const glm::dvec3& position) { return position.x == position.x; }
 
-/// Returns `count` frames of a motion at `rate_hz`, the first `start_s` after its first frame; times before the first
-/// frame or after the last are not seen. A time within a millionth of a frame of one of the motion's frames takes that
-/// frame unchanged. Between frames, positions are interpolated linearly and rotations by slerp, and contacts are those
-/// of the nearer frame; a joint that one of the two frames does not show is not seen. No filter is applied, not even
-/// where frames are left out.
+/// Returns `count` frames of a motion, sampled at `rate_hz` from `start_s` after its first frame. A time within a
+/// millionth of a frame of an original frame returns that frame unchanged. Between frames, positions are interpolated
+/// linearly and rotations by slerp, and contacts are taken from the nearer frame. A joint is not seen if one of the two
+/// frames does not show it, or if the time is before the first frame or after the last. No low-pass filter is applied,
+/// not even at lower rates.
 RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::size_t count);
 
 }  // namespace etude

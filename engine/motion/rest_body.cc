@@ -7,7 +7,7 @@ namespace {
 
 using enum Role;
 
-// Returns a limb's name: that of the joint about which it rotates, unless several limbs share it.
+// Returns a limb's name: the name of the joint about which it rotates, unless several limbs share that joint.
 std::string NameOfLimbTo(const Bone& bone) {
   if (bone.child == kSpine) return "lower_back";
   if (bone.child == kLeftShoulder) return "left_collar";

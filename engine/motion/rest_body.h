@@ -10,12 +10,12 @@
 
 namespace etude {
 
-/// Returns the direction, at rest, of the limb that ends in a joint. At rest a person stands with hanging arms and
-/// faces +Z; the left hip and shoulder point to +X.
+/// Returns the unit direction, at rest, of the limb that ends in joint `child`. At rest a person stands with hanging
+/// arms and faces +Z; the left hip and shoulder point to +X.
 glm::dvec3 DirectionAtRest(Role child);
 
-/// One person's body as measured before a take: its joints in a rest pose, metres, Y up, facing +Z. It contains the
-/// distances of joints but not how they rotate.
+/// One person's body as measured before a take: its joints in a rest pose, metres, Y up, facing +Z. The joints' axes of
+/// rotation are not part of it.
 struct RestBody {
   struct Joint {
     std::string name;

@@ -15,10 +15,10 @@ int FramesIn(const GroundView& ground, double seconds, int least) {
   return std::max(static_cast<int>(std::lround(seconds * ground.motion().rate_hz)), least);
 }
 
-constexpr double kStep_s = 1.0 / 15;  ///< time between the windows in which the feet are judged
+constexpr double kStep_s = 1.0 / 15;  ///< time between two windows
 
-/// Returns the velocities along the floor of the feet's joints that may stand: low ones that do not rise or
-/// fall, while the body is on its feet.
+/// Returns the velocities along the floor, metres per second, of foot joints that may be in stance: joints near their
+/// rest height that do not rise or fall, while the body is on its feet. Uses every n-th frame, n = `every`.
 std::vector<glm::dvec2> FootVelocities(const GroundView& ground, const FrameRange& span, int every) {
   constexpr double kLow = 0.04, kLevel = 0.3;
   std::vector<glm::dvec2> velocities;
@@ -33,22 +33,22 @@ std::vector<glm::dvec2> FootVelocities(const GroundView& ground, const FrameRang
   return velocities;
 }
 
-/// A velocity along the floor, of standing feet around a frame.
+/// The common velocity along the floor of feet in stance, in a window around a frame.
 struct Glide {
   int frame = 0;
   glm::dvec2 velocity{0};
 };
 
-/// When the feet around a frame glide: the window, and the shares of their joints that may stand.
+/// The rule for a glide: the length of the window, and limits for shares of the velocities in it.
 struct GlideRule {
   double half_s = 0;     ///< half of the window
-  double min_share = 0;  ///< that move alike
-  double max_rest = 0;   ///< that rest
+  double min_share = 0;  ///< minimum share of velocities that are alike
+  double max_rest = 0;   ///< maximum share of velocities near 0
 };
 constexpr GlideRule kShort{0.3, 0.45, 0.12}, kLong{0.6, 0.4, 0.06};
 
-/// Returns the most frequent velocity of the feet around a frame if it is that of a body that is carried along: it is
-/// shared by almost half of the joints that may stand, and few of them rest.
+/// Returns the most frequent velocity of the feet around a frame if the body is carried along: enough foot joints share
+/// the velocity, and few rest (GlideRule).
 std::optional<Glide> GlideAround(const GroundView& ground, int frame, const GlideRule& rule) {
   constexpr double kEvery_s = 1.0 / 30, kMinSpeed = 0.11, kRest = 0.35;
   constexpr double kNear = 0.07, kNearShare = 0.12;
@@ -57,10 +57,10 @@ std::optional<Glide> GlideAround(const GroundView& ground, int frame, const Glid
   const FrameRange window{std::max(frame - half, 0), std::min(frame + half, last)};
   const auto all = FootVelocities(ground, window, FramesIn(ground, kEvery_s, 1));
   if (all.size() < kMinVelocities) return std::nullopt;
-  // Most feet that may stand rest: the search for their velocity would be in vain.
+  // If too many feet rest, stop: the search below is quadratic and would find nothing.
   const auto still = std::ranges::count_if(all, [](const glm::dvec2& v) { return glm::length(v) < kNear; });
   if (static_cast<double>(still) > rule.max_rest * static_cast<double>(all.size())) return std::nullopt;
-  // Find the velocity with the most neighbours, and their mean.
+  // Find the velocity with the most neighbours, and average its neighbours.
   const auto near = [&](const glm::dvec2& v) {
     const double radius = std::max(kNear, kNearShare * glm::length(v));
     return [v, radius](const glm::dvec2& other) { return glm::distance(v, other) < radius; };
@@ -85,15 +85,15 @@ std::optional<Glide> GlideAround(const GroundView& ground, int frame, const Glid
   return Glide{frame, mean};
 }
 
-/// Appends the skating that these glides show, if it lasts.
+/// Appends a skate from the first to the last of `glides` if it lasts long enough.
 void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std::vector<MotionFault>& faults) {
   constexpr double kMargin_s = 0.15, kMinShare = 0.25, kShare = 0.1;
-  // The window of the first glide reaches beyond the skating.
+  // Each glide's window extends beyond its frame, so extend the skate by a part of the window.
   const int margin = FramesIn(ground, kMargin_s, 0), step = FramesIn(ground, kStep_s, 1), end = ground.frames() - 1;
   const int first = glides.front().frame <= step ? 0 : std::max(glides.front().frame - margin, 0);
   const int last = glides.back().frame >= end - step ? end : std::min(glides.back().frame + margin, end);
   if ((last - first) / ground.motion().rate_hz < fault_limits::kGlide_s) return;
-  // Start from the median glide, and narrow down to the feet's most frequent velocity.
+  // Start from the median glide, and refine it to the feet's most frequent velocity (mean shift).
   std::vector<double> x, z;
   for (const Glide& glide : glides) {
     x.push_back(glide.velocity.x);
@@ -120,7 +120,7 @@ void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std
   faults.push_back(ground.FaultOf(FaultKind::kSkates, {first, last}, glm::length(velocity)));
 }
 
-/// Returns true if more of the feet that may stand move with about this velocity than rest.
+/// Returns true if, among the foot joints that may be in stance, more move at about `velocity` than rest.
 bool Carries(const GroundView& ground, const FrameRange& span, const glm::dvec2& velocity) {
   constexpr double kNear = 0.07, kNearShare = 0.3, kRest = 0.5;
   const double near = std::max(kNear, kNearShare * glm::length(velocity));
@@ -133,7 +133,8 @@ bool Carries(const GroundView& ground, const FrameRange& span, const glm::dvec2&
   return carried > resting;
 }
 
-/// Appends the skates that begin and end with a step of the body's velocity, and returns their frames.
+/// Appends the skates that begin with a step of the body's velocity and end with the opposite step. Returns the frames
+/// within these skates.
 std::vector<bool> FindCarried(const GroundView& ground, std::vector<MotionFault>& faults) {
   constexpr double kAlike = 0.3, kAlike_m_s = 0.03;
   std::vector<bool> is_carried(ground.frames());
@@ -154,8 +155,8 @@ std::vector<bool> FindCarried(const GroundView& ground, std::vector<MotionFault>
   return is_carried;
 }
 
-/// Appends the times in which one foot glides while it rests on the floor, and no skate was found. Toes and ankle move
-/// alike, for a long time or at one velocity.
+/// Appends the stretches in which one foot glides over the floor: its toes and ankle are low and move alike, for a long
+/// time or at constant velocity. Stretches within known skates are skipped.
 void FindFootSkates(const GroundView& ground, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
   constexpr double kLow = 0.04, kLevel = 0.3, kMinSpeed = 0.14, kNear = 0.07, kNearShare = 0.2;
   constexpr double kConstant = 0.15;
@@ -163,7 +164,7 @@ void FindFootSkates(const GroundView& ground, std::span<const JointSet> unseen, 
   const double rate = ground.motion().rate_hz;
   for (const auto& [ankle, toes] :
        {std::pair(Role::kLeftAnkle, Role::kLeftFoot), {Role::kRightAnkle, Role::kRightFoot}}) {
-    // Find the frames in which the foot glides, and its velocities.
+    // Find the frames in which the foot glides, and its velocity in each.
     std::vector<bool> glides(ground.frames());
     std::vector<glm::dvec2> velocities(ground.frames());
     for (int f = 0; f < ground.frames(); ++f) {
@@ -212,7 +213,7 @@ void FindSkates(const GroundView& ground, std::span<const JointSet> unseen, std:
     const auto to = is_carried.begin() + std::min(frame + near + 1, ground.frames());
     return std::find(from, to, true) != to;
   };
-  // Join glides of nearly the same velocity; feet may leave the floor between them.
+  // Join consecutive glides of nearly the same velocity; in between, feet may leave the floor.
   std::vector<Glide> glides;
   for (int f = 0; f < ground.frames(); f += step) {
     if (is_near_carried(f)) continue;

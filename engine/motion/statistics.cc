@@ -64,7 +64,7 @@ double Stature(const BodyPose& pose) {
     }
     return length;
   };
-  // The parts below the ankles and above the head joint are 4 to 12 % of the stature in our files.
+  // In our files, the parts below the ankles and above the head joint are 4 to 12 % of the stature.
   constexpr double kMeasuredShare = 0.92;
   const double left_leg = way({kLeftAnkle, kLeftKnee, kLeftHip});
   const double right_leg = way({kRightAnkle, kRightKnee, kRightHip});
@@ -89,7 +89,7 @@ FootSlide MeasureFootSlide(const BodyMotion& motion) {
   constexpr Role kFeet[2][2] = {{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}};
   const std::vector<BodyPose> velocities = JointVelocities(motion.poses, motion.rate_hz);
   const std::vector<Bearing> bearing = FindBearing(motion.poses, motion.rate_hz, kFootRules);
-  // Estimate the floor.
+  // Estimate the height of the floor.
   std::vector<double> lowest;
   for (const BodyPose& pose : motion.poses) {
     lowest.push_back(std::ranges::min(pose.joints, {}, [](const glm::dvec3& joint) { return joint.y; }).y);
@@ -114,7 +114,7 @@ FootSlide MeasureFootSlide(const BodyMotion& motion) {
       ++stances[side];
     }
   }
-  // Average for each foot and for both.
+  // Average over the frames, for each foot and for both.
   for (std::size_t side = 0; side < 2; ++side) {
     if (stances[side] > 0) slide.of_foot[side] = sum[side] / stances[side];
     slide.stance_share[side] = stances[side] / static_cast<double>(motion.poses.size());

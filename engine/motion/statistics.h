@@ -7,12 +7,12 @@
 
 namespace etude {
 
-/// Returns the stature of a pose in its own unit: the length along the limbs from the ankles over knees, hips, spine
-/// and neck to the head (mean of both legs), divided by 0.92, the share of the stature that it covers.
+/// Returns the stature of a pose in the pose's unit: the length along the limbs from the ankles over knees, hips, spine
+/// and neck to the head (mean of both legs), divided by 0.92. These limbs cover about 92 % of the stature.
 double Stature(const BodyPose& pose);
 
-/// Returns the height of a pose's lowest joint, because people also lie and sit. Finger tips are left out, because rigs
-/// place them inaccurately.
+/// Returns the height of a pose's lowest joint; this need not be a foot, because people also lie and sit. Finger tips
+/// are left out, because rigs place them inaccurately.
 double LowestHeight(const BodyPose& pose);
 
 /// The horizontal speeds of feet in stance, metres per second; nullopt if no foot ever stands.
@@ -24,22 +24,22 @@ struct FootSlide {
 
 /// Measures foot sliding. A foot is in stance if FindBearing by kFootRules finds its toes or its ankle at rest. If no
 /// joint of the body is at rest in a frame, the lowest joints of the feet count as in stance, unless they are more than
-/// SupportRules::height above the floor. So glides and treadmills count as sliding, and jumps do not. The floor is the
-/// lower quartile of the height of the body's lowest joint, because neither a single low frame nor a jump changes it. A
-/// foot's speed is that of its slower joint in stance, so a rolling foot is not counted as sliding. Velocities are
-/// those of JointVelocities.
+/// SupportRules::height above the floor. Glides and treadmills therefore count as sliding, and jumps do not. The floor
+/// is the lower quartile of the height of the body's lowest joint: neither a single low frame nor a jump changes the
+/// quartile. The speed of a foot is the speed of its slower joint in stance, so a rolling foot is not counted as
+/// sliding. Velocities are computed by JointVelocities.
 FootSlide MeasureFootSlide(const BodyMotion& motion);
 
 /// Summary measures of a motion, in metres and seconds.
 struct MotionStatistics {
   double stature_m = 0;         ///< median over the frames (Stature)
   double travelled_m = 0;       ///< distance covered by the hip centre along the floor
-  double speed_median_m_s = 0;  ///< of the fastest joint in each frame
+  double speed_median_m_s = 0;  ///< median over the frames of the fastest joint's speed
   double speed_p95_m_s = 0;
   double speed_peak_m_s = 0;
-  Role fastest = Role::kHead;  ///< the joint of the peak
+  Role fastest = Role::kHead;  ///< the joint with the highest speed
   FootSlide foot_slide;        ///< MeasureFootSlide
-  double lowest_foot_m = 0;    ///< lowest ankle or toe of either foot over the clip; near 0 for a clip on the floor
+  double lowest_foot_m = 0;    ///< lowest height of an ankle or toe over the clip; near 0 for a clip on the floor
 };
 
 /// Measures a motion of at least one frame; for one frame all speeds are 0. A speed is the distance from one frame to

@@ -10,7 +10,7 @@ namespace etude {
 
 namespace {
 
-/// Returns JointVelocities of one frame.
+/// Returns the velocities of all joints in one frame, as JointVelocities defines them.
 BodyPose VelocityAt(std::span<const BodyPose> poses, int frame, double rate_hz) {
   const int before = std::max(frame - 1, 0), after = std::min(frame + 1, static_cast<int>(poses.size()) - 1);
   BodyPose velocity;
@@ -34,9 +34,9 @@ namespace {
 
 double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
 
-/// For each frame, returns true if the mass centre falls with SupportRules::min_fall or more. The acceleration is the
-/// second difference over a tenth of a second in each direction; near the clip's ends, that of the nearest frame for
-/// which it exists.
+/// For each frame, returns true if the mass centre accelerates downwards by SupportRules::min_fall or more. The
+/// acceleration is the second difference over a tenth of a second in each direction. Near the clip's ends, the nearest
+/// frame with both neighbours is used.
 std::vector<bool> FallingFrames(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
   constexpr double kReach_s = 0.1;
   const int reach = std::max(static_cast<int>(std::lround(kReach_s * rate_hz)), 1);
@@ -72,7 +72,7 @@ Bearing BearingOf(const BodyPose& pose, const BodyPose& velocity, bool falls, co
 }
 
 /// Returns true if the mass centre is in free flight from frame `first` to `last`: a parabola fits its height, and its
-/// acceleration is that of a fall.
+/// downward acceleration is near gravity's.
 bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rate_hz, const SupportRules& rules) {
   constexpr int kMinFrames = 5;
   if (last - first + 1 < kMinFrames) return false;
@@ -82,13 +82,14 @@ bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rat
   return rules.min_fall <= fit.fall && fit.fall <= rules.max_fall && fit.stray <= rules.flight_stray;
 }
 
-/// Removes raised feet from what bears a clip: an ankle whose heel is up while its toes bear, and toes high above the
-/// lowest joint. (Both may be slow enough to rest.) A frame in which nothing else bears the body keeps what it has.
+/// Removes raised feet from the joints that bear a clip: an ankle whose heel is up while its toes bear, and toes high
+/// above the lowest joint. (Both may be slow enough to count as at rest.) If no other joint bears the body in a frame,
+/// the frame is not changed.
 void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules, std::vector<Bearing>& bearing) {
   using enum Role;
   for (const auto& [ankle, foot] : {std::pair{kLeftAnkle, kLeftFoot}, std::pair{kRightAnkle, kRightFoot}}) {
     const auto rise = [&](std::size_t f) { return poses[f][ankle].y - poses[f][foot].y; };
-    // A foot is flat where its ankle is least above its toes, while both rest.
+    // A foot is flat in the frame in which its ankle is lowest relative to its toes, while both rest.
     double flat = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < poses.size(); ++f) {
       if (bearing[f].rests[Index(ankle)] && bearing[f].rests[Index(foot)]) flat = std::min(flat, rise(f));
@@ -106,7 +107,7 @@ void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules
   }
 }
 
-// Marks each run of frames without support that is a flight.
+// Marks each stretch of frames without support that is a flight.
 void MarkFlights(std::span<const BodyPose> shown, int first, double rate_hz, const SupportRules& rules,
                  std::vector<Support>& support) {
   const auto by_nothing = [](const Support& s) { return !s.Holds(); };
@@ -141,7 +142,7 @@ FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz) {
   return contacts;
 }
 
-/// A clip that is analysed once and then queried for the support of shown frames.
+/// Analyses a clip once; then returns the support that the clip gives in shown frames.
 class SupportFinder::ClipSupport {
  public:
   ClipSupport(const SupportingClip& clip, double rate_hz, const SupportRules& rules)
@@ -174,7 +175,8 @@ class SupportFinder::ClipSupport {
   int LastFrame() const { return static_cast<int>(clip_.poses.size()) - 1; }
   double Height(int frame, std::size_t j) const { return clip_.poses[frame].joints[j].y; }
 
-  // Returns true if the joint moves like one that bears the clip at that time.
+  // Returns true if the joint moves like the clip's joint, while that one bears the clip in this frame or a
+  // neighbouring one.
   bool Follows(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
     const int now = frame - clip_.begin;
     for (int f = std::max(now - 1, 0); f <= std::min(now + 1, LastFrame()); ++f) {
@@ -186,7 +188,7 @@ class SupportFinder::ClipSupport {
     return false;
   }
 
-  // Returns true if the joint is at rest at a height at which the clip's joint rests.
+  // Returns true if the joint is at rest at a height at which the clip's joint also rests.
   bool RestsAsHere(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
     if (glm::length(velocity.joints[j]) > rules_.rest_speed) return false;
     const double height = pose.joints[j].y;
@@ -194,17 +196,17 @@ class SupportFinder::ClipSupport {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       // A joint that has sunk into the floor is also supported.
       if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
-      // A height is not a surface if a joint of this clip also rests a little below it, as toes rest below a bearing
-      // heel.
+      // A height is a separate surface only if the clip's joint does not also rest a little below it. (The toes rest a
+      // little below a bearing heel.)
       const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
       if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
     }
     return false;
   }
 
-  /// Returns the heights, ascending, at which the clip's joint rests near a shown frame, or near the clip's first or
-  /// last frame outside of the clip. For a joint that never rests (walking on the spot), returns the lowest height at
-  /// which it bears.
+  /// Returns the heights, ascending, at which the clip's joint rests near frame `frame`; before and after the clip,
+  /// near the clip's first or last frame. For a joint that never rests (walking on the spot), returns the lowest height
+  /// at which the joint bears the body.
   std::vector<double> HeightsOfRest(int frame, std::size_t j) const {
     const int from = std::min(frame, clip_.left_at) - window_ - clip_.begin, to = frame + window_ - clip_.begin;
     std::vector<double> heights;
@@ -222,7 +224,7 @@ class SupportFinder::ClipSupport {
   std::vector<BodyPose> velocities_;
   std::vector<Bearing> bearing_;
   JointSet ever_bear_, ever_rest_;           // a joint that rests is in both sets
-  std::array<double, kRoleCount> lowest_{};  // lowest height at which each joint bears
+  std::array<double, kRoleCount> lowest_{};  // the lowest height at which each joint bears the body
 };
 
 SupportFinder::SupportFinder(std::span<const SupportingClip> clips, double rate_hz, const SupportRules& rules)
@@ -235,7 +237,7 @@ SupportFinder::~SupportFinder() = default;
 std::vector<Support> SupportFinder::Find(std::span<const BodyPose> shown, int first, int last) const {
   assert(0 <= first && last < static_cast<int>(shown.size()));
   std::vector<Support> support;
-  // Follow a flight at the end until it lands.
+  // A flight may continue after frame `last`: follow it until it lands.
   const auto goes_on = [&](int frame) {
     return frame <= last || (!support.back().Holds() && frame < static_cast<int>(shown.size()));
   };
@@ -260,7 +262,7 @@ glm::dvec3 MassCentre(const BodyPose& pose) {
   using enum Role;
   struct Segment {
     Role from, to;
-    double mass, centre;  // share of the body's mass; position on the way from `from` to `to`
+    double mass, centre;  // share of the body's mass; position between `from` (0) and `to` (1)
   };
   static constexpr std::array kMiddle = {Segment{kShoulderCentre, kHead, 0.081, 1.0},
                                          Segment{kShoulderCentre, kHipCentre, 0.497, 0.5}};
@@ -286,13 +288,13 @@ std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints
 }
 
 std::optional<double> OffsetFromJoints(const glm::dvec2& point, const BodyPose& pose, const JointSet& joints) {
-  std::vector<glm::dvec2> points;  // relative to the given one
+  std::vector<glm::dvec2> points;  // relative to `point`
   for (std::size_t j = 0; j < kRoleCount; ++j) {
     if (joints[j]) points.push_back(glm::dvec2(pose.joints[j].x, pose.joints[j].z) - point);
   }
   if (points.empty()) return std::nullopt;
-  // The hull contains the origin unless, for some vertex, all points lie to the left as seen from the origin. If it
-  // does not, its nearest point is on a line between two of the points.
+  // The hull does not contain the origin if, as seen from the origin, all points lie to the left of some vertex. Its
+  // nearest point is then on a line segment between two of the points.
   bool holds = true;
   double nearest = glm::length(points.front());
   for (const glm::dvec2& a : points) {

@@ -15,28 +15,29 @@ namespace etude {
 /// A set of joints, by role.
 using JointSet = std::bitset<kRoleCount>;
 
-/// The rules by which joints support a body, without an assumed floor. Metres, seconds. Ours; tuned on a hundred
-/// requests to each of ten libraries (built-in moves, captures, cartoons) and evaluated on two hundred others.
+/// Rules that decide which joints support a body, without an assumed floor; metres, seconds. The rules are our own.
+/// Their values were tuned on a hundred requests to each of ten libraries (built-in moves, captures, cartoons) and
+/// evaluated on two hundred others.
 struct SupportRules {
   double lowest = 0.12;       ///< a joint may bear the body if it is at most this high above the lowest joint
-  double rest_speed = 0.5;    ///< a joint is at rest up to this speed: feet roll, and takes are noisy
-  double height = 0.025;      ///< allowed height of a shown joint above the clip's own joint at rest
-  double heel = 0.03;         ///< a clip's ankle this much higher above its toes than in a flat foot is no support
-  double toes = 0.05;         ///< a clip's toes higher than this above its lowest joint are none
+  double rest_speed = 0.5;    ///< a joint is at rest up to this speed (feet roll, and captures are noisy)
+  double height = 0.025;      ///< maximum height of a shown joint above the clip's joint at rest
+  double heel = 0.03;         ///< a clip's ankle this much higher above its toes than in a flat foot does not support
+  double toes = 0.05;         ///< a clip's toes do not support if they are higher than this above its lowest joint
   double level = 0.12;        ///< heights of rest farther apart than this are two surfaces: a floor and a step
   double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame
-  /// A body without support is in flight if the vertical acceleration of its mass centre is in this band, metres per
-  /// second², and if its height deviates from a parabola by at most `flight_stray` (root mean square).
+  /// A body without support is in flight if the downward acceleration of its mass centre is in this range, metres per
+  /// second², and if the height deviates from a parabola by at most `flight_stray` (root mean square).
   double min_fall = 6.5, max_fall = 13;
   double flight_stray = 0.008;
 };
 
 /// The joints that support a body in one frame of a clip.
 struct Bearing {
-  JointSet rests;  ///< lowest joints that are at rest; none while the mass centre falls (min_fall)
-  /// Equals `rests` unless that is empty (a jump, walking on the spot, a skating foot). Then it contains all of the
-  /// lowest joints, because the clip itself shows them as support. Joints that glide are left out: those that move over
-  /// the floor faster than SupportRules::rest_speed and faster than three times their speed relative to the hips.
+  JointSet rests;  ///< lowest joints that are at rest; none while the mass centre falls (SupportRules::min_fall)
+  /// Equals `rests` unless `rests` is empty (a jump, walking on the spot, a skating foot). Then it contains all of the
+  /// lowest joints, because the clip itself shows them as support, without gliding joints. A joint glides if it moves
+  /// over the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the hips.
   JointSet bears;
 };
 
@@ -48,40 +49,39 @@ std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double ra
 /// the body.
 std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules = {});
 
-/// The rules for a foot in stance. They are stricter than those for support, so that contacts are unambiguous.
+/// The rules for a foot in stance. They are stricter than the default rules, so that contacts are unambiguous.
 constexpr SupportRules kFootRules{.lowest = 0.06, .rest_speed = 0.3};
-/// For each foot (in the order of Side), true in every frame in which its toes or its ankle bear the body by
-/// kFootRules.
+/// For each foot (in the order of Side) and frame: true if toes or ankle bear the body by kFootRules.
 using FootContacts = std::array<std::vector<bool>, 2>;
 FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 
-/// A clip that shows where a body may be supported while the clip is played.
+/// A played clip, and when it was played. It shows where a body may be supported.
 struct SupportingClip {
-  std::span<const BodyPose> poses;  ///< positioned on the floor as shown
-  int begin = 0;                    ///< index of the shown frame of poses[0]; may be outside of the requested frames
-  /// The last shown frame that belonged to the clip. The body may still be supported later where the clip supports it
-  /// in that frame. Default: the clip is not left.
+  std::span<const BodyPose> poses;  ///< poses of the clip, moved on the floor to where the clip is shown
+  int begin = 0;                    ///< the shown frame of poses[0]; may be outside of the requested frames
+  /// The last shown frame of the clip. In later frames, the places at which the clip supports the body in this frame
+  /// still support it. The default means that the clip is never left.
   int left_at = std::numeric_limits<int>::max();
 };
 
 /// The joints that support a body in a shown frame.
 struct Support {
-  JointSet joints;      ///< those that rest where a clip's joints rest, or move as they do
+  JointSet joints;      ///< joints at rest where the same joint of a clip rests, or moving as in a clip
   bool flight = false;  ///< the body is in flight and needs no support
 
   bool Holds() const { return joints.any() || flight; }
 };
 
-/// Finds what supports a body where clips are shown. Only the clips define possible support, so a floating motion
-/// cannot become its own floor. A raised heel, or a foot in the air, is no such support while anything else bears the
-/// clip (SupportRules::heel, toes). A joint supports the body
-/// - if it is at rest where the same joint of a clip rests near that time: at most SupportRules::height above the
-///   lowest of these positions and at most SupportRules::level below it, or within `height` of a higher surface; or
+/// Finds the joints that support a body while clips are shown. Only the clips define possible support, so a floating
+/// motion cannot become its own floor. A raised heel or a raised foot of the clip defines no support while another
+/// joint bears the clip (SupportRules::heel, toes). A joint supports the body
+/// - if it is at rest where the same joint of a clip rests near that time: at most SupportRules::height above and at
+///   most SupportRules::level below the lowest such height, or within `height` of a higher surface; or
 /// - if it moves like a joint that bears the clip in that frame or a neighbouring one: its height differs by at most
 ///   SupportRules::height, its velocity by at most SupportRules::rest_speed.
-/// Consecutive frames without support are a flight if the body is supported in the frames before and after them (it
-/// takes off and lands), and if the mass centre falls as SupportRules states over these frames, or over these and the
-/// two neighbouring ones, at least five frames in all.
+/// Consecutive frames without support are a flight if the body is supported just before and just after them, and if the
+/// mass centre falls as SupportRules states over these frames, or over these and the two neighbouring ones. A flight is
+/// judged over at least five frames.
 class SupportFinder {
  public:
   /// The clips' poses must outlive this object.
@@ -90,7 +90,7 @@ class SupportFinder {
   SupportFinder(const SupportFinder&) = delete;
   SupportFinder& operator=(const SupportFinder&) = delete;
 
-  /// Returns the support of the body in the frames `first` … `last` of `shown`; both must be within it.
+  /// Returns the support of the body in the frames `first` … `last` of `shown`; both must be valid indices.
   std::vector<Support> Find(std::span<const BodyPose> shown, int first, int last) const;
 
  private:
@@ -100,19 +100,19 @@ class SupportFinder {
   std::vector<ClipSupport> clip_supports_;
 };
 
-/// Does the same as SupportFinder::Find, for clips that are used once.
+/// Does the same as SupportFinder::Find. Use it if the clips are needed only once.
 std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<const SupportingClip> clips, int first,
                                  int last, double rate_hz, const SupportRules& rules = {});
 
-/// Returns the centre of mass of fourteen segments, with Dempster's masses and centres as in Winter (2009),
-/// "Biomechanics and Motor Control of Human Movement", table 4.1; head and neck are at the head joint, hands extend to
-/// the finger tips.
+/// Returns the centre of mass, computed from fourteen segments with Dempster's masses and centres as given by Winter
+/// (2009), "Biomechanics and Motor Control of Human Movement", table 4.1. The mass of head and neck is at the head
+/// joint; hands extend to the finger tips.
 glm::dvec3 MassCentre(const BodyPose& pose);
 
-/// Returns the distance, seen from above, from a point (x, z) of the floor to the convex hull of `joints`, metres; 0
-/// inside it. Returns nullopt without joints. Feet have no width here.
+/// Returns the horizontal distance from a point (x, z) of the floor to the convex hull of `joints`, metres; 0 inside
+/// the hull. Returns nullopt without joints. Feet have no width here.
 std::optional<double> OffsetFromJoints(const glm::dvec2& point, const BodyPose& pose, const JointSet& joints);
-/// Returns this distance from the mass centre.
+/// Returns OffsetFromJoints of the mass centre.
 std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints);
 
 }  // namespace etude

@@ -17,14 +17,15 @@ using enum Role;
 
 constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 
-// All limits are shares of the body's size: the length of a leg and of the trunk. In 269 clips of seven libraries,
-// unspoilt bodies that nobody drew stay below 0.8 of each, drawn ones below 1, but for figures that grow or come apart.
+// All limits are shares of the body's size: the length of a leg plus the trunk. In 269 clips of seven libraries,
+// captured bodies without faults stay below 0.8 of each limit. Drawn bodies stay below 1, except for figures that grow
+// or come apart.
 
-/// Two joints whose distance hardly changes; limbs between them are FindStretches'.
+/// Two joints whose distance hardly changes. Limbs are not listed, because FindStretches judges them.
 struct Link {
   Role inner, outer;
   double max_change;
-  double usual, max_length;  ///< of the median
+  double usual, max_length;  ///< limits for the median
 };
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr std::array kLinks = {Link{kHipCentre, kSpine, 0.10, 0.17, 0.35},
@@ -41,7 +42,7 @@ constexpr std::array kLinks = {Link{kHipCentre, kSpine, 0.10, 0.17, 0.35},
                                Link{kLeftWrist, kLeftHand, 0.12, 0.16, 0.30},
                                Link{kRightWrist, kRightHand, 0.12, 0.16, 0.30}};
 
-/// Two joints that are as far apart as those of the other side, in the median frame.
+/// Two joints whose median distance is about the same on the other side of the body.
 struct MirroredLink {
   Role inner, outer;
   double max_difference;
@@ -54,14 +55,14 @@ constexpr std::array kMirrored = {
     MirroredLink{kLeftShoulder, kHead, 0.14},           MirroredLink{kLeftShoulder, kLeftElbow, 0.08},
     MirroredLink{kLeftElbow, kLeftWrist, 0.12},         MirroredLink{kLeftWrist, kLeftHand, 0.26}};
 
-/// Two joints whose distance is wrong: when, and by how much.
+/// Two joints whose distance is wrong, with the wrong frames and the size of the error.
 struct Wrong {
   Role inner, outer;
   std::vector<bool> frames;
   double size;
 };
 
-/// Where a joint is torn, and how far it is from where it should be.
+/// The frames in which a joint is torn, and how far it is from where it should be.
 struct Tear {
   std::vector<bool> frames;
   double size = 0;
@@ -70,7 +71,7 @@ struct Tear {
 class TornFinder {
  public:
   TornFinder(const BodyMotion& motion, std::span<const JointSet> unseen) : motion_(motion), unseen_(unseen) {
-    // Joints that are not seen have a usual place, which is enough for the size.
+    // Joints that are not seen have a guessed position, which is accurate enough for the body's size.
     const auto part = [&](Role a, Role b) {
       std::vector<double> lengths;
       for (const BodyPose& pose : motion.poses) lengths.push_back(glm::distance(pose[a], pose[b]));
@@ -96,7 +97,7 @@ class TornFinder {
 
   bool Shows(int frame, Role joint) const { return unseen_.empty() || !unseen_[frame][Index(joint)]; }
 
-  /// Returns the distance of two joints in each frame; NaN: one is not seen.
+  /// Returns the distance between two joints in each frame; NaN where one is not seen.
   std::vector<double> Distances(Role a, Role b) const {
     std::vector<double> distances;
     for (int f = 0; f < frames(); ++f) {
@@ -112,7 +113,7 @@ class TornFinder {
     return Median(std::move(values));
   }
 
-  /// Returns the frames in which `is_off` holds for at least a tenth of a second.
+  /// Returns the frames of stretches in which `is_off` holds for at least a tenth of a second.
   template <typename IsOff>
   std::vector<bool> Lasting(IsOff is_off) const {
     std::vector<bool> off(motion_.poses.size());
@@ -144,12 +145,12 @@ class TornFinder {
     double largest = 0;
     for (int f = 0; f < frames(); ++f) {
       if (wrong[f])
-        largest = std::max(largest, std::abs(distances[f] - median));  // NaN: not seen, which is never larger
+        largest = std::max(largest, std::abs(distances[f] - median));  // NaN: a joint not seen, which is never larger
     }
     return largest;
   }
 
-  /// Distances that change.
+  /// Finds distances that differ from their medians.
   void FindChanges() {
     for (const Link& link : kLinks) {
       const std::vector<double> distances = Distances(link.inner, link.outer);
@@ -160,7 +161,7 @@ class TornFinder {
       for (int f = 0; f < frames(); ++f) {
         if (wrong.frames[f]) wrong.size = std::max(wrong.size, std::abs(distances[f] - *median));
       }
-      // Of both hips or shoulders, that one is torn whose distance from the spine changes more.
+      // Of two hips or shoulders, the joint whose distance from the spine changes more is torn.
       if (link.inner == Mirrored(link.outer) &&
           ChangeIn(wrong.frames, link.inner) > ChangeIn(wrong.frames, link.outer)) {
         std::swap(wrong.inner, wrong.outer);
@@ -169,12 +170,13 @@ class TornFinder {
     }
   }
 
-  /// Names the joint of most wrong distances, then of most that are left.
+  /// Attributes the wrong distances to joints: first to the joint with the most wrong distances, then to the joint with
+  /// most of the rest, and so on.
   void NameTorn() {
     while (!wrong_.empty()) {
       std::array<int, kRoleCount> count{};
       for (const Wrong& wrong : wrong_) {
-        // Of two joints with equally many, the outer one is torn off.
+        // If two joints have equally many, the outer one is torn.
         count[Index(wrong.inner)] += 4;
         count[Index(wrong.outer)] += 5;
       }
@@ -187,7 +189,7 @@ class TornFinder {
     }
   }
 
-  /// Distances that are too long, and a head that is none.
+  /// Finds distances that are too long in the median frame, and a head that lies on the neck.
   void FindLengths() {
     for (const Link& link : kLinks) {
       const auto median = MedianOf(Distances(link.inner, link.outer));
@@ -198,7 +200,7 @@ class TornFinder {
     if (head && *head < kMinHead * size_) AddAlways(kShoulderCentre, kHead, kUsualHead * size_ - *head);
   }
 
-  /// Distances that differ from those of the other side.
+  /// Finds median distances that differ between left and right.
   void FindDifferences() {
     for (const MirroredLink& link : kMirrored) {
       const auto left = MedianOf(Distances(link.inner, link.outer));
@@ -210,7 +212,7 @@ class TornFinder {
     }
   }
 
-  /// A head below the neck, feet that point backwards, and shoulders or hips that are exchanged or coincide.
+  /// Finds heads below the neck, feet that point backwards, and shoulders or hips that are exchanged or coincide.
   void FindTurned() {
     constexpr double kAgainst = 0.2, kMinShoulders = 0.08, kMinHips = 0.04;
     const auto between = [&](int f, Role a, Role b) { return motion_.poses[f][b] - motion_.poses[f][a]; };
@@ -221,11 +223,13 @@ class TornFinder {
       return std::ranges::all_of(joints, [&](Role joint) { return Shows(f, joint); });
     };
     const auto median = [&](Role a, Role b) { return MedianOf(Distances(a, b)).value_or(0); };
+    // Head: it points down the trunk.
     Add(tears_[kHead], Lasting([&](int f) {
           return shows(f, {kHead}) &&
                  is_against(between(f, kShoulderCentre, kHead), between(f, kHipCentre, kShoulderCentre));
         }),
         2 * median(kShoulderCentre, kHead));
+    // Feet: they point behind the shank. Both feet at once mean exchanged sides.
     const auto points_back = [&](int f, Role knee, Role ankle, Role foot) {
       const glm::dvec3 front = glm::cross(between(f, kRightHip, kLeftHip), between(f, ankle, knee));
       return shows(f, {knee, ankle, foot}) && is_against(between(f, ankle, foot), front);
@@ -236,6 +240,7 @@ class TornFinder {
     const auto only = [&](const std::vector<bool>& one) { return Lasting([&](int f) { return one[f] && !both[f]; }); };
     Add(tears_[kLeftFoot], only(left), 2 * median(kLeftAnkle, kLeftFoot));
     Add(tears_[kRightFoot], only(right), 2 * median(kRightAnkle, kRightFoot));
+    // Sides: hips and shoulders point in opposite directions, or their joints coincide.
     const auto is_exchanged = [&](int f) {
       const glm::dvec3 hips = between(f, kRightHip, kLeftHip), shoulders = between(f, kRightShoulder, kLeftShoulder);
       return is_against(hips, shoulders) || glm::length(shoulders) < kMinShoulders * size_ ||
@@ -244,7 +249,7 @@ class TornFinder {
     Add(exchanged_, Lasting([&](int f) { return both[f] || is_exchanged(f); }), median(kLeftHip, kRightHip));
   }
 
-  /// Appends one fault for all frames.
+  /// Appends one fault that spans all frames of the tear.
   void Append(std::optional<Role> joint, const Tear& tear, std::vector<MotionFault>& faults) const {
     if (tear.frames.empty()) return;
     const std::vector<FrameRange> ranges = RangesOf(tear.frames);

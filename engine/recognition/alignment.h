@@ -15,8 +15,8 @@ struct StepPair {
 };
 
 /// Runs subsequence dynamic time warping online, one step per Update (Müller 2007, section 4.4, with his slope
-/// condition of at most 2). A path matches the whole pattern, may begin at any seen step, and ends at the step seen
-/// last. Its cost is the sum of the distances of its seen steps and of the pattern steps that it skips.
+/// condition of at most 2). A path matches the whole pattern, may begin at any seen step, and ends at the last seen
+/// step. Its cost is the sum of the distances of its seen steps and of the pattern steps that it skips.
 class SubsequenceAligner {
  public:
   /// Aligns with `pattern`, which must have at least one step and outlive this object. A path longer than `longest` ≥ 1
@@ -28,10 +28,10 @@ class SubsequenceAligner {
   /// Takes the next seen step.
   void Update(const PoseVector& seen);
 
-  /// Returns the cost of the best path that ends at the step seen last, divided by the number of pattern steps: a mean
-  /// squared distance. It is infinite while no path reaches the pattern's end.
+  /// Returns the cost of the best path that ends at the last seen step, divided by the number of pattern steps: a mean
+  /// squared distance. Returns infinity while no path reaches the pattern's end.
   double Cost() const { return costs_.back() / static_cast<double>(pattern_.size()); }
-  /// Returns the best path that ends at the step seen last, in order of time; empty if Cost is infinite.
+  /// Returns the best path that ends at the last seen step, in order of time; empty if Cost is infinite.
   std::vector<StepPair> Path() const;
 
  private:

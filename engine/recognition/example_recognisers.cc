@@ -79,9 +79,9 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// An unknown other motion is assumed at this distance, metres, if no known one is nearer. In 19 of 20 cases, another
-/// person's performance of the same move is nearer than this (tests/sim/performer; the medians of two recorded sets are
-/// 10 and 16–28 cm).
+/// If no known other motion is nearer, an unknown one is assumed at this distance, metres. In 19 of 20 cases, another
+/// person's performance of a move is nearer to the move's examples (tests/sim/performer; the medians of two recorded
+/// sets are 10 and 16–28 cm).
 constexpr double kUnknownMotionDistance = 0.21;
 
 /// An example of a move and the wrong patterns that it is compared with. All have the same number of steps.
@@ -130,7 +130,7 @@ double Distance(std::span<const PoseVector> seen, const Pattern& pattern, double
   if (seen.size() < pattern.size()) return kFar;
   const auto end = seen.last(pattern.size());
   const auto steps = static_cast<double>(pattern.size());
-  constexpr double kRounding = 1 + 1e-9;  // so that rounding does not reject a pattern at exactly `farthest`
+  constexpr double kRounding = 1 + 1e-9;  // rounding must not reject a pattern at exactly `farthest`
   const double max_sum = kRounding * farthest * farthest * steps;
   double sum = 0;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -150,7 +150,7 @@ Example ExampleOf(std::size_t move, Pattern right) {
   return example;
 }
 
-/// Compares the last steps with one pose that is held still.
+/// Compares the last steps with one held pose.
 class Stillness {
  public:
   Stillness(const PoseVector& pose, std::size_t longest) : pose_(pose), gaps_(longest) {}
@@ -218,12 +218,12 @@ class NearestFollower final : public StepFollower {
     for (std::size_t move = 0; move < spotted.size(); ++move) {
       spotted[move] = EvidenceAgainst(std::min(held_still_[move], kUnknownMotionDistance), move);
     }
-    // The requested move counts as soon as the window is long enough for one of its examples.
+    // The requested move has evidence only if the window is long enough for one of its examples.
     return fits_in_window ? EvidenceAgainst(kFar, *asked()) : 0.0;
   }
 
-  /// Returns n / (r + n) of the move: r is its distance to a right example, n the smallest of `other`, the move's wrong
-  /// patterns and the right examples of the other moves.
+  /// Returns the evidence n / (r + n) for a move: r is the distance to its nearest right example; n is the smallest of
+  /// `other` and the distances to the move's wrong patterns and to the other moves' right examples.
   double EvidenceAgainst(double other, std::size_t move) const {
     if (right_[move] == kFar) return 0;
     other = std::min(other, wrong_[move]);

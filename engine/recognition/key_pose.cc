@@ -145,7 +145,7 @@ double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const Tracking
   // Sort by error, and find the smallest error that covers the required share of the weights.
   std::sort(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(count),
             [](const Angle& a, const Angle& b) { return a.error < b.error; });
-  constexpr double kRounding = 1e-9;  // so that rounding does not exclude a share of exactly `pose_share`
+  constexpr double kRounding = 1e-9;  // rounding must not exclude a share of exactly `pose_share`
   double within = 0, factor = 0;
   for (std::size_t i = 0; i < count && within < (options.pose_share - kRounding) * total; ++i) {
     within += angles[i].weight;

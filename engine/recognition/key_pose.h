@@ -12,13 +12,13 @@
 
 namespace etude {
 
-/// Scores how well a stream passes through a move's key poses in order, each held for some frames. A passage is a
-/// choice of frames in order, one per pose. Its score is that of its worst pose, and a pose's score is the worst match
-/// in the last `hold_frames` frames in which a body was seen.
+/// Scores how well a stream passes through a move's key poses in order. A passage chooses one frame per pose, in order
+/// of time. A pose's score in a frame is its worst match in the last `hold_frames` frames in which a body was seen, so
+/// poses must be held. The score of a passage is the score of its worst pose.
 class PoseSequence {
  public:
-  /// Takes the number of poses ≥ 1 and `hold_frames` ≥ 1. A spotted passage lasts at most `span_frames` ≥ 0 frames from
-  /// its first pose to its last.
+  /// `poses` ≥ 1 is the number of poses; `hold_frames` ≥ 1. A spotted passage lasts at most `span_frames` ≥ 0 frames
+  /// from its first pose to its last.
   PoseSequence(std::size_t poses, int hold_frames, int span_frames);
 
   /// Starts a new window: `Asked` counts only passages that begin after this call.
@@ -67,9 +67,9 @@ struct KeyPoseOptions {
   int hold_frames = 3;
 };
 
-/// Returns how well this frame matches the pose, in [0, 1]: 1 / (1 + s²), where s is the smallest factor such that,
-/// with all tolerances multiplied by it, the required share of angles is within them. The result is at least ½ exactly
-/// if paper A's crisp rule is fulfilled; a lower threshold means wider tolerances. It is 0 if no angle has a positive
+/// Returns how well this frame matches the pose, in [0, 1]: 1 / (1 + s²). Here s is the smallest factor by which all
+/// tolerances must be multiplied until the required share of angles is within them. The result is at least ½ exactly if
+/// paper A's crisp rule is fulfilled; a lower threshold means wider tolerances. It is 0 if no angle has a positive
 /// weight.
 double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                const KeyPoseOptions& options);
@@ -92,9 +92,9 @@ struct FuzzyRulesOptions {
 double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                     const Memberships& memberships);
 
-/// Makes a recogniser of paper A's features with fuzzy rules over time (ours): one rule per key pose, and one per move,
-/// "first this pose, then that, within one performance", combined by the minimum. It uses the terms of table 1 and
-/// ignores the key poses' tolerances.
+/// Makes a recogniser that applies fuzzy rules over time to paper A's features (ours). One rule per key pose gives the
+/// pose's grade; one rule per move, "first this pose, then that, within one performance", combines the grades by the
+/// minimum. The recogniser uses the terms of table 1 and ignores the key poses' tolerances.
 std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                      const FuzzyRulesOptions& options);
 

@@ -56,7 +56,7 @@ Sample MakeSample(std::span<const PerformanceMeasures> performances, std::span<c
   return sample;
 }
 
-/// The sums of the loss's first and second derivatives over some performances, and the number of these.
+/// The sums of the loss's first and second derivatives over some performances, and the number of performances.
 struct Slope {
   double gradient = 0, curvature = 0;
   int count = 0;
@@ -74,7 +74,7 @@ struct Split {
   double gain = 0;
 };
 
-/// Selects the performances and measures that tree number `tree` is fitted to.
+/// Selects the performances and the measures to which tree number `tree` is fitted.
 struct Turn {
   std::size_t tree;
   bool is_taken;
@@ -139,7 +139,7 @@ DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const Boost
     for (std::size_t i : row[leaf]) all.Add(slopes[i]);
     tree.leaves[leaf] = -options.rate * all.gradient / (all.curvature + options.ridge);
   }
-  // Add the tree's values to the log-odds of all performances, also those it was not fitted to.
+  // Add the tree's values to the log-odds of all performances, including those that the tree was not fitted to.
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     std::size_t node = 0;
     while (node < DecisionTree::kNodes)
@@ -203,9 +203,9 @@ namespace {
 constexpr std::size_t kNumbersPerTree = 2 * DecisionTree::kNodes + DecisionTree::kLeaves;
 constexpr double kMaxNumber = 1e12;
 
-/// The distance to the example, as RMS over the limbs (1 is 60 degrees), beyond which no move is spotted. The trees
+/// The largest distance to the example at which a move is spotted, as RMS over the limbs (1 is 60 degrees). The trees
 /// cannot judge motions that are unlike all their training data; 19 of 20 right performances in that data were nearer
-/// than this.
+/// than this limit.
 constexpr double kMaxSpottedDistance = 0.52;
 
 /// Writes a tree as one line: measure and limit of each node, then the leaves.

@@ -16,9 +16,9 @@
 
 namespace etude {
 
-/// A decision tree of depth three. Each node asks "is this measure at most that limit?"; the leaf that is reached adds
-/// its value to the log-odds. The children of node n are 2n + 1 (yes) and 2n + 2 (no); the children of the last row are
-/// leaves.
+/// A decision tree of depth three. Each node compares one measure with a limit; the leaf that is reached adds its value
+/// to the log-odds.  The children of node n are 2n + 1 (at most the limit) and 2n + 2 (above it); the children of the
+/// last row are leaves.
 struct DecisionTree {
   static constexpr std::size_t kNodes = 7, kLeaves = 8;
   std::array<int, kNodes> measures{};  ///< indices below kMeasureCount
@@ -29,7 +29,7 @@ struct DecisionTree {
   double Value(const PerformanceMeasures& of) const;
 };
 
-/// Gradient-boosted decision trees (Friedman 2001), which judge by its measures whether a performance is right.
+/// Gradient-boosted decision trees (Friedman 2001). They judge from the measures of a performance whether it is right.
 struct BoostedTrees {
   double bias = 0;  ///< log-odds
   std::vector<DecisionTree> trees;
@@ -41,25 +41,26 @@ struct BoostedTrees {
 /// The candidate performances of one window. The window is right if at least one of them is right.
 struct LabelledBag {
   bool is_right = false;
-  std::vector<PerformanceMeasures> performances;  ///< at least one, the most likely one first
+  std::vector<PerformanceMeasures> performances;  ///< at least one; the most likely one comes first
 };
 
 struct BoostingOptions {
   int trees = 100;
-  double rate = 0.12;  ///< shrinkage: the share of its fit that a tree adds
+  double rate = 0.12;  ///< shrinkage: each tree's values are multiplied by this
   double ridge = 3;    ///< regularisation that shrinks leaves towards 0, in units of four performances at even odds
   int min_per_leaf = 12;  ///< minimum number of performances
   /// If true, trees take turns: each is fitted to three fifths of the performances and a third of the measures, so that
   /// they differ (stochastic boosting, Friedman 2002, but with a fixed rotation instead of random numbers).
   bool takes_turns = false;
-  /// The number of multiple-instance rounds. Each round trains on one performance per bag: the first round on the first
-  /// one, later rounds on the one that the previous round's model found most likely, which decides about the bag.
+  /// The number of multiple-instance rounds. Each round trains on one performance per bag. The first round takes the
+  /// bag's first performance; later rounds take the performance that the previous round's model finds most likely,
+  /// because it decides about the bag.
   int rounds = 3;
 };
 
 /// Fits trees by Newton boosting of the logistic loss, with measures cut at 63 quantiles. The right and the wrong bags
-/// have the same total weight. It uses no random numbers. Returns no trees, which means even odds, if there is no right
-/// or no wrong bag.
+/// have the same total weight. No random numbers are used. If there is no right or no wrong bag, returns no trees,
+/// which means even odds.
 BoostedTrees FitBoostedTrees(std::span<const LabelledBag> bags, const BoostingOptions& options = {});
 
 /// A model trained on right and faulty performances of any moves. It is stored in a file, so that users need not train
@@ -77,8 +78,8 @@ std::string WriteLearntModel(const LearntModel& model);
 std::span<const EmbeddedText> BuiltinLearntModelFiles();
 /// Returns the model of recogniser `learnt`: scenarios/recognisers/learnt.yaml.
 const LearntModel& BuiltinLearntModel();
-/// Returns the model of recogniser `coached`: scenarios/recognisers/coached.yaml for performances that were asked for,
-/// learnt.yaml for spotted ones.
+/// Returns the model of recogniser `coached`. It uses scenarios/recognisers/coached.yaml for performances that were
+/// asked for, and learnt.yaml for spotted ones.
 const LearntModel& BuiltinCoachedModel();
 
 /// Makes our learnt recogniser. It aligns performances with the taught examples, measures them, and judges the measures

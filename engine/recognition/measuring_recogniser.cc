@@ -20,7 +20,7 @@ struct TaughtExample {
   PoseVector middle;  ///< the mean of the pattern
 };
 
-/// A ring buffer of the steps seen last, indexed by step number.
+/// A ring buffer of the last seen steps, indexed by step number.
 class RecentSteps {
  public:
   explicit RecentSteps(std::size_t kept) : steps_(kept) {}

@@ -99,7 +99,7 @@ struct Mean {
 /// Measures of one limb, as lengths of differences of unit vectors: 1 corresponds to 60 degrees.
 struct LimbMeasures {
   double error = 0;    ///< root mean square
-  double centred = 0;  ///< the same after the means of seen and taught are subtracted
+  double centred = 0;  ///< root mean square after the means of seen and taught are subtracted
   double missing = 0;  ///< missing share of the taught amplitude; negative if the amplitude is too large
 };
 
@@ -120,7 +120,7 @@ LimbMeasures MeasureLimb(const LimbSums& sums) {
 constexpr std::array<std::size_t, 4> kMiddle = {0, 1, 2, 11};
 constexpr std::array<std::array<std::size_t, 2>, 4> kPairs = {{{3, 4}, {5, 6}, {7, 8}, {9, 10}}};
 
-/// Writes the limbs' measures to the beginning, and returns their number.
+/// Writes the limbs' measures to the beginning of `measures`, and returns their number.
 std::size_t PutLimbs(const std::array<LimbMeasures, kPosePartCount>& limbs, std::span<double> measures) {
   std::size_t next = 0;
   for (double LimbMeasures::*what : {&LimbMeasures::error, &LimbMeasures::centred, &LimbMeasures::missing}) {
@@ -206,8 +206,8 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
 
 namespace {
 
-/// Calls `relate(own, difference)` with the index of every measure and the index of its difference from the person's
-/// usual value.
+/// Calls `relate(own, difference)` for every measure: `own` is its index, and `difference` the index of its difference
+/// from the person's usual value.
 template <typename Relate>
 void ForEachOwn(const Relate& relate) {
   for (const MeasureSlice& slice : {kOwnMeasures, kClockSlice, kRigidSlice}) {
@@ -302,8 +302,8 @@ void PersonBaseline::Relate(PerformanceMeasures& performance) const {
 }
 
 double PersonBaseline::Shift() const {
-  // A window opens one reaction time after the coach begins, and people follow slightly later than the window opens
-  // (ours).
+  // Seconds, for a person without performances (ours). A window opens one reaction time after the coach begins; people
+  // usually begin slightly before it opens.
   constexpr double kUnknown = -0.1;
   return latest_.empty() ? kUnknown : usual_[kClockSlice.first];
 }

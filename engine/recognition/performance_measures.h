@@ -15,11 +15,11 @@ namespace etude {
 /// in the middle of a performance, and a move that repeats itself can be aligned anywhere.
 struct ClockMeasures {
   double shift = 0;   ///< the delay of the example, in seconds, with which it fits best
-  double first = 0;   ///< the same for the first half of the example
-  double second = 0;  ///< of its second half
+  double first = 0;   ///< the same delay for the first half of the example
+  double second = 0;  ///< the same delay for its second half
   double drift = 0;   ///< second − first
-  /// `off` is the root mean squared distance at this person's usual shift. The gains are the reductions of it at the
-  /// best shift: of the whole example, of its first half and of its second half.
+  /// `off` is the root mean squared distance at this person's usual shift. Each gain says by how much the best shift
+  /// lowers that distance: for the whole example, its first half and its second half.
   double off = 0, gain = 0, first_gain = 0, second_gain = 0;
 
   std::array<double, 8> All() const { return {shift, first, second, drift, off, gain, first_gain, second_gain}; }
@@ -29,7 +29,7 @@ constexpr std::size_t kClockMeasures = 8;
 /// Computes ClockMeasures step by step.
 class ClockComparison {
  public:
-  /// Compares with `pattern`, in parts of kLimbs, which must outlive this object.
+  /// `pattern` is the example, in parts of kLimbs. It must outlive this object.
   explicit ClockComparison(std::span<const PoseVector> pattern);
 
   /// Takes the next step of the window.
@@ -56,21 +56,22 @@ class ClockComparison {
   std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< of the example, by shift
 };
 
-/// The limbs' measures as for a warped path (36), then the lag in seconds, the logarithm of the pace (below 0: faster
-/// than taught), the distance, the distance at the taught pace, and the share of the example that was seen.
+/// The measures of the limbs, as for a warped path (36 numbers), then five more: the lag in seconds, the logarithm of
+/// the pace (below 0: faster than taught), the distance, the distance at the taught pace, and the share of the example
+/// that was seen.
 constexpr std::size_t kRigidMeasures = 41;
 
 /// Compares the steps since the window opened with an example that is shifted and stretched in time as a whole, limb by
 /// limb, at the lag and pace that fit best. Parts of a performance that come too early or too late remain errors.
 class RigidComparison {
  public:
-  /// Compares with `pattern`, in parts of kLimbs, which must outlive this object.
+  /// `pattern` is the example, in parts of kLimbs. It must outlive this object.
   explicit RigidComparison(std::span<const PoseVector> pattern) : pattern_(pattern), distances_(pattern.size()) {}
 
   /// Takes the next step of the window.
   void Update(const PoseVector& seen);
   /// Returns the measures of the steps so far. `usual_s` is this person's usual shift; of two equally good fits, the
-  /// one nearer to it is taken.
+  /// one nearer to `usual_s` is taken.
   std::array<double, kRigidMeasures> Measure(double usual_s) const;
 
  private:
@@ -95,7 +96,7 @@ struct MeasureSlice {
   std::size_t first = 0, count = 0;
 
   constexpr std::size_t end() const { return first + count; }
-  /// Returns the next slice, which is equally long: the differences of these measures from the person's usual ones.
+  /// Returns the next slice, with the same length: the differences between these measures and the person's usual ones.
   constexpr MeasureSlice Beyond() const { return {end(), count}; }
 };
 
@@ -103,14 +104,14 @@ struct MeasureSlice {
 /// measure, increase kMeasuresVersion and train the shipped models again (`etude train --recogniser`).
 constexpr int kMeasuresVersion = 1;
 /// For each limb: its error, its error after its mean direction is corrected, and the missing share of its amplitude.
-/// Of left and right, the larger value comes first, then the smaller.
+/// For a left and a right limb, the larger value comes first.
 constexpr MeasureSlice kLimbMeasures{0, 36};
 /// The square root of the path's cost and of its parts for each third of the example, then the error of the worst limb
 /// and of the mean limb.
 constexpr MeasureSlice kDistanceMeasures{kLimbMeasures.end(), 6};
 /// Lag, stretch, unsteadiness and largest timing error of the path.
 constexpr MeasureSlice kPathClockMeasures{kDistanceMeasures.end(), 4};
-/// The path's cost divided by the sum of this cost and that of the nearest other move.
+/// The path's cost divided by the sum of the path's cost and the cost of the nearest other move.
 constexpr MeasureSlice kOtherMoveMeasure{kPathClockMeasures.end(), 1};
 /// These four slices together: the measures of one performance against one example of any move.
 constexpr MeasureSlice kOwnMeasures{0, kOtherMoveMeasure.end()};
@@ -137,11 +138,11 @@ struct AlignedPerformance {
 /// the timing measures at 0.
 PerformanceMeasures Measure(const AlignedPerformance& performance);
 
-/// Keeps the usual measures of a person: the medians over their performances so far. People differ in amplitude and in
-/// delay; a fault differs from what the same person usually does.
+/// Keeps the usual measures of a person: the medians over their performances so far. People differ in amplitude and
+/// delay, so a fault is a difference from the person's own usual measures.
 class PersonBaseline {
  public:
-  /// Adds a performance, right or not; the latest 32 count.
+  /// Adds a performance, right or wrong. Only the latest 32 count.
   void Add(const PerformanceMeasures& performance);
   /// Fills in the differences from the usual measures.
   void Relate(PerformanceMeasures& performance) const;

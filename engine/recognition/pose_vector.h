@@ -27,13 +27,13 @@ struct PoseVector {
 /// Returns 0 if all weights are 0.
 double SquaredDistance(const PoseVector& seen, const PoseVector& taught);
 
-/// Returns the mean of at least one pose, with the weights of the first.
+/// Returns the mean of `poses`, which must not be empty, with the weights of the first pose.
 PoseVector MeanOf(std::span<const PoseVector> poses);
 
 /// Returns the pose with left and right exchanged.
 PoseVector Mirrored(const PoseVector& pose, PoseParts parts);
 
-/// The number of steps per second in which motions are compared. This is fast enough for dances, and half the frame
+/// The number of steps per second at which motions are compared. The rate is high enough for dances, and half the frame
 /// rate of usual sensors.
 constexpr double kStepsPerSecond = 15;
 
@@ -45,9 +45,9 @@ class StepDescriber {
   StepDescriber(PoseParts parts, const TrackingWeights& weights, double rate_hz);
 
   /// Takes a frame and returns the number of steps that it completes: usually 0 or 1, more if the frame rate is below
-  /// the step rate. `Step` holds for all of them.
+  /// the step rate. If it completes several steps, all of them are equal to `Step`.
   int Update(const SeenFrame& frame);
-  /// Returns the step completed last; empty if no body was seen in it.
+  /// Returns the last completed step; empty if no body was seen in it.
   const std::optional<PoseVector>& Step() const { return step_; }
 
  private:
@@ -84,7 +84,7 @@ class StepFollower : public MoveFollower {
  private:
   /// Is called when a window opens for `move`, or when the window closes (no move).
   virtual void Open(std::optional<std::size_t> move) = 0;
-  /// Takes the next step. Returns the evidence that the performance asked for ends now (0 if none is asked for), and
+  /// Takes the next step. Returns the evidence that the asked performance ends now (0 without an asked move), and
   /// writes the evidence of every move to `spotted`.
   virtual double Take(const PoseVector& step, std::span<double> spotted) = 0;
 

@@ -47,11 +47,11 @@ Result<EvidenceTrace> FollowStream(const Recogniser& recogniser, std::size_t mov
 
 /// The options by which evidence becomes decisions.
 struct DecisionOptions {
-  /// The evidence at which a move counts as performed, in (0, 1]. Set it on people who are not judged, so that false
-  /// alarms are acceptably rare.
+  /// The evidence at which a move counts as performed, in (0, 1]. Choose it on people who are not judged, low enough to
+  /// detect moves and high enough to make false alarms acceptably rare.
   double threshold = 0.5;
-  /// The time after a detection in which the same move is not detected again, in seconds, ≥ 0. It makes one performance
-  /// one detection if the evidence flickers.
+  /// The time after a detection in which the same move is not detected again, in seconds, ≥ 0. It keeps a performance
+  /// with flickering evidence from being detected twice.
   double refractory_s = 1.0;
 };
 

@@ -16,20 +16,20 @@ enum class Weighting {
 };
 
 struct TrackingWeights {
-  /// The default is fixed, as in paper A. Use adaptive if missing a right performance costs more than accepting a wrong
-  /// one, especially if the body hides its far side from the sensor. Adaptive weights also ignore mistakes in joints
-  /// that are not seen.
+  /// Default: fixed, as in paper A. Use adaptive if missing a right performance costs more than accepting a wrong one,
+  /// especially if the body hides its far side from the sensor. Adaptive weights also ignore mistakes in joints that
+  /// are not seen.
   Weighting weighting = Weighting::kFixed;
   /// The adaptive weight of an angle with an inferred joint, in [0, 1]; a tracked one has weight 1. At 0.3 (ours) three
   /// inferred angles cannot outvote a tracked one. Raise it for a sensor whose inferred joints are accurate; at 1,
   /// inferred joints count like tracked ones.
   double inferred_weight = 0.3;
-  /// The adaptive weight of an angle with a joint that is not tracked, in [0, 1]. It is 0 because the position of such
-  /// a joint is that of an earlier frame. Raise it only for a sensor that still measures joints it reports as not
-  /// tracked.
+  /// The adaptive weight of an angle with a joint that is not tracked, in [0, 1]. The default is 0 because a joint that
+  /// is not tracked has its position from an earlier frame. Raise it only for a sensor that still measures joints it
+  /// reports as not tracked.
   double not_tracked_weight = 0.0;
 
-  /// Returns the weight of an angle whose joints have `state` at worst.
+  /// Returns the weight of an angle; `state` is the worst tracking state of the angle's joints.
   double Of(TrackingState state) const {
     if (weighting == Weighting::kFixed || state == TrackingState::kTracked) return 1.0;
     return state == TrackingState::kInferred ? inferred_weight : not_tracked_weight;
@@ -47,8 +47,8 @@ struct Evidence {
   /// The evidence so far in this window that the performance asked for is right, in [0, 1]. It never decreases within a
   /// window, and is 0 if no move is asked for.
   double asked = 0;
-  /// Per taught move, the evidence that a right performance of it ends in this frame, in [0, 1], asked for or not.
-  /// Valid until the next call.
+  /// For each taught move, the evidence that a right performance of it ends in this frame, in [0, 1], whether the move
+  /// was asked for or not. The span is valid until the next call.
   std::span<const double> spotted;
 };
 
@@ -56,13 +56,13 @@ struct Evidence {
 class MoveFollower {
  public:
   virtual ~MoveFollower() = default;
-  /// Opens a window for the taught move of this index from the next frame on; earlier frames do not count. Closes the
-  /// window if `move` is empty.
+  /// Opens a window for the taught move with index `move`, beginning with the next frame; earlier frames do not count.
+  /// Without a value, closes the window.
   virtual void Ask(std::optional<std::size_t> move) = 0;
   /// Takes the next frame and returns its evidence.
   virtual Evidence Update(const SeenFrame& frame) = 0;
-  /// Returns the taught move that is most similar to the whole stream so far, seen as one performance. It is meant for
-  /// callers who know where performances begin and end. Empty if this follower can only judge passages.
+  /// Returns the taught move that is most similar to the whole stream so far, which is compared as one performance. Use
+  /// it if you know where performances begin and end. Empty if this follower can only judge passages.
   virtual std::optional<std::size_t> Whole() const { return std::nullopt; }
 };
 
@@ -74,7 +74,8 @@ class Recogniser {
   virtual std::unique_ptr<MoveFollower> Follow(double rate_hz) const = 0;
 };
 
-/// A recogniser whose followers a function object makes from their rate. What the object holds is the recogniser's.
+/// A recogniser whose followers are made by the function object `Make` from the frame rate. The object owns all data
+/// that its followers use.
 template <typename Make>
 class RecogniserOf final : public Recogniser {
  public:

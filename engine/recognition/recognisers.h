@@ -22,7 +22,7 @@ struct RecogniserKind {
   std::string description;       ///< one line for users
   bool needs_key_poses = false;  ///< true if every taught move must have key poses
   bool needs_examples = false;   ///< true if every taught move must have at least one example
-  /// The default evidence at which it calls a move right, in (0, 1).
+  /// The default evidence at which this recogniser calls a move right, in (0, 1).
   double threshold = 0.5;
   /// The settings whose values `RecogniserOptions::settings` holds, in this order.
   std::vector<NumberSetting> settings = {};
@@ -36,7 +36,8 @@ std::vector<std::string> RecogniserNames();
 const RecogniserKind* FindRecogniser(std::string_view name);
 
 /// Returns the recogniser recommended for these moves (docs/detection.md): `learnt` if every move has an example that
-/// shows a body, else `key-pose`. For a coach, who asks for moves in time with music, `coached` instead of `learnt`.
+/// shows a body, otherwise `key-pose`. A coach asks for moves in time with music: with `by_a_coach`, `coached` replaces
+/// `learnt`.
 const RecogniserKind& RecommendedRecogniser(std::span<const TaughtMove> taught, bool by_a_coach = false);
 
 struct RecogniserOptions {

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// Estimates the performer's standing hip height causally: the height that the limb lengths imply, as the median over
-/// the first second in which a body is seen (the limb lengths of single frames vary by 4–12 %).
+/// Estimates the performer's standing hip height causally from the limb lengths: the median over the first second in
+/// which a body is seen (in single frames, limb lengths vary by 4–12 %).
 class StandingHeight {
  public:
   /// Creates an estimator for frames at `rate_hz` > 0.

@@ -26,8 +26,8 @@ constexpr double kMaxSpan = 60;  ///< seconds
 struct TaughtMove {
   std::string name;
   std::vector<TaughtPose> poses = {};  ///< must be reached in this order
-  /// The longest duration of one performance in seconds, above 0 and at most kMaxSpan: the move's length at its slowest
-  /// tempo. It limits how far back a performance may begin if the move was not asked for.
+  /// The longest duration of one performance: the move's length at its slowest tempo. Seconds, above 0 and at most
+  /// kMaxSpan. If the move was not asked for, its performance may begin at most this long ago.
   double span_s = 10;
   std::vector<SkeletonStream> examples = {};          ///< right performances from the first beat to the last
   std::vector<SkeletonStream> counter_examples = {};  ///< wrong performances that look similar

@@ -13,9 +13,10 @@ namespace etude {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// The units of distance: the median distance between two people who do the same move, for joints in metres and for
-/// limbs as differences of unit vectors. They were measured on six people in front of an OpenNI sensor, each
-/// performance against the nearest one by another person. Distances in this file are squared and in these units.
+/// The units of distance: the median distance between two people who do the same move. Joint distances are in metres;
+/// limb distances are lengths of differences of unit vectors. The medians were measured on six people in front of an
+/// OpenNI sensor, each performance against the nearest one by another person. Distances in this file are squared and in
+/// these units.
 constexpr double kJointUnit = 0.08, kLimbUnit = 0.15;
 /// The number of nearest examples whose distances are averaged, because a single example may be unusual.
 constexpr std::size_t kNearestExamples = 3;
@@ -62,8 +63,8 @@ double SquaredDistanceOf(const WholePose& seen, const WholePose& taught) {
   return sum;
 }
 
-/// Compares a stream with one example in two ways: by its best passage, as SubsequenceAligner does (without the path),
-/// and as one whole performance that began at the first step.
+/// Compares a stream with one example in two ways: with the best passage that ends now, as SubsequenceAligner does
+/// (without the path), and with the whole stream as one performance.
 class ExampleDistance {
  public:
   ExampleDistance(const WholePattern& pattern, int longest)
@@ -72,7 +73,7 @@ class ExampleDistance {
   }
 
   void Update(const WholePose& seen);
-  /// Returns the distance of the best passage that ends at the step seen last.
+  /// Returns the distance of the best passage that ends at the last seen step.
   double Passage() const { return passage_.back() / static_cast<double>(pattern_->size()); }
   /// Returns the distance of the whole stream so far (symmetric dynamic time warping).
   double Whole() const { return whole_.back() / static_cast<double>(pattern_->size() + count_); }
@@ -141,7 +142,8 @@ struct WholeMove {
   }
 };
 
-/// Returns true if, in the median, examples differ from their own mirror images by more than people differ.
+/// Returns true if the examples' median distance from their own mirror images exceeds the usual distance between two
+/// people.
 bool HasSides(const WholeMove& move) {
   constexpr double kOwnImage = 2;
   std::vector<double> nearest;
@@ -265,7 +267,7 @@ class WholeBodyFollower final : public MoveFollower {
   }
 
   void Spot() {
-    // 1 of 20 performances by another person is farther than 3.4 (six people in front of an OpenNI sensor).
+    // In 1 of 20 cases, another person's performance is farther than 3.4 (six people in front of an OpenNI sensor).
     constexpr double kMaxOtherDistance = 4;
     for (std::size_t move = 0; move < always_.size(); ++move) {
       double other = kMaxOtherDistance;

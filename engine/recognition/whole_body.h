@@ -10,16 +10,16 @@ namespace etude {
 
 /// Makes a recogniser for recordings of people (ours). It aligns whole bodies (joints and limbs, each in units of the
 /// difference between two people who do the same move) with every example and its mirror image by dynamic time warping,
-/// and combines this with the evidence of `judge`, which must have been taught the same moves. The distance of a move
-/// is the mean distance of its three nearest examples.
+/// and combines the distances with the evidence of `judge`, which must have been taught the same moves. The distance of
+/// a move is the mean distance of its three nearest examples.
 /// - If the caller knows where a performance begins and ends, the nearest move is returned (MoveFollower::Whole).
-/// - For the move asked for, the evidence is the judge's. If the mirror images are nearer than the examples, the move
-///   was done on the wrong side, and the evidence is multiplied by the squared ratio of the two distances. A move that
-///   is its own mirror image has no sides.
+/// - For the asked move, the evidence is the judge's. If the mirror images are nearer than the examples, the move was
+///   done on the wrong side, and the evidence is multiplied by the squared ratio of the two distances. A move that is
+///   its own mirror image has no wrong side.
 /// - A move that was not asked for is spotted with evidence n / (r + n), where r is its distance and n the smallest
-///   distance of another move within a second, which is at most a distance that other people's performances rarely
-///   exceed. If a move has fewer than three examples, the spread between people is unknown, and the judge's evidence is
-///   used.
+///   distance of another move within the last second. The value of n is limited to a distance that other people's
+///   performances rarely exceed. If a move has fewer than three examples, the spread between people is unknown, and the
+///   judge's evidence is used.
 std::unique_ptr<Recogniser> MakeWholeBodyRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                     std::unique_ptr<Recogniser> judge);
 

@@ -14,8 +14,8 @@ namespace {
 
 using enum Role;
 
-/// Returns 1 if a ratio lies between `low` and `high`, less outside (a Gaussian of its logarithm), and 0 if it is not
-/// finite or not positive.
+/// Returns 1 if a ratio lies between `low` and `high`, less outside of that range (a Gaussian of the ratio's
+/// logarithm), and 0 if the ratio is not finite or not positive.
 double RangeScore(double ratio, double low, double high) {
   if (!std::isfinite(ratio) || ratio <= 0) return 0;
   constexpr double kFallOff = 0.25;
@@ -31,7 +31,7 @@ glm::dvec3 DirectionOf(const glm::dvec3& v) {
 /// The path from a joint along the bones to the farthest end below it.
 struct Chain {
   std::vector<int> joints;
-  double length = 0;  ///< of all its bones
+  double length = 0;  ///< the sum of its bones' lengths
 };
 
 /// Two siblings with equally long chains.
@@ -39,7 +39,7 @@ struct ChainPair {
   std::array<Chain, 2> chains;
 };
 
-/// The three joints of both limbs of a pair, as indices along the chains.
+/// The upper, middle and end joint of both limbs of a pair, as indices along the chains.
 struct Limbs {
   const ChainPair* pair = nullptr;
   std::array<std::size_t, 3> at{};
@@ -49,9 +49,10 @@ struct Limbs {
   int Tip(std::size_t side) const { return pair->chains[side].joints.back(); }
 };
 
-/// The plausible proportions of a limb; the middle of each range decides between two candidates within it.
+/// The plausible ranges of a limb's proportions. Of two candidates within a range, the one nearer to its middle is
+/// taken.
 struct Proportions {
-  double upper_low, upper_high;  ///< length of the upper bone ÷ length of the lower one
+  double upper_low, upper_high;  ///< length of the upper bone ÷ length of the lower bone
   double end_low, end_high;      ///< length beyond the lower bone ÷ length of the lower bone
   double skipped_high;           ///< length before the upper bone ÷ length of the upper bone
 };
@@ -67,7 +68,7 @@ class AnatomyFinder {
       const int parent = tree.ParentOf(i);
       if (parent < 0) continue;
       const double length = below_[i].length + glm::distance(tree.RestOf(i), tree.RestOf(parent));
-      // Siblings are visited from last to first, so the first one wins a tie.
+      // Siblings are visited from last to first, so of two equally long chains the first sibling's is kept.
       if (length < below_[parent].length || (length == 0 && !below_[parent].joints.empty())) continue;
       below_[parent] = {below_[i].joints, length};
     }
@@ -78,7 +79,7 @@ class AnatomyFinder {
     best.joints.fill(-1);
     const std::vector<ChainPair> pairs = Pairs();
     double second = 0;
-    // Score every two pairs as legs and arms; remember the second best.
+    // Score every two pairs as legs and arms; remember the best and the second best score.
     for (const ChainPair& legs : pairs) {
       for (const ChainPair& arms : pairs) {
         if (&legs == &arms || AreNested(legs, arms)) continue;
@@ -87,7 +88,7 @@ class AnatomyFinder {
         if (proposal.confidence > best.confidence) best = proposal;
       }
     }
-    // If another body in the same skeleton is equally likely, the confidence is halved.
+    // An equally likely other body in the skeleton halves the confidence.
     if (best.confidence > 0) best.confidence *= 1 - 0.5 * second / best.confidence;
     return best;
   }
@@ -136,7 +137,7 @@ class AnatomyFinder {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = i + 1; j < count; ++j) {
         for (std::size_t k = j + 1; k < count; ++k) {
-          // The score is the product over the proportions and the symmetry of the sides.
+          // The score is the product of the proportions' scores and of the symmetry score.
           const double upper = Bone(chain[i], chain[j]), lower = Bone(chain[j], chain[k]);
           const double end = Bone(chain[k], chain.back()), skipped = Bone(chain[0], chain[i]);
           constexpr double kNoEnd = 0.8;
@@ -158,7 +159,7 @@ class AnatomyFinder {
     return best;
   }
 
-  /// Returns a score for equal lengths of the bones on the other side.
+  /// Returns a score for the symmetry of both sides: how well the bones' lengths agree.
   double SymmetryScore(const ChainPair& pair, std::size_t i, std::size_t j, std::size_t k) const {
     constexpr double kLow = 0.95;
     const auto& [one, other] = pair.chains;

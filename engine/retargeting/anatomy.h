@@ -19,12 +19,12 @@ struct AnatomyProposal {
 /// A proposal with at least this confidence may be used without confirmation.
 constexpr double kMinAnatomyConfidence = 0.9;
 
-/// Proposes the limbs by the topology of the tree and the rest pose (ours). Legs and arms are two pairs of siblings
-/// with equally long chains of bones below them. The trunk leads from the legs to the arms, and the legs point the
-/// opposite way. In each chain, the three joints are those whose bones have human proportions. Left is the direction up
-/// × forward, where forward is the direction of the toes. Without toes, the body is assumed to face +Z, with a lower
-/// confidence. The confidence is the product of scores for these criteria: 1 within the range of adults, decreasing
-/// outside.
+/// Proposes the limbs from the topology of the tree and the rest pose (ours). Legs and arms are two pairs of siblings,
+/// each with equally long chains of bones below it. The trunk leads from the legs to the arms, and the legs point the
+/// opposite way. In each chain, the three joints are chosen so that the bones between them have human proportions. Left
+/// is the direction up × forward, where forward is the direction of the toes. Without toes, the body is assumed to face
+/// +Z, with a lower confidence. The confidence is the product of one score per criterion; a score is 1 within the range
+/// of adults and decreases outside.
 AnatomyProposal ProposeByAnatomy(const SkeletonTree& tree);
 
 /// A joint map under construction, with the positions of its roles in the rest pose. `tree` must outlive this object.
@@ -41,11 +41,12 @@ class JointMapDraft {
   const std::string& NameOf(Role role) const { return tree_.NameOf(JointOf(role)); }
   const glm::dvec3& RestOf(Role role) const { return rest_[Index(role)]; }
 
-  /// Assigns a joint to the role.
+  /// Assigns `joint` to the role.
   void Set(Role role, int joint);
-  /// Assigns a point fixed to `joint`, at `rest` in the rest pose, to the role.
+  /// Assigns a point fixed to `joint` to the role. `rest` is the point's position in the rest pose.
   void Compose(Role role, int joint, const glm::dvec3& rest);
-  /// Assigns a point fixed to `joint`, at `offset` in the joint's frame.
+  /// Assigns a point fixed to `joint` to the role. `offset` is the point's position in the joint's frame, `rest` its
+  /// position in the rest pose.
   void ComposeAt(Role role, int joint, const glm::dvec3& offset, const glm::dvec3& rest);
 
  private:
@@ -54,7 +55,7 @@ class JointMapDraft {
   std::array<glm::dvec3, kRoleCount> rest_{};
 };
 
-/// Returns true if a wrist or ankle is not part of any limb but is moved by a separate control.
+/// Returns true if a wrist or ankle is moved by a separate control instead of its limb.
 bool IsFree(const JointMapDraft& draft, Role end);
 
 }  // namespace etude

@@ -16,26 +16,26 @@ class BodySampler {
   BodySampler(const Clip& clip, const JointMap& map);
 
   BodyPose Rest();
-  /// Returns the pose at a frame counted from 0, also between frames (SampleFrame); it must lie within the clip.
+  /// Returns the pose at a frame number from 0, which may be fractional (SampleFrame) and must lie within the clip.
   BodyPose At(double frame);
 
  private:
   BodyPose Evaluated();
 
   const Clip& clip_;
-  std::vector<int> joints_;  ///< indices in the clip: joints with a role and their ancestors
-  Skeleton skeleton_;        ///< of these joints only
+  std::vector<int> joints_;  ///< indices in the clip: the joints with a role, and their ancestors
+  Skeleton skeleton_;        ///< consists of these joints only
   JointMap map_;             ///< on that skeleton
   LocalPose local_;
   std::vector<GlobalTransform> globals_;
 };
 
-/// Returns the step at which about a hundred frames of a clip are sampled.
+/// Returns n such that every n-th frame gives about a hundred frames of the clip.
 std::size_t SampleStep(const Clip& clip);
 /// Samples the clip's joints at about a hundred frames, evenly spaced, in the file's axes.
 std::vector<BodyPose> SampledPoses(const Clip& clip, BodySampler& sampler);
 
-/// Samples for FindUp: close enough to see steps, and few in long clips.
+/// Poses of a clip that are sampled for FindUp: close enough in time to see steps, but few in long clips.
 struct UpSamples {
   std::vector<BodyPose> poses;
   double rate_hz = 0;

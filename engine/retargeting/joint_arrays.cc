@@ -23,8 +23,9 @@ struct JointLayout {
   std::vector<std::string_view> joints;  ///< names that FindMarkerBodies recognises or ignores
 };
 
-/// The 70 keypoints of SAM 3D Body and the 127 joints of its body model MHR, in their order; those that play a role
-/// have its name: a foot ends at its big toe (keypoints) or its ball (joints), a hand at its middle finger.
+/// The 70 keypoints of SAM 3D Body and the 127 joints of its body model MHR, in their order. Those that play a role are
+/// listed under the role's name: a foot ends at its big toe (keypoints) or its ball (joints), a hand at its middle
+/// finger.
 constexpr std::string_view kMhrKeypoints =
     "nose left_eye right_eye left_ear right_ear left_shoulder right_shoulder left_elbow right_elbow left_hip "
     "right_hip left_knee right_knee left_ankle right_ankle left_foot left_small_toe left_heel right_foot "
@@ -59,6 +60,7 @@ constexpr std::string_view kMhrJoints =
 const std::vector<JointLayout>& Layouts() {
   static const std::vector<JointLayout> layouts = [] {
     std::vector<JointLayout> made;
+    // Etude's own twenty roles, and SMPL without and with hands.
     JointLayout own{"etude", {}};
     for (const Role role : AllRoles()) own.joints.push_back(RoleName(role));
     made.push_back(std::move(own));
@@ -70,6 +72,7 @@ const std::vector<JointLayout>& Layouts() {
     made.push_back({"smpl", body});
     made.push_back({"smpl", body});
     for (const std::string_view hand : {"left_hand", "right_hand"}) made.back().joints.push_back(hand);
+    // The keypoints of pose estimators and data sets.
     made.push_back({"h36m",
                     {"hip_centre", "right_hip", "right_knee", "right_ankle", "left_hip", "left_knee", "left_ankle",
                      "spine", "shoulder_centre", "nose", "head", "left_shoulder", "left_elbow", "left_wrist",
@@ -93,7 +96,8 @@ const std::vector<JointLayout>& Layouts() {
   return layouts;
 }
 
-/// Returns the median extent of a frame's joints along an axis, in the file's unit. A NaN is a missing joint.
+/// Returns the median over the frames of the joints' largest extent along an axis, in the file's unit. A NaN is a
+/// missing joint.
 double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints) {
   std::vector<double> spreads;
   for (std::size_t begin = 0; begin < positions.size(); begin += joints) {
@@ -108,7 +112,7 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints) {
   return spreads.empty() ? 0 : UpperMedian(std::move(spreads));
 }
 
-/// Returns the unit in which this extent is that of a person, 0.8 to 2.3 m; nothing if there is none.
+/// Returns the unit in which `spread` is a person's size, 0.8 to 2.3 m; nullopt without such a unit.
 std::optional<double> UnitOfSpread(double spread) {
   for (const double unit : {1.0, 0.01, 0.001}) {
     if (spread * unit >= 0.8 && spread * unit <= 2.3) return unit;
@@ -118,10 +122,11 @@ std::optional<double> UnitOfSpread(double spread) {
 
 constexpr const char* kFromCamera = "the body stands along −Y, as in a camera's frame: turned to Y up";
 
-/// The axis along which a body stands, which is not Y.
+/// The direction in which bodies stand, if it is not +Y.
 enum class Standing { kNotTold, kAlongMinusY, kAlongZ };
 
-/// Returns how the shoulders lie over the knees in three of four frames that show them.
+/// Finds the direction in which the body stands: the shoulders lie above the knees along that direction in three of
+/// four frames that show both.
 Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names) {
   const auto column_of = [&](Role role) {
     return static_cast<std::size_t>(std::ranges::find(names, RoleName(role)) - names.begin());
@@ -143,7 +148,7 @@ Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<st
   return along_z > 0 && 4 * along_z >= 3 * seen ? Standing::kAlongZ : Standing::kNotTold;
 }
 
-/// Reads a place of an array; NaN: not seen. Returns nothing beyond ±10⁹.
+/// Reads the position at `index`; NaN means not seen. Returns nullopt if a coordinate exceeds ±10⁹.
 std::optional<glm::dvec3> PlaceIn(const NumberArray& array, std::size_t index) {
   constexpr double kMaxAbsolute = 1e9;
   const double* at = &array.values[3 * index];
@@ -153,7 +158,7 @@ std::optional<glm::dvec3> PlaceIn(const NumberArray& array, std::size_t index) {
   return std::max({size.x, size.y, size.z}) > kMaxAbsolute ? std::nullopt : std::optional(place);
 }
 
-/// The one text of an array, in lower case; empty without it.
+/// Returns the first text of the array `name`, in lower case; empty without such an array.
 std::string TextOf(const Npz& arrays, const std::string& name) {
   const auto found = arrays.texts.find(name);
   if (found == arrays.texts.end() || found->second.size() != 1) return "";
@@ -178,7 +183,7 @@ Result<double> RateOf(const Npz& arrays, const std::string& file) {
       kMinRate_hz, kMaxRate_hz);
 }
 
-/// Returns the metres of the arrays' unit, and says in `notes` what was assumed.
+/// Returns the length of the arrays' unit in metres; states in `notes` whatever was assumed.
 Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::string& file,
                       std::vector<std::string>& notes) {
   double unit = 1;
@@ -304,14 +309,14 @@ std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) {
   NumberArray positions = ArrayOf({frames, kRoleCount, 3}), translations = positions,
               offsets = ArrayOf({kRoleCount, 3});
   NumberArray rotations = ArrayOf({frames, kRoleCount, 4}), parents = ArrayOf({kRoleCount});
-  // Names, parents and offsets of the skeleton.
+  // Write names, parents and offsets of the skeleton.
   std::vector<std::string> names;
   for (const Joint& joint : clip.skeleton.joints) {
     names.push_back(joint.name);
     parents.values.push_back(joint.parent);
     Add(joint.rest.translation, offsets);
   }
-  // Positions and local transforms of every frame.
+  // Write positions and local transforms of every frame.
   std::vector<GlobalTransform> globals;
   for (const LocalPose& frame : clip.frames) {
     ComputeGlobals(clip.skeleton, frame, globals);
@@ -351,7 +356,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   } else {
     ASSIGN_OR_RETURN(motion.rate_hz, RateOf(arrays, file));
   }
-  // Names, and the roles of those that are a role's.
+  // Read the joints' names, and find the roles that they play.
   if (const auto names = arrays.texts.find("names"); names != arrays.texts.end()) {
     motion.joints = names->second;
   } else if (std::ranges::find(arrays.skipped, "names") != arrays.skipped.end() || arrays.arrays.contains("names")) {
@@ -372,7 +377,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     const int pelvis = motion.Find("pelvis"), hips = motion.Find("hips");
     root = pelvis >= 0 && (hips < 0 || pelvis < hips) ? pelvis : hips;
   }
-  // Positions; a joint with a NaN is not seen.
+  // Read the positions; a joint with a NaN is not seen.
   motion.positions.reserve(shape[0] * joints);
   for (std::size_t i = 0; i < shape[0] * joints; ++i) {
     const auto place = PlaceIn(positions, i);

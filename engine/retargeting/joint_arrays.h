@@ -18,48 +18,49 @@ namespace etude {
 /// "body_25", "halpe_26", "mhr70" and "mhr" (127).
 std::vector<std::string> JointLayoutNames();
 
-/// Returns the names of a layout's joints in its order; a joint that plays a role has the role's name. `joints` selects
-/// among layouts of the same name. Empty if there is no such layout.
+/// Returns the names of a layout's joints in its order; a joint that plays a role has the role's name. If several
+/// layouts are called `layout`, the number of `joints` selects one. Empty without such a layout.
 std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joints);
 
-/// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories. Their rate is the judged rate,
-/// because such a file contains none. Unless the up axis is `told`, a body that stands on its head in three of four
-/// frames is in a camera's frame (Y down, Z forwards), and is turned by half a turn about X. `layout` is one of
-/// JointLayoutNames(); without it, the layout is the one with J joints. The unit is the metre, unless the joints extend
-/// as far as a person's in centimetres or millimetres. `note` states layout and unit. Fails for other shapes, a layout
-/// with another number of joints, 17 joints without a layout, and positions beyond ±10⁹.
+/// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories. The file states no frame rate,
+/// so the rate is kJudgedRateHz. `layout` is one of JointLayoutNames(); without it, the layout with J joints is taken.
+/// The unit is the metre, unless the joints' extent is a person's size in centimetres or millimetres. If no up axis is
+/// `told` and the body stands on its head in three of four frames, the array is taken to be in a camera's frame (Y
+/// down, Z forwards) and is rotated by half a turn about X. `note` states layout and unit. Fails for other shapes, a
+/// layout with another number of joints, 17 joints without a layout, and positions beyond ±10⁹.
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note, std::optional<UpAxis> told = {});
 
-/// Returns the joints in SAM 3D Body's results: `pred_joint_coords` (frames × 127 × 3) or else `pred_keypoints_3d`
-/// (frames × 70 × 3), metres, moved by `pred_cam_t` (frames × 3) if that exists, and turned from the camera's frame (y
-/// down, z forwards) to Y up, z backwards. The body is upright if the camera was level. Returns nothing if neither
-/// array exists.
+/// Returns the joints in SAM 3D Body's results: `pred_joint_coords` (frames × 127 × 3), otherwise `pred_keypoints_3d`
+/// (frames × 70 × 3), in metres. They are translated by `pred_cam_t` (frames × 3) if that exists, and rotated from the
+/// camera's frame (y down, z forwards) to Y up, z backwards. The body is upright if the camera was level. Returns
+/// nullopt if neither array exists.
 std::optional<NumberArray> JointsOfSam(const Npz& arrays);
 
-/// Writes a body's motion as an .npz file with the arrays, in the order of `names`: `positions` (T × 20 × 3, metres, Y
-/// up), `translations` and `rotations` relative to each joint's parent (T × 20 × 3; T × 20 × 4, w x y z), `offsets` (at
-/// rest, 20 × 3), `parents` (−1 for the root), `rate_hz`, `unit` and `up`. All rotations are the identity in `rest`.
+/// Writes a body's motion as an .npz file. Its arrays are `names`, and in the order of `names`: `positions` (T × 20 ×
+/// 3, metres, Y up), `translations` (T × 20 × 3) and `rotations` (T × 20 × 4, w x y z) relative to each joint's parent,
+/// `offsets` (at rest, 20 × 3) and `parents` (−1 for the root); also `rate_hz`, `unit` and `up`. All rotations are the
+/// identity in `rest`.
 std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest);
 
-/// Returns true if the arrays hold positions of joints, as those of WriteBodyNpz do.
+/// Returns true if the arrays hold positions of joints, as WriteBodyNpz writes them.
 bool IsBodyNpz(const Npz& arrays);
-/// What the user states about arrays; it replaces what the file says.
+/// Properties that the user states; they overrule the file.
 struct ArrayOptions {
   std::optional<double> rate_hz = {}, metres_per_unit = {};
   std::optional<UpAxis> up = {};
 };
-/// Reads the positions of such arrays: any joints, with their names in `names` (the twenty without), a joint NaN where
-/// it was not seen. A joint named like a role plays it, one named pelvis or hips the hip centre if no other does. The
-/// file says `rate_hz`, `unit` ("cm" or metres; else metres) and `up` ("z"; else Y, or as in JointsOfArray); positions
-/// become metres with Y up.
-/// A unit that nobody told is wrong if the joints extend more than 4 m in the median frame: centimetres or millimetres
-/// that make a person of them are taken, and `notes` says so. Fails for a missing rate, another number of names, a size
-/// of no unit, and values beyond ±10⁹.
+/// Reads the positions from arrays like WriteBodyNpz's: any joints, with their names in `names` (without names, the
+/// twenty roles); NaN where a joint was not seen. A joint named like a role plays that role. A joint named pelvis or
+/// hips plays the hip centre if no other joint does. The file states `rate_hz`, `unit` ("cm", otherwise metres) and
+/// `up` ("z", otherwise Y, or as in JointsOfArray). Positions are converted to metres with Y up.
+/// If nobody states the unit and the joints extend over more than 4 m in the median frame, the unit is taken to be the
+/// centimetre or millimetre, whichever gives a person's size, and `notes` states this. Fails for a missing rate, a
+/// wrong number of names, a size that no unit explains, and values beyond ±10⁹.
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told = {});
-/// Returns the twenty joints of a motion, which may stand in any order; nothing if it has others, or a gap.
+/// Returns the twenty joints of a motion, whose joints may be in any order; nullopt if it has other joints, or gaps.
 std::optional<BodyMotion> BodyOf(const RawMotion& motion);
-/// Returns the joints of a motion as markers of their names, with their gaps.
+/// Returns the joints of a motion as markers with the joints' names; gaps stay gaps.
 MarkerMotion MarkersOf(const RawMotion& motion);
 
 }  // namespace etude

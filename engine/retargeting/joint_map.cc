@@ -19,7 +19,7 @@ namespace {
 
 using enum Role;
 
-/// Lists up to sixty names of the file, for error messages.
+/// Lists up to sixty of the file's joint names, for error messages.
 std::string NamesSeen(const Skeleton& skeleton) {
   constexpr std::size_t kShownNames = 60;
   std::vector<std::string> seen;
@@ -31,7 +31,7 @@ std::string NamesSeen(const Skeleton& skeleton) {
 
 class MapFinder {
  public:
-  /// `rest` is taken for the rest pose; `moving` are poses of the clip.
+  /// `rest` serves as the rest pose; `moving` holds poses of the clip.
   MapFinder(const Skeleton& skeleton, const std::string& file, const LocalPose& rest, const MovingPoses& moving)
       : skeleton_(skeleton), file_(file), tree_(skeleton, rest), names_(skeleton), draft_(tree_), moving_(moving) {}
 
@@ -85,12 +85,13 @@ class MapFinder {
         }
         missing_roles.push_back(limb.roles[i]);
         missing.emplace_back(RoleName(limb.roles[i]));
-        // If other joints of a scheme were found, suggest its name for the missing one.
+        // If other joints of a naming scheme were found, suggest the scheme's name for the missing joint.
         if (found.scheme != nullptr) missing.back() += fmt::format(" (a '{}')", found.scheme->joints[i]);
       }
     }
     if (missing.empty()) return {};
-    // Take the missing joints from the proposal by shape, if it agrees with the names and its confidence is sufficient.
+    // Take the missing joints from the proposal by shape, if the proposal agrees with the names and is confident
+    // enough.
     const AnatomyProposal proposal = ProposeByAnatomy(tree_);
     const bool agrees = std::ranges::all_of(AllRoles(), [&](Role role) {
       return proposal.joints[Index(role)] < 0 || !draft_.Has(role) ||
@@ -125,8 +126,8 @@ class MapFinder {
     return {};
   }
 
-  /// Returns the first joint with one of these names for which `fits` is true, preferably with the limbs' prefix; −1 if
-  /// there is none.
+  /// Returns the first joint with one of these names for which `fits` is true, preferably with the limbs' prefix; −1
+  /// without such a joint.
   template <typename Fits>
   int FindInMiddle(std::span<const std::string_view> role_names, Fits fits) const {
     for (const std::string_view name : role_names) {
@@ -145,8 +146,8 @@ class MapFinder {
     if (head < 0) head = HeadByShape();
     if (!draft_.Has(kHead) && head >= 0) draft_.Set(kHead, head);
     if (draft_.Has(kShoulderCentre)) return;
-    // CMU's "Neck" lies at its parent, a chest joint; its "Neck1" is at the base of the neck. The threshold is relative
-    // to a limb's length because that does not depend on the rest pose.
+    // CMU's "Neck" lies at its parent, a chest joint; its "Neck1" is at the base of the neck. The threshold is a share
+    // of a limb's length, because limb lengths do not depend on the rest pose.
     const double tiny = 0.01 * glm::distance(draft_.RestOf(kLeftShoulder), draft_.RestOf(kLeftElbow));
     const int neck = FindInMiddle(NeckNames(), [&](int joint) {
       return is_above_pelvis(joint) && (head < 0 || tree_.DescendsFrom(head, joint)) &&
@@ -159,8 +160,8 @@ class MapFinder {
   }
 
   /// Finds the highest joint that belongs to no limb and lies 0.15 to 0.8 trunk lengths beyond the shoulders in the
-  /// direction of the trunk. Returns its parent if it is an end site whose parent does not carry the shoulders, else
-  /// the joint itself; −1 if there is none.
+  /// direction of the trunk. If that joint is an end site and its parent does not carry the shoulders, returns the
+  /// parent; otherwise returns the joint. Returns −1 without such a joint.
   int HeadByShape() const {
     const int carrier = tree_.CommonAncestor(draft_.JointOf(kLeftShoulder), draft_.JointOf(kRightShoulder));
     const glm::dvec3 neck = 0.5 * (draft_.RestOf(kLeftShoulder) + draft_.RestOf(kRightShoulder));
@@ -168,7 +169,7 @@ class MapFinder {
     constexpr double kMinHeight = 0.15, kMaxHeight = 0.8, kAside = Radians(30);
     double highest = kMinHeight;
     int head = -1;
-    // Keep the highest joint that passes the tests of height, direction and limbs.
+    // Keep the highest joint that passes the tests of height and direction and belongs to no limb.
     for (int joint = std::max(carrier, 0) + 1; carrier >= 0 && joint < tree_.size(); ++joint) {
       const glm::dvec3 on = tree_.RestOf(joint) - neck;
       const double height = glm::dot(on, trunk) / glm::dot(trunk, trunk);
@@ -185,10 +186,10 @@ class MapFinder {
     return is_end ? tree_.ParentOf(head) : head;
   }
 
-  /// Assigns the joint nearest to the middle of the chain from the pelvis to the base of the neck.
+  /// Assigns the spine: the joint nearest to the middle of the chain from the pelvis to the base of the neck.
   void FindSpine() {
     if (draft_.Has(kSpine)) return;
-    // Distances along the chain do not depend on the rest pose, which is folded up in some files.
+    // Measure distances along the chain; they do not depend on the rest pose, which is folded up in some files.
     const int pelvis = draft_.JointOf(kHipCentre);
     const int neck = draft_.JointOf(kShoulderCentre);
     std::vector<int> chain;
@@ -264,7 +265,7 @@ class MapFinder {
 };
 
 /// Returns how upright a pose is: the cosine of the angle between the line from shoulders to hips and a thigh or shank,
-/// for the limb with the lowest value. Only limbs that are found by name count; nullopt if there are none.
+/// taking the least upright limb. Only limbs that are found by name count; nullopt without any.
 std::optional<double> StandingOf(const Skeleton& skeleton, const JointNames& names, const LocalPose& pose) {
   const SkeletonTree tree(skeleton, pose);
   std::array<glm::dvec3, kRoleCount> at{};
@@ -299,9 +300,9 @@ std::vector<const LocalPose*> SomeOf(std::span<const LocalPose> frames, const Sk
   return some;
 }
 
-/// Returns the rest pose or, if that is not a human pose, the frame that is most upright.
+/// Returns the rest pose if it is a human pose, otherwise the most upright frame.
 LocalPose RestOrStanding(const Skeleton& skeleton, const std::vector<const LocalPose*>& frames) {
-  constexpr double kPose = 0.5;  // legs within 60° of the trunk's line
+  constexpr double kPose = 0.5;  // cosine: legs within 60° of the trunk's line
   LocalPose rest = RestPose(skeleton);
   if (frames.empty()) return rest;
   const JointNames names(skeleton);

@@ -20,9 +20,10 @@ struct RolePoint {
 /// The points of a clip's own skeleton that play the twenty roles.
 struct JointMap {
   std::array<RolePoint, kRoleCount> points;  ///< by Index(role)
-  /// The roles that no joint or end site of the skeleton plays; their points are fixed to a neighbouring joint.
+  /// The roles that no joint or end site of the skeleton plays. Their points are fixed to a neighbouring joint.
   std::vector<Role> composed;
-  /// The roles that were found not by name but by the skeleton's shape (ProposeByAnatomy), and the confidence in them.
+  /// The roles that were found by the skeleton's shape (ProposeByAnatomy) instead of by name, and the confidence in
+  /// them.
   std::vector<Role> by_anatomy = {};
   double confidence = 1;
 
@@ -32,40 +33,40 @@ struct JointMap {
 struct JointMapOverrides;
 
 /// Finds the roles in a skeleton by the naming schemes of joint_names.h and by its shape:
-/// - Shoulders, elbows, wrists, hips, knees, ankles, the base of the neck and the head are found by name; among joints
-///   of one name, those that form a chain. Wrists and ankles may descend from a control outside of the limbs. If no
-///   neck is named, it is *composed*: a point midway between the shoulders.
-/// - The hip centre is midway between the hips, whatever the file's root is (paper B's P₁). Its point here is the joint
+/// - Shoulders, elbows, wrists, hips, knees, ankles, the base of the neck and the head are found by name. If several
+///   joints have a name, those that form a chain are taken. Wrists and ankles may descend from a control outside of the
+///   limbs. If no neck is named, it is *composed*: a point midway between the shoulders.
+/// - The hip centre is midway between the hips, wherever the file's root is (paper B's P₁). The map holds the joint
 ///   that carries both hips; `Evaluate` computes the midpoint.
-/// - The spine is the joint nearest to the middle of the chain from that joint to the base of the neck.
-/// - Hands, feet and head are tips: the farthest end of the chain (fingers, toes, skull) at a plausible distance from
-///   wrist, ankle or base of the neck, or else composed (ours): hand and head extend forearm and trunk, the foot points
-///   forward, in the proportions of paper B's body. Files contain end sites at 0 cm and at 1.6 m.
+/// - The spine is the joint nearest to the middle of the chain from that carrying joint to the base of the neck.
+/// - Hands, feet and head are tips: each is the farthest end of its chain (fingers, toes, skull) at a plausible
+///   distance from wrist, ankle or base of the neck, because files contain end sites at 0 cm and at 1.6 m. Without such
+///   an end the tip is composed (ours): hand and head extend forearm and trunk, the foot points forward, in the
+///   proportions of paper B's body.
 ///
-/// If names fail, the limbs follow from the shape (anatomy.h), provided that its confidence is at least 0.9 and that it
-/// assigns no other joint to a role that was found by name.
+/// If names fail, the limbs follow from the shape (anatomy.h). The proposal must have a confidence of at least 0.9 and
+/// must not contradict a role that was found by name.
 ///
-/// Fails for missing limbs (with a list of the file's names), hips without a common ancestor, a knee that does not
-/// descend from its hip and similar errors, and hips that are not on opposite sides of the joint that carries them.
-/// Poses of `frames` are used if the rest pose is not a human pose: if its legs do not point away from its trunk, the
-/// most upright frame replaces it, and tips that are implausible at rest are searched in motion (FindTips).
-/// ToBodyMotion checks on the moving body that left and right are not exchanged. The roles in `taught` are assigned
-/// before any name is searched, and checked like the others; a joint that does not exist is reported with its line in
-/// the joint-map file.
+/// Poses of `frames` are used if the rest pose is not a human pose. If its legs do not point away from its trunk, the
+/// most upright frame replaces it; tips that are implausible at rest are searched in motion (FindTips). The roles in
+/// `taught` are assigned before any name is searched, and checked like the others. Fails for missing limbs (with a list
+/// of the file's names), hips without a common ancestor, a knee that does not descend from its hip and similar errors,
+/// hips that are not on opposite sides of the joint that carries them, and joints of `taught` that do not exist (with
+/// their line in the joint-map file). ToBodyMotion checks on the moving body that left and right are not exchanged.
 Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const JointMapOverrides* taught = nullptr,
                               std::span<const LocalPose> frames = {});
 
-/// The result of searching a skeleton in which not all roles can be found.
+/// The roles found in a skeleton, even if some are missing.
 struct PartialRoles {
   std::array<int, kRoleCount> found;     ///< joints found by name, by Index(role); −1: none
   std::array<int, kRoleCount> proposed;  ///< by shape, for limbs without names; −1: none
-  double confidence = 0;                 ///< of `proposed`
+  double confidence = 0;                 ///< the confidence of `proposed`
 };
 PartialRoles FindPartialRoles(const Skeleton& skeleton);
 
-/// Returns the joint that must become the root (WithRootAt) so that the hips carry the shoulders: the hips' common
-/// ancestor, if the file is rooted at the chest or the head. Returns −1 if no change is needed, or if limbs have no
-/// known names.
+/// Returns the joint that must become the root (WithRootAt) if the file is rooted at the chest or the head: the hips'
+/// common ancestor, which then carries the shoulders. Returns −1 if no change is needed, or if limbs have no known
+/// names.
 int FindNewRoot(const Skeleton& skeleton);
 
 /// Returns one frame of a clip as the twenty joints, in the file's unit and axes. `globals` is the output of

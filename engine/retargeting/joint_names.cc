@@ -9,12 +9,12 @@ namespace {
 
 using enum Language;
 
-// If a scheme calls the collar bone "shoulder" or a helper "hip", a more specific row must come before the row that
-// would take these for the joint.
+// Some schemes call the collar bone "shoulder" or a helper joint "hip". Their more specific rows must come before the
+// rows in which these words mean the joint itself.
 constexpr LimbNames kArmSchemes[] = {
     {{"arm", "forearm", "hand"}},                // MotionBuilder: CMU, LAFAN1, Mixamo, MASS, Rokoko, DeepMotion
     {{"arm", "elbow", "wrist"}},                 // "Shoulder" is the collar bone: MikuMikuDance in English
-    {{"upperarm", "elbow", "wrist"}},            // likewise
+    {{"upperarm", "elbow", "wrist"}},            // the same
     {{"arm", "elbow", "hand"}},                  // likewise
     {{"upperarm", "elbow", "hand"}},             // likewise
     {{"shoulder", "elbow", "wrist"}},            // Biovision, CMU as converted for Poser, Xsens, SMPL, Kinect
@@ -95,7 +95,7 @@ constexpr LimbNames kLegSchemes[] = {
     {{"hanche", "genou", "pied"}, kFrench},
 };
 
-// Kinect's name and our own role's name mean the middle of the shoulders.
+// In Kinect's and our own scheme, the name of this role means the middle of the shoulders.
 constexpr std::string_view kNeckNames[] = {"shouldercentre",
                                            "shouldercenter",
                                            "spineshoulder",
@@ -122,8 +122,8 @@ bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 bool IsBeyondAscii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
-/// Returns a name in UTF-8 with Latin-1's accented letters replaced by plain ones, also if the accent is a separate
-/// character (as in names written by macOS).
+/// Returns a UTF-8 name with Latin-1's accented letters replaced by plain letters. The accent may be a separate
+/// character, as in names written by macOS.
 std::string WithoutAccents(std::string_view name) {
   constexpr std::string_view kPlain =
       "AAAAAA?CEEEEIIII?NOOOOO?OUUUUY??aaaaaa?ceeeeiiii?nooooo?ouuuuy?y";  // from U+00C0
@@ -168,7 +168,7 @@ std::vector<std::string> WordsOf(std::string_view name) {
 
 bool IsNumber(const std::string& word) { return std::ranges::all_of(word, IsDigit); }
 
-/// Moves a side before a number: "upperarm01.L" is read like "upperarm.L.01", and the number counts as a suffix.
+/// Swaps a number and a side after it: "upperarm01.L" is read like "upperarm.L.01", and the number counts as a suffix.
 void PutSideBeforeNumber(std::vector<std::string>& words) {
   constexpr std::string_view kSides[] = {"l", "r", "left", "right"};
   if (words.size() < 3 || std::ranges::find(kSides, words.back()) == std::end(kSides)) return;

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The language in which a scheme writes sides: left, right, l, r; gauche, droit, droite, g, d; 左, 右, l, r.
+/// The language in which a scheme names sides: left, right, l, r; gauche, droit, droite, g, d; 左, 右, l, r.
 enum class Language { kEnglish, kFrench, kJapanese };
 
 /// The names of the three joints of a limb in one naming scheme, without the side.
@@ -26,41 +26,43 @@ struct LimbNames {
 std::span<const LimbNames> ArmSchemes();
 /// Lists the schemes of legs: hip, knee, ankle.
 std::span<const LimbNames> LegSchemes();
-/// Lists the names of the base of the neck. CMU's "Neck" lies at the chest, so the joint's position must be checked.
+/// Lists the names of the base of the neck. The caller must check the joint's position, because CMU's "Neck" lies at
+/// the chest.
 std::span<const std::string_view> NeckNames();
 std::span<const std::string_view> HeadNames();
 
-/// The finger to which a joint belongs, according to its name. The most suitable tip of a hand comes first.
+/// The finger that a joint's name states. The order is the preference for the tip of a hand, best first.
 enum class Finger { kMiddle, kIndex, kRing, kLittle, kNotNamed, kThumb };
-/// Returns the finger of a name: "LeftHandThumb2", "thumb_01_l" and "lthumb" are thumbs. Numbered names are kNotNamed:
-/// 3ds Max' biped calls the thumb "Finger0", others begin with the index finger.
+/// Returns the finger that a name states: "LeftHandThumb2", "thumb_01_l" and "lthumb" are thumbs. Numbered names are
+/// kNotNamed, because 3ds Max' biped calls the thumb "Finger0" while others begin with the index finger.
 Finger FingerOf(std::string_view name);
 
-/// Returns which joints are end sites: BVH's own; in formats without end sites, the joints without children that are
-/// named after their parent, such as "Head_End", "Head_end" or "HeadNub" below "Head". The same skeleton is therefore
-/// read alike from both kinds of formats.
+/// Returns true for each end site: BVH's own; in formats without end sites, each joint without children that is named
+/// after its parent, such as "Head_End", "Head_end" or "HeadNub" below "Head". A skeleton is therefore read alike from
+/// both kinds of formats.
 std::vector<bool> EndSites(const Skeleton& skeleton);
 
 /// A joint that was found by its name.
 struct NamedJoint {
   int joint = -1;
   std::string prefix;        ///< the words before the name, without numbers: "mixamorig", "bip", or empty
-  std::size_t suffixes = 0;  ///< number of ignored words after it: 1 in "l_arm_JNT"
+  std::size_t suffixes = 0;  ///< the number of ignored words after the name: 1 in "l_arm_JNT"
 };
 
 /// The joints of a skeleton, indexed by the words of their names. Words end at punctuation, blanks, capital letters and
 /// numbers; case is ignored. Text before a colon or a vertical bar, words at the beginning, and technical words at the
-/// end ("JNT", "joint", "bone", a number) are optional: "mixamorig:LeftArm", "Character1_LeftArm", "l_arm_JNT" and
+/// end ("JNT", "joint", "bone", a number) are ignored: "mixamorig:LeftArm", "Character1_LeftArm", "l_arm_JNT" and
 /// "LeftArm_09" are all the left "arm"; "LeftForeArm" is not, because "fore" comes after the side. A side may be
-/// written "LeftArm", "L_Arm", "lArm", "ArmLeft", "Arm.L". Letters beyond ASCII are part of words; Latin letters are
-/// compared without accents ("Épaule" is "epaule"). End sites have no names of their own.
+/// written as in "LeftArm", "L_Arm", "lArm", "ArmLeft" or "Arm.L". Letters beyond ASCII are part of words; Latin
+/// letters are compared without accents ("Épaule" is "epaule"). End sites have no names of their own.
 class JointNames {
  public:
   explicit JointNames(const Skeleton& skeleton);
 
-  /// Finds at most sixteen joints of that name: those with the fewest suffixes first, then in the skeleton's order.
+  /// Finds at most sixteen joints with this name and side: those with the fewest suffixes first, then in the skeleton's
+  /// order.
   std::vector<NamedJoint> Find(std::string_view name, Side side, Language language = Language::kEnglish) const;
-  /// Finds joints of the body's middle: "Neck", "J_Bip_C_Neck".
+  /// Finds joints of the body's middle, such as "Neck" or "J_Bip_C_Neck".
   std::vector<NamedJoint> Find(std::string_view name) const;
 
  private:

@@ -32,7 +32,7 @@ glm::dvec3 SkeletonTree::InFrameOf(int joint, const glm::dvec3& point) const {
 
 namespace {
 
-// Ratings of a result. Ratings below these are the number of joints found by name.
+// Ratings of a complete result. Lower ratings are the number of joints found by name.
 constexpr int kAllNamed = 3;
 constexpr int kLooseChain = 4;
 constexpr int kChain = 5;
@@ -53,14 +53,14 @@ Candidates CandidatesOf(const JointNames& names, const LimbNames& scheme, Side s
     if (taught[i] >= 0) candidates[i] = {{.joint = taught[i], .prefix = "", .suffixes = 0}};
   }
   if (taught == std::array{-1, -1, -1}) return candidates;
-  // A joint given by the user may have any name, so prefixes do not show which joints belong together.
+  // A joint given by the user may have any name, so ignore the prefixes of all joints.
   for (auto& of_joint : candidates) {
     for (NamedJoint& candidate : of_joint) candidate.prefix.clear();
   }
   return candidates;
 }
 
-/// Tries every triple of candidates with one prefix and keeps the best.
+/// Tries every triple of candidates that share a prefix, and keeps the best triple.
 class Search {
  public:
   Search(const SkeletonTree& tree, FoundLimb& best) : tree_(tree), best_(best) {}
@@ -82,7 +82,7 @@ class Search {
   }
 
  private:
-  /// Finds the joints that exist by name, even if they form no chain, for error messages.
+  /// Finds the joints of a scheme by name, even if they form no chain, for error messages.
   void TryNames(const LimbNames& scheme, const Candidates& candidates) {
     for (const auto& of_joint : candidates) {
       for (const NamedJoint& candidate : of_joint) TryPrefix(scheme, candidates, candidate.prefix);

@@ -28,7 +28,7 @@ inline constexpr std::array<Limb, 4> kLimbs = {{
 }};
 inline constexpr std::span<const Limb, 2> kLegs = std::span(kLimbs).last<2>();
 
-/// The tree of a skeleton's joints with their positions in the rest pose, or in another pose that replaces it.
+/// The tree of a skeleton's joints, with their positions in the rest pose or in another pose that replaces it.
 /// `skeleton` must outlive this object.
 class SkeletonTree {
  public:
@@ -46,7 +46,7 @@ class SkeletonTree {
   bool DescendsFrom(int joint, int ancestor) const;
   /// Returns the lowest common ancestor of two joints, or −1.
   int CommonAncestor(int a, int b) const;
-  /// Returns `point` of the rest pose in the joint's own frame; zero if that frame is singular.
+  /// Returns the position of `point` (given in the rest pose) in the joint's own frame; zero if that frame is singular.
   glm::dvec3 InFrameOf(int joint, const glm::dvec3& point) const;
 
  private:
@@ -58,14 +58,14 @@ class SkeletonTree {
 /// A limb found by names: its joints from the trunk outwards; −1 for a missing joint.
 struct FoundLimb {
   std::array<int, 3> joints{-1, -1, -1};
-  std::string prefix;                 ///< common to the joints' names
+  std::string prefix;                 ///< the common prefix of the joints' names
   const LimbNames* scheme = nullptr;  ///< the scheme that names the most joints; null if none names any
 };
 
-/// Finds a limb by the first scheme whose three names, under one prefix, belong to joints that descend from each other.
-/// In control rigs, feet are separate from the legs: as a second choice, the third joint may descend from neither of
-/// the others. If no scheme fits, returns the joints of the scheme that names the most. Joints of `taught` that are not
-/// −1 are used as they are.
+/// Finds a limb by the first scheme whose three names, with one prefix, belong to joints that descend from each other.
+/// As a second choice, the third joint may descend from neither of the others, because control rigs separate the feet
+/// from the legs. If no scheme fits, returns the joints of the scheme that names the most. Joints in `taught` are used
+/// as they are; −1 there means that the user did not give the joint.
 FoundLimb FindLimb(const JointNames& names, const SkeletonTree& tree, std::span<const LimbNames> schemes, Side side,
                    const std::array<int, 3>& taught);
 

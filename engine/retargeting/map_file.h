@@ -12,24 +12,24 @@
 
 namespace etude {
 
-/// A joint as named in a joint-map file.
+/// A joint as a joint-map file names it.
 struct JointOverride {
   std::string name;  ///< as in the clip; "LeftHand_End" for BVH's End Sites
   Place place;       ///< for error messages
 };
 
-/// The content of a joint-map file: the joints that play roles, and properties of clips that their files do not
-/// contain. Roles that it leaves out are found as usual.
+/// The content of a joint-map file: the joints that play roles, and properties that clip files lack. Roles that it
+/// leaves out are found by FindJointMap.
 struct JointMapOverrides {
   std::map<Role, JointOverride> joints;
   std::optional<double> metres_per_unit = {};
   std::optional<UpAxis> up = {};
   std::optional<double> rate_hz = {};  ///< replaces the file's own
-  bool keep_floor = false;             ///< leave bodies at the file's own height
+  bool keep_floor = false;             ///< do not move the file's floor to 0
   std::string marker_set = "";         ///< the key in MarkerSets of a marker file's set
 };
 
-/// Reads a unit: m, cm, mm, in, ft, cmu (5.64 cm), or its length in metres.
+/// Reads a unit and returns its length in metres. `text` is m, cm, mm, in, ft, cmu (5.64 cm) or the length itself.
 Result<double> ReadUnit(std::string_view text, const Place& place);
 
 /// Reads a joint-map file (docs/clips.md):
@@ -47,8 +47,8 @@ Result<JointMapOverrides> ReadJointMapFile(std::string_view yaml, const std::str
 /// Returns a name in double quotes, escaped so that YAML reads it back unchanged.
 std::string QuotedInYaml(std::string_view name);
 
-/// Writes the map as such a file, with the composed roles and unused joints as comments, as a start for a user's own
-/// file. Reading it returns the same map.
+/// Writes the map as a joint-map file, with the composed roles and unused joints as comments. Users can edit it.
+/// Reading the file returns an equal map.
 std::string WriteJointMapFile(const Skeleton& skeleton, const JointMap& map);
 
 }  // namespace etude

@@ -15,11 +15,11 @@
 namespace etude {
 namespace {
 
-/// Returns true if all coordinates are 0, which some programs write for a gap.
+/// Returns true if all coordinates are 0: some programs write this for a gap.
 bool IsZero(const MarkerPosition& place) { return place && *place == glm::dvec3(0); }
 
-/// Removes positions whose coordinates are all 0, for markers that are elsewhere in other frames; the root of a
-/// root-relative pose stays, because it is always at 0. Returns their number.
+/// Removes positions at 0, 0, 0 if the marker is elsewhere in other frames. (The root of a root-relative pose stays,
+/// because it is always at 0.) Returns the number of removed positions.
 int LeaveZerosOut(MarkerMotion& markers) {
   int zeros = 0;
   for (std::size_t marker = 0; marker < markers.names.size(); ++marker) {
@@ -35,8 +35,8 @@ int LeaveZerosOut(MarkerMotion& markers) {
   return zeros;
 }
 
-/// Leaves out positions that are a hundred times as far from the middle of their frame as usual there: numbers such as
-/// -9999 that some programs write for a gap. Returns their number.
+/// Removes positions that are a hundred times farther from the middle of their frame than usual; some programs write
+/// numbers such as -9999 for a gap. Returns the number of removed positions.
 int LeaveFarOut(MarkerMotion& markers) {
   constexpr double kTimesUsual = 100;
   constexpr std::size_t kMinMarkers = 5;
@@ -63,7 +63,7 @@ int LeaveFarOut(MarkerMotion& markers) {
   return far;
 }
 
-/// Returns the names that several markers have, of which only the first is used.
+/// Returns the names that several markers share. Only the first marker of a name is used.
 std::vector<std::string> NamesOfSeveral(const MarkerMotion& markers) {
   std::set<std::string> seen, several;
   for (const std::string& name : markers.names) {

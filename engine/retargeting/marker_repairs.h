@@ -4,9 +4,9 @@
 
 namespace etude {
 
-/// Turns positions that stand for gaps into gaps: 0, 0, 0 of markers that are elsewhere in other frames, and positions
-/// a hundred times as far away as the others. Appends these changes to `remark`, and the names that several markers
-/// have.
+/// Replaces positions that stand for gaps by gaps: 0, 0, 0 if the marker is elsewhere in other frames, and positions a
+/// hundred times farther away than the others. Appends a text about these changes, and about names that several markers
+/// share, to the motion's `remark`.
 void RepairMarkers(MarkerMotion& markers);
 
 }  // namespace etude

@@ -30,9 +30,10 @@ MarkerSet MakeSet(std::string name, std::string key, std::vector<MarkerRule> mid
   return set;
 }
 
-// Joints and keypoints first, then bones, then markers on the skin.
+// Makes all sets: joints and keypoints first, then bones, then markers on the skin.
 std::vector<MarkerSet> MakeSets() {
   std::vector<MarkerSet> sets;
+  // Joints and keypoints.
   MarkerSet own{.name = "Etude's joints", .key = "etude", .rules = {}, .rank = 3};
   for (const Role role : AllRoles()) own.rules.push_back({role, {std::string(RoleName(role))}});
   sets.push_back(std::move(own));
@@ -50,6 +51,7 @@ std::vector<MarkerSet> MakeSets() {
               {{Role::kHipCentre, {"hip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"nose", "head"}}},
               with_toes, "l", "r"));
   sets.push_back(MakeSet("COCO", "coco", {{Role::kHead, {"left_ear", "right_ear"}}}, pose_limbs, "left_", "right_"));
+  // Bones; each is placed at the joint in which it begins.
   sets.push_back(MakeSet("Motive's bones", "motive", {{Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"head"}}},
                          {{Role::kLeftShoulder, {"?uarm"}},
                           {Role::kLeftElbow, {"?farm"}},
@@ -67,6 +69,7 @@ std::vector<MarkerSet> MakeSets() {
                           {Role::kLeftKnee, {"?leg"}},
                           {Role::kLeftAnkle, {"?foot"}},
                           {Role::kLeftFoot, {"?toebase"}}},
+                         // Markers on the skin.
                          "left", "right"));
   MarkerSet augmented = MakeSet("OpenCap's augmented markers", "opencap", {},
                                 {{Role::kLeftShoulder, {"?_shoulder_study"}},
@@ -131,7 +134,7 @@ std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& 
 
 namespace {
 
-/// Returns the markers that tell of one knee.
+/// Returns the markers that determine one knee.
 std::vector<std::string> KneeMarkers(const MarkerSet& set) {
   const auto rule = std::ranges::find(set.rules, Role::kLeftKnee, &MarkerRule::role);
   return rule == set.rules.end() ? std::vector<std::string>{} : rule->markers;

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// A joint as the mean of some markers, all of which must be present.
+/// A rule for a joint's position: the mean of some markers, all of which must be present.
 struct MarkerRule {
   Role role;
   std::vector<std::string> markers;
@@ -20,31 +20,31 @@ struct MarkerRule {
 /// A convention of marker names, in lower case.
 struct MarkerSet {
   std::string name;
-  std::string key;  ///< what --marker-set calls it
+  std::string key;  ///< its name for --marker-set
   std::vector<MarkerRule> rules;
   std::array<std::string, 4> pelvis = {};  ///< left and right front, left and right back; the hips follow from them
-  /// Knees, ankles and elbows have one marker each, on the skin; further markers on thighs and shanks (wands) show the
-  /// planes in which the limbs bend.
+  /// True if knees, ankles and elbows have one marker each, on the skin. Further markers on thighs and shanks (wands)
+  /// show the planes in which the limbs bend.
   bool has_skin_limbs = false;
-  bool has_skin_shoulders = false;  ///< likewise shoulders, on top
-  int rank = 0;                     ///< if a file contains several sets, the one of the highest rank is used
+  bool has_skin_shoulders = false;  ///< true if shoulders have one marker each, on top
+  int rank = 0;                     ///< of several sets in a file, the one with the highest rank is used
 };
 
 /// Lists the supported conventions.
 const std::vector<MarkerSet>& MarkerSets();
 
-/// Lists their keys.
+/// Lists the keys of all sets.
 std::vector<std::string> MarkerSetKeys();
 
-/// The columns of one person's markers, by their names in lower case without prefix.
+/// Maps each marker's name, in lower case without prefix, to its column, for one person.
 using MarkerColumns = std::map<std::string, std::size_t, std::less<>>;
 
-/// The joints without which there is no body.
+/// The joints that a body needs.
 inline constexpr std::array kNeededJoints = {Role::kLeftShoulder, Role::kLeftElbow,  Role::kLeftWrist, Role::kRightShoulder,
                                 Role::kRightElbow,   Role::kRightWrist, Role::kLeftHip,   Role::kLeftKnee,
                                 Role::kLeftAnkle,    Role::kRightHip,   Role::kRightKnee, Role::kRightAnkle};
 
-/// Returns true if a person's markers hold all of these.
+/// Returns true if a person has all of these markers.
 bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);
 bool HasPelvis(const MarkerSet& set, const MarkerColumns& columns);
 /// Returns true if the set determines a joint from a person's markers.
@@ -52,13 +52,13 @@ bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);
 /// Lists the needed joints that the set does not determine.
 std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& columns);
 
-/// The set used for one person, and a second one that the file also contains.
+/// The set used for one person, and a second set that the file also contains; each may be null.
 struct ChosenSet {
   const MarkerSet* set = nullptr;
   const MarkerSet* other = nullptr;
 };
-/// Chooses among the complete sets (the wanted one, if a key is given) by rank, then by the number of joints that they
-/// determine. Null if there is none.
+/// Chooses a complete set: the set with key `wanted` if that is not empty, otherwise the one with the highest rank,
+/// then with the most joints that it determines. The sets in the result are null if none is complete.
 ChosenSet ChooseSet(const MarkerColumns& columns, const std::string& wanted);
 
 }  // namespace etude

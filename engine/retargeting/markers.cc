@@ -61,7 +61,7 @@ std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
 /// Interpolates linearly between two points.
 glm::dvec3 Interpolate(const glm::dvec3& a, const glm::dvec3& b, double part) { return a + part * (b - a); }
 
-/// Fills gaps of at most `most` frames linearly; returns the number of frames filled.
+/// Fills gaps of at most `most` frames by linear interpolation; returns the number of filled frames.
 int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most) {
   int filled = 0;
   std::optional<std::size_t> last;
@@ -78,8 +78,9 @@ int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size
   return filled;
 }
 
-/// Sets the hip joint centres by Harrington et al. (2007), "Prediction of the hip joint centre in adults, children, and
-/// patients with cerebral palsy", table 6: millimetres, relative to the midpoint of the front markers.
+/// Sets the hip joint centres by the regression of Harrington et al. (2007), "Prediction of the hip joint centre in
+/// adults, children, and patients with cerebral palsy", table 6. Its offsets are in millimetres from the midpoint of
+/// the front markers.
 void PlaceHips(const std::array<glm::dvec3, 4>& pelvis, JointPositions& places) {
   const glm::dvec3 front = 0.5 * (pelvis[0] + pelvis[1]), back = 0.5 * (pelvis[2] + pelvis[3]);
   const glm::dvec3 right = glm::normalize(pelvis[1] - pelvis[0]);
@@ -106,7 +107,7 @@ JointPositions PositionsOf(const MarkerSet& set, const MarkerColumns& columns, c
     }
     return scale * sum / static_cast<double>(markers.size());
   };
-  // Joints from markers, then hips from the pelvis.
+  // Compute joints from markers, then hips from the pelvis.
   for (const MarkerRule& rule : set.rules) {
     if (HasAll(columns, rule.markers)) places[Index(rule.role)] = middle(rule.markers);
   }
@@ -136,13 +137,13 @@ Wands WandsOf(const MarkerColumns& columns, const std::vector<MarkerPosition>& f
   return {.thigh = {at("lthi"), at("rthi")}, .shank = {at("ltib"), at("rtib")}};
 }
 
-/// Places the joints without markers by rules of proportion. Y points up.
+/// Adds the joints that have no markers, by rules of proportion. Y points up.
 BodyPose Complete(const JointPositions& places) {
   constexpr double kHeadAbove = 0.3, kHandBeyond = 0.7, kToesBefore = 0.16, kToesBelow = 0.04;
   BodyPose pose;
   for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = places[i].value_or(glm::dvec3(0));
   const auto lacks = [&](Role role) { return !places[Index(role)]; };
-  // Centres, spine and head.
+  // Add centres, spine and head.
   if (lacks(Role::kHipCentre)) pose[Role::kHipCentre] = 0.5 * (pose[Role::kLeftHip] + pose[Role::kRightHip]);
   if (lacks(Role::kShoulderCentre)) {
     pose[Role::kShoulderCentre] = 0.5 * (pose[Role::kLeftShoulder] + pose[Role::kRightShoulder]);
@@ -150,7 +151,7 @@ BodyPose Complete(const JointPositions& places) {
   const glm::dvec3 trunk = pose[Role::kShoulderCentre] - pose[Role::kHipCentre];
   if (lacks(Role::kSpine)) pose[Role::kSpine] = pose[Role::kHipCentre] + 0.5 * trunk;
   if (lacks(Role::kHead)) pose[Role::kHead] = pose[Role::kShoulderCentre] + kHeadAbove * trunk;
-  // Hands and toes.
+  // Add hands and toes.
   const glm::dvec3 facing = Facing(pose);
   for (const bool is_left : {true, false}) {
     const auto of = [&](Role role) { return is_left ? role : Mirrored(role); };
@@ -165,7 +166,8 @@ BodyPose Complete(const JointPositions& places) {
   return pose;
 }
 
-/// Finds the axis that points up, by the frames with all needed joints; a foot without a marker counts as its ankle.
+/// Finds the axis that points up from the frames with all needed joints. A foot without a marker is placed at its
+/// ankle.
 UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, const UpRule& rule) {
   std::vector<BodyPose> poses;
   for (const JointPositions& places : frames) {
@@ -179,7 +181,7 @@ UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, co
   return FindUp(poses, rate_hz, rule);
 }
 
-/// Returns MarkerBody::shown. `seen` holds the joints of every frame; `up` is the direction that becomes Y.
+/// Makes MarkerBody::shown. `seen` holds the joints of every frame; `up` is the direction that becomes Y.
 MarkerMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet& set, const MarkerColumns& columns,
                      const std::vector<JointPositions>& seen, const glm::dvec3& up) {
   MarkerMotion shown{.rate_hz = markers.rate_hz, .names = {}, .frames = {}, .remark = set.name};
@@ -208,8 +210,7 @@ MarkerMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet&
   return shown;
 }
 
-/// Returns the longest range of frames in which every needed joint is known: its first frame and the frame after its
-/// last.
+/// Returns the longest range of frames in which every needed joint is known, as [first, end).
 std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositions>& frames) {
   std::pair<std::size_t, std::size_t> best{0, 0};
   std::size_t begin = 0;
@@ -224,7 +225,7 @@ std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositi
   return best;
 }
 
-/// Returns the floor's height: the 5th percentile of the lowest joint's.
+/// Returns the floor's height: the 5th percentile of the lowest joint's height.
 double FloorOf(const std::vector<BodyPose>& poses) {
   std::vector<double> lowest;
   for (const BodyPose& pose : poses) {
@@ -234,7 +235,8 @@ double FloorOf(const std::vector<BodyPose>& poses) {
   return lowest[lowest.size() / 20];
 }
 
-/// Shifts the poses so that the floor is at 0, unless the user keeps it.
+/// Moves the poses so that the floor is at 0. Does nothing if the user keeps the floor, or if Etude wrote the file and
+/// its floor is near 0.
 void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
   constexpr double kMaxOwn = 0.5, kMinTold = 0.001;
   const double floor = FloorOf(body.motion.poses);
@@ -250,10 +252,10 @@ void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
 
 bool IsOwn(const MarkerSet& set) { return &set == &MarkerSets().front(); }
 
-/// Makes the body for one length of the file's unit; nullopt if no frame has all needed joints.
+/// Makes the body for a given length of the file's unit (`scale`, metres); nullopt if no frame has all needed joints.
 std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, const MarkerSet& set,
                                  const MarkerColumns& columns, const MarkerOptions& options) {
-  // Compute the joints and their centres, and fill short gaps.
+  // Compute the joints and the joint centres, and fill short gaps.
   std::vector<JointPositions> frames;
   std::vector<Wands> wands;
   frames.reserve(markers.frames.size());
@@ -266,7 +268,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   int filled = 0;
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
-  // Rotate upright. What Etude wrote has Y up.
+  // Rotate upright. Files that Etude wrote have Y up.
   UpRule rule = options.up;
   if (IsOwn(set) && rule.evidence == UpEvidence::kPosture) {
     rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the rule of Etude's own joints"};
@@ -278,7 +280,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
       if (place) place = TurnedUp(*place, body.up.axis);
     }
   }
-  // Keep the longest complete range.
+  // Keep the longest range without gaps.
   const auto [begin, end] = LongestStretch(frames);
   if (begin == end) return std::nullopt;
   body.first_frame = begin;
@@ -317,8 +319,8 @@ double MiddleStature(const BodyMotion& motion) {
   return LowerPercentile(std::move(statures), 0.5);
 }
 
-/// Makes the body in the file's unit or, if its size is then implausible, in the power of ten of this unit that gives a
-/// person's size, which the note states. Fails if none does.
+/// Makes the body in the file's unit. If its size is then implausible, the unit is multiplied by the power of ten that
+/// gives a person's size, which the note states. Fails if no power of ten does.
 Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set,
                                          const MarkerColumns& columns, const MarkerOptions& options,
                                          const std::string& file) {

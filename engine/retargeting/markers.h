@@ -12,10 +12,10 @@
 
 namespace etude {
 
-/// What the user or the file states about a file of markers.
+/// Properties of a marker file that the user or the file states.
 struct MarkerOptions {
   UpRule up = {};
-  bool keep_floor = false;                                ///< leave bodies at the file's own height
+  bool keep_floor = false;                                ///< do not move the file's floor to 0
   std::optional<double> metres_per_unit = std::nullopt;  ///< given by the user; replaces the file's unit
   std::string set = "";                                  ///< a key of MarkerSets; "" = chosen by rank
   bool keeps_shown = false;                              ///< also make MarkerBody::shown
@@ -26,42 +26,42 @@ struct MarkerBody {
   std::string name;   ///< the prefix of its markers ("Derrick" of "Derrick:LANK"), or ""
   BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
   UpFinding up;       ///< the axis of the file that became Y
-  double floor = 0;   ///< the height that became 0, metres
-  std::size_t first_frame = 0;  ///< the frame of the file that became the first
-  /// The name of the marker set, then every correction of the file's data, each as a text for people.
+  double floor = 0;   ///< the height of the file's floor, metres; it became 0
+  std::size_t first_frame = 0;  ///< the file's index of the first kept frame
+  /// The name of the marker set, then a text for people about each correction of the file's data.
   std::vector<std::string> changes;
-  /// The joints as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by a rule,
-  /// and the floor is not moved. First come the joints that the set determines, named by role, then the person's other
-  /// markers under their own names in lower case. Metres, Y up. Its remark names the set and the assumptions. Empty
-  /// unless MarkerOptions asks for it.
+  /// The joints exactly as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by
+  /// a rule, and the floor is not moved. First come the joints that the set determines, named by role, then the
+  /// person's other markers under their own names in lower case. Metres, Y up. Its remark names the set and the
+  /// assumptions. Empty unless MarkerOptions::keeps_shown.
   MarkerMotion shown = {};
 
-  /// Returns `changes` as one line, between semicolons.
+  /// Returns `changes` as one line, separated by semicolons.
   std::string Note() const { return Join(changes, "; "); }
 };
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,
 /// COCO, HALPE_26, the bones of Motive and HumanIK, the augmented markers of OpenCap and Pose2Sim, Plug-in Gait. Case
-/// and the text before the last ':' are ignored; each such prefix is one person. Joint centres (ours where no source is
-/// given):
+/// is ignored. The text before the last ':' is a prefix, and each prefix is one person. Joint centres (ours where no
+/// source is given):
 /// - the mean of the markers on both sides of a joint, if a set has both;
 /// - hips from the four markers of the pelvis by the regression of Harrington et al. (2007);
 /// - for single markers on the skin, the centre by MoveToJointCentres;
-/// - joints missing from a set: hip and shoulder centre midway between the joints, the spine midway between both, the
-///   head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm ahead of the ankle and 4 cm
-///   below.
-/// Gaps of up to a second are interpolated linearly and counted. With longer gaps, only the longest stretch without one
-/// is kept, and the note states it. Positions at 0, 0, 0 count as gaps if the marker is elsewhere in other frames.
-/// FindUp finds the axis that points up, by `options.up`. The floor (5th percentile of the lowest joint's height)
-/// becomes 0. For Etude's own joints, Y is up, and the floor stays unless it is over half a metre from 0. Of several
-/// complete sets in a file, the one of the highest rank is used, then the one that determines most joints; the note
-/// names the other.
+/// - joints missing from a set: hip centre and shoulder centre midway between left and right, the spine midway between
+///   these centres, the head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm ahead of
+///   the ankle and 4 cm below.
+/// Gaps of up to a second are interpolated linearly and counted. If there are longer gaps, only the longest stretch
+/// without one is kept, and the note states this. Positions at 0, 0, 0 count as gaps if the marker is elsewhere in
+/// other frames. FindUp finds the axis that points up, by `options.up`. The floor (5th percentile of the lowest joint's
+/// height) becomes 0. For Etude's own joints, Y is up, and the floor stays unless it is over half a metre from 0. If a
+/// file has several complete sets, the set with the highest rank is used, then the set that determines most joints; the
+/// note names the other.
 ///
-/// If a body is not 0.4 to 4 m tall (median), its unit is assumed to be wrong: the power of ten that makes it 1.2 to
-/// 2.3 m tall is applied, and the note states it; a unit given in `options` is used as it is.
+/// If a body is not 0.4 to 4 m tall (median), its unit is assumed to be wrong. The unit is then multiplied by the power
+/// of ten that makes the body 1.2 to 2.3 m tall, and the note states this. A unit given in `options` is never changed.
 ///
 /// Fails, naming `file`, if no set is complete in shoulders, elbows, wrists, hips, knees and ankles (the message lists
-/// what the best set lacks), or if no unit gives a plausible size.
+/// the missing joints of the best set), or if no unit gives a plausible size.
 Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
                                                  const MarkerOptions& options = {});
 

@@ -24,27 +24,27 @@ namespace {
 
 using enum Role;
 
-/// The place of an angle's range in `MakeBodyTree`; is_reversed: the angle has the opposite sign there.
+/// Identifies the range of an angle in `MakeBodyTree`. `is_reversed`: the angle has the opposite sign there.
 struct TreeAngle {
   BodyTreeJoint joint;
   int axis = 0;
   bool is_reversed = false;
 };
 
-/// An angle of a part: its name without the side, and the range on the right side.
+/// An angle of a part: its name without the side, and its range on the right side.
 struct PartAngle {
   std::string_view name;
   std::optional<TreeAngle> range = {};
 };
 
-/// The part that ends at `end`. Of two sides only the right one is listed; the left one mirrors it.
+/// The part that ends at `end`. Only right parts and parts of the middle are listed; left parts mirror the right ones.
 struct Part {
   Role end;
   std::array<PartAngle, 3> angles;  ///< about Z, X and Y
   double z_sign = 1;                ///< −1 for knees, which bend backwards
 };
 
-// Parents come before children, as in AllRoles.
+// Parents come before children, in the order of AllRoles.
 const std::array<Part, 12> kParts = {{
     {kHipCentre, {{{"pelvis_tilt"}, {"pelvis_list"}, {"pelvis_rotation"}}}},
     {kSpine, {{{"abdomen_extension"}, {"abdomen_bending"}, {"abdomen_rotation"}}}},
@@ -75,7 +75,7 @@ const std::array<Part, 12> kParts = {{
        {"ankle_rotation"}}}},
 }};
 
-/// A part of either side, as written to the file.
+/// A part as it is written to the file, of either side.
 struct WrittenPart {
   Role end;
   std::array<std::string, 3> names;
@@ -111,14 +111,14 @@ std::vector<WrittenPart> WrittenParts() {
 glm::dvec3 InOpenSim(const glm::dvec3& v) { return {v.z, v.y, -v.x}; }
 
 glm::dmat3 InOpenSim(const glm::dmat3& turn) {
-  // Column j is the image of OpenSim's axis j, whose direction in our axes is given by the inverse conversion.
+  // Compute column j: OpenSim's axis j, converted to our axes, rotated by `turn`, and converted back.
   return {InOpenSim(turn * glm::dvec3(0, 0, 1)), InOpenSim(turn * glm::dvec3(0, 1, 0)),
           InOpenSim(turn * glm::dvec3(-1, 0, 0))};
 }
 
 double Unwrapped(double angle, double near) { return angle - 2 * kPi * std::round((angle - near) / (2 * kPi)); }
 
-/// Returns the angles a, b, c of R = Rz(a) Rx(b) Ry(c): of all such triples, the nearest to `before`.
+/// Returns the angles a, b, c of R = Rz(a) Rx(b) Ry(c). Among all such triples, takes the one nearest to `before`.
 glm::dvec3 TurnsOf(const glm::dmat3& R, const glm::dvec3& before) {
   const auto at = [&](int row, int column) { return R[column][row]; };
   constexpr double kLocked = 1e-9;
@@ -143,7 +143,8 @@ std::array<glm::dmat3, kRoleCount> PartTurns(const BodyPose& pose, const BodyPos
   std::array<glm::dmat3, kRoleCount> turns;
   turns[Index(kHipCentre)] = joints[Index(kHipCentre)].axes;
   for (const Bone& bone : AllBones()) {
-    // The rig's joint carries its limb. Limbs that share a joint continue by the shortest rotation.
+    // The joint in which a limb begins carries the limb. If limbs share a joint, each takes the shortest rotation from
+    // there to its direction.
     const glm::dmat3& axes = joints[Index(bone.parent)].axes;
     const glm::dvec3 carried = axes * (rest[bone.child] - rest[bone.parent]);
     turns[Index(bone.child)] = glm::mat3_cast(ShortestTurn(carried, pose[bone.child] - pose[bone.parent])) * axes;
@@ -159,7 +160,7 @@ std::string HeaderOf(const BodyMotion& motion, const std::vector<WrittenPart>& p
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "Coordinates\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\n\n", motion.poses.size(),
                  1 + 3 + 3 * parts.size());
-  // One line for each part, then one for each limited angle, then the names of the columns.
+  // Write one line for each part, then one for each limited angle, then the names of the columns.
   fmt::format_to(out, "Motion {}, angles of the model below; metres, X forward, Y up, Z to the right\n", name);
   for (const WrittenPart& part : parts) {
     const auto parent = ParentOf(part.end);
@@ -190,14 +191,14 @@ struct ReadPart {
   std::optional<Role> after;  ///< nullopt: the ground
   glm::dvec3 bone;            ///< in OpenSim's axes, metres
   std::array<std::string, 3> names;
-  std::array<glm::dvec3, 3> axes;  ///< with their signs
+  std::array<glm::dvec3, 3> axes;  ///< the signed axes of the three rotations
   std::array<std::size_t, 3> columns = {};
 };
 
-/// Reads the rest of a line that begins with "part"; `read` are the parts above it.
+/// Reads the rest of a line that begins with "part". `read` holds the parts of the lines above.
 Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>& read) {
   ReadPart part{};
-  // The names of the part and of its parent.
+  // Read the name of the part and of its parent.
   const Token name = scanner.NextInLine(), after_word = scanner.NextInLine(), after = scanner.NextInLine();
   const auto end = FindRole(name.text);
   const auto ends_at = [&](Role role) { return std::ranges::find(read, role, &ReadPart::end) != read.end(); };
@@ -211,7 +212,7 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
     return Fail(scanner.At(after_word),
                 "after {}; allowed: 'after ground' for the first part, then a part above this line", Quote(after.text));
   }
-  // The bone, then three angles with their axes.
+  // Read the bone, then three angles with their axes.
   const Token bone = scanner.NextInLine();
   if (bone.text != "bone") return Fail(scanner.At(bone), "{}; allowed: bone X Y Z", Quote(bone.text));
   for (int i = 0; i < 3; ++i) {
@@ -237,7 +238,7 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
 struct AngleTable {
   std::vector<ReadPart> parts;
   double radians = Radians(1);            ///< radians per unit of angles
-  std::array<std::size_t, 3> place = {};  ///< columns of the pelvis' translation
+  std::array<std::size_t, 3> place = {};  ///< columns of the pelvis's translation
   std::vector<std::vector<double>> rows;  ///< the first column is the time, seconds
 };
 
@@ -292,7 +293,7 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
     if (row.size() != columns) return Fail(scanner.At(begin), "{} numbers under {} names", row.size(), columns);
   }
   if (table.rows.empty()) return Fail({file}, "no rows of angles");
-  // Radians beyond two turns are degrees.
+  // Larger angles than two turns must be degrees, not radians.
   constexpr double kMaxRadians = 4 * kPi;
   for (const ReadPart& part : table.parts) {
     for (std::size_t i = 0; i < 3 && table.radians == 1; ++i) {
@@ -306,7 +307,7 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
   return table;
 }
 
-/// Fails for times that cannot belong to a recording.
+/// Fails if the times cannot be a recording's clock.
 Result<void> CheckTimes(const std::vector<double>& times, const std::string& file) {
   if (times.size() < 2) return {};
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
@@ -335,7 +336,7 @@ Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& 
   for (const std::vector<double>& row : table.rows) times.push_back(row.front());
   RETURN_IF_ERROR(CheckTimes(times, file));
   BodyMotion motion{.rate_hz = kJudgedRateHz, .poses = std::vector<BodyPose>(table.rows.size())};
-  // Forward kinematics of every row.
+  // Compute the forward kinematics of every row.
   for (std::size_t f = 0; f < table.rows.size(); ++f) {
     const std::vector<double>& row = table.rows[f];
     const glm::dvec3 ground(row[table.place[0]], row[table.place[1]], row[table.place[2]]);

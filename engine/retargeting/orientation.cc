@@ -48,7 +48,7 @@ glm::dvec3 Direction(const glm::dvec3& v) {
 
 glm::dvec3 Across(const BodyPose& pose, Role left, Role right) { return Direction(pose[left] - pose[right]); }
 
-/// Returns the direction that chest and belly face.
+/// Returns the direction in which chest and belly face.
 glm::dvec3 Forward(const BodyPose& pose) {
   return Direction(glm::cross(Across(pose, kLeftHip, kRightHip), Direction(pose[kShoulderCentre] - pose[kHipCentre])));
 }
@@ -59,13 +59,14 @@ double LimbLength(const BodyPose& pose, Role upper, Role middle, Role end) {
   return glm::distance(pose[upper], pose[middle]) + glm::distance(pose[middle], pose[end]);
 }
 
-/// Returns the offset of a limb's middle joint from the straight line, in lengths of the limb.
+/// Returns the offset of a limb's middle joint from the straight line between the limb's ends, relative to the limb's
+/// length.
 glm::dvec3 BendOffset(const BodyPose& pose, Role upper, Role middle, Role end) {
   const double length = LimbLength(pose, upper, middle, end);
   return length > 0 ? (pose[middle] - 0.5 * (pose[upper] + pose[end])) / length : glm::dvec3(0);
 }
 
-/// Returns the vector from a limb's beginning to its end, in lengths of the limb.
+/// Returns the vector from a limb's beginning to its end, relative to the limb's length.
 glm::dvec3 Reach(const BodyPose& pose, Role upper, Role middle, Role end) {
   const double length = LimbLength(pose, upper, middle, end);
   return length > 0 ? (pose[end] - pose[upper]) / length : glm::dvec3(0);
@@ -77,7 +78,7 @@ double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3
   return glm::dot(forward, middle - 0.5 * (upper + end)) < 0 ? -angle : angle;
 }
 
-/// Evidence about left and right of a body. It is measured in the body's own frame, so the body may lie or turn over.
+/// Evidence that left and right are correct. It is measured in the body's own frame, so the body may lie or turn over.
 struct Sides {
   double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive for humans
   std::vector<double> knee_bends;                       ///< Bend of both knees in each frame
@@ -110,7 +111,7 @@ Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, 
   if (sides.shoulders < 0) {
     return Fail({file}, "the left arm is on the side of the right leg: left and right are exchanged");
   }
-  // Thresholds are per limb and frame. The feet of a lying body point slightly backwards.
+  // Each threshold applies per limb and frame. (The feet of a lying body point slightly backwards.)
   constexpr double kBackwards = 0.35;
   const auto count = static_cast<double>(2 * poses.size());
   const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();

@@ -22,13 +22,14 @@ bool IsTurned(const glm::dquat& a, const glm::dquat& b) {
   return half > std::sin(0.5 * kStill);
 }
 
-// A skeleton as a clip uses it: its mean translations, its constant rotations, and the joints that rotate.
+// A skeleton as a clip uses it: the mean translation of each joint, its rotation if that is constant, and whether it
+// rotates.
 struct Measured {
   LocalPose rest;
   std::vector<bool> turns;
 };
 
-// Measures from frame `first` on.
+// Measures the skeleton in the frames from `first` on.
 Measured Measure(const Clip& clip, std::size_t first) {
   const std::size_t count = clip.skeleton.joints.size();
   Measured measured{RestPose(clip.skeleton), std::vector<bool>(count)};
@@ -49,7 +50,7 @@ Measured Measure(const Clip& clip, std::size_t first) {
   return measured;
 }
 
-/// Returns true if every role's joint is the hip centre's or a descendant of it.
+/// Returns true if the joint of every role is the hip centre's joint or its descendant.
 bool DescendsFromPelvis(const RestBody& rest) {
   const int pelvis = rest.roles[Index(Role::kHipCentre)].joint;
   return std::ranges::all_of(rest.roles, [&](const RestBody::RoleAnchor& role) {
@@ -71,7 +72,7 @@ RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion
 
   // Keep the joints that rotate; others are merged into their parents.
   RestBody rest;
-  std::vector<int> index(globals.size());  // of the body's joint that carries each joint of the skeleton
+  std::vector<int> index(globals.size());  // for each joint of the skeleton: the body's joint that carries it
   for (std::size_t i = 0; i < globals.size(); ++i) {
     const Joint& joint = clip.skeleton.joints[i];
     if (joint.parent >= 0 && !measured.turns[i]) {
@@ -104,14 +105,14 @@ double LegLength(const BodyPose& pose) {
   return sum / kLegs.size();
 }
 
-/// Returns the median length of the legs, because the lengths of measured limbs vary.
+/// Returns the median length of the legs over the frames, because measured lengths vary.
 double UsualLegLength(const BodyMotion& motion) {
   std::vector<double> lengths;
   for (const BodyPose& pose : motion.poses) lengths.push_back(LegLength(pose));
   return UpperMedian(std::move(lengths));
 }
 
-/// Returns the limb from `role`'s parent to it, with the target's length and the performer's direction.
+/// Returns the vector from `role`'s parent to `role`, with the target body's length and the performer's direction.
 glm::dvec3 NewLimb(const BodyPose& performer, const BodyPose& body, Role role) {
   const Role parent = *ParentOf(role);
   const glm::dvec3 limb = performer[role] - performer[parent], own = body[role] - body[parent];
@@ -119,7 +120,7 @@ glm::dvec3 NewLimb(const BodyPose& performer, const BodyPose& body, Role role) {
   return length > 0 ? limb * (glm::length(own) / length) : own;
 }
 
-/// Returns the pose with every limb in its direction and the hip centre at its scaled position.
+/// Returns the performer's pose with the target body's limb lengths and with the hip centre at its scaled position.
 BodyPose WithNewLimbs(const BodyPose& performer, const BodyPose& body, double scale) {
   BodyPose pose;
   pose[kHipCentre] = scale * performer[kHipCentre];
@@ -129,8 +130,8 @@ BodyPose WithNewLimbs(const BodyPose& performer, const BodyPose& body, double sc
   return pose;
 }
 
-/// Returns how far the hips must be lowered for the leg to reach `ankle`, metres. A foot in the air counts less or not
-/// at all.
+/// Returns how far the hips must be lowered for the leg to reach `ankle`, metres. A foot in the air counts less, and a
+/// high one not at all.
 double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle, double toe_height) {
   constexpr double kStands = 0.05, kFlies = 0.15;  // height of the toes above the floor, metres
   const double stands = 1 - Smoothstep(kStands, kFlies, toe_height);
@@ -141,8 +142,8 @@ double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle
   return stands * std::max(0.0, hip.y - highest);
 }
 
-/// Returns the unit direction perpendicular to `along`, the line from hip to ankle, on whose side the knee lies, given
-/// the `thigh`. For a straight leg it is the direction in front of the hips.
+/// Returns the side of the line from hip to ankle (`along`) on which the knee lies: a unit vector perpendicular to
+/// `along`, from the direction of the thigh. For a straight leg, returns the direction in front of the hips.
 glm::dvec3 KneeSide(const BodyPose& pose, const glm::dvec3& thigh, const glm::dvec3& along) {
   constexpr double kStraight = 0.02, kBent = 0.08;  // offset of the knee from the line, in thigh lengths
   const double length = glm::length(thigh);
@@ -154,8 +155,8 @@ glm::dvec3 KneeSide(const BodyPose& pose, const glm::dvec3& thigh, const glm::dv
   return unit(glm::mix(unit(front), unit(seen), trust));
 }
 
-/// Two-bone inverse kinematics: brings the ankle to `wanted`, or as near to it as the leg reaches, with the knee on the
-/// same side as before. The foot keeps its slope.
+/// Solves two-bone inverse kinematics: brings the ankle to `wanted`, or as near as the leg reaches, and keeps the knee
+/// on its side. The foot keeps its slope.
 void Reach(BodyPose& pose, const Limb& leg, const glm::dvec3& wanted) {
   constexpr double kThere = 1e-9;
   const auto [hip, knee, ankle] = leg.roles;
@@ -191,7 +192,7 @@ BodyMotion Retarget(const BodyMotion& motion, const BodyPose& body) {
   const double scale = usual > 0 ? LegLength(body) / usual : 1;
   for (const BodyPose& performer : motion.poses) {
     BodyPose pose = WithNewLimbs(performer, body, scale);
-    // Toes touch the floor and may slide, so they go to their scaled positions; feet keep their slope.
+    // Move the toes to their scaled positions, because toes touch the floor and must not slide. Feet keep their slope.
     std::array<glm::dvec3, kLegs.size()> ankles;
     double drop = 0;
     for (std::size_t i = 0; i < kLegs.size(); ++i) {

@@ -8,18 +8,17 @@
 
 namespace etude {
 
-/// Measures the performer of a clip at rest, in metres, Y up, facing +Z: the skeleton's own rest pose, without the
-/// joints that rotate by less than 0.02° in the clip, which become part of their parents. If a clip translates a joint
-/// relative to its parent, the joint is at the mean of its positions. If a role does not descend from the hips (feet
-/// with separate controls), the body consists of the roles only (RestBodyOf). `body` is the result of ToBodyMotion for
-/// the clip.
+/// Measures the performer of a clip at rest, in metres, Y up, facing +Z. The result is the skeleton's own rest pose;
+/// joints that rotate by less than 0.02° in the clip are merged into their parents. A joint that the clip translates
+/// relative to its parent is put at its mean position. If a role does not descend from the hips (feet with separate
+/// controls), the body consists of the roles only (RestBodyOf). `body` must be the result of ToBodyMotion for the clip.
 RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion& body);
 
 /// Transfers a motion to a body with the limb lengths of `body`: every limb keeps its direction, and the hips' path and
-/// height are scaled by the ratio of leg lengths (the performer's median, because the lengths of measured limbs vary).
-/// Then two-bone inverse kinematics brings the toes to their scaled positions, so that standing feet do not slide
-/// (Gleicher 1998 keeps the same contacts). Feet on the floor stay on the floor; if a leg is too short for that, the
-/// hips are lowered. `body` may be any pose of the target; only its lengths are used.
+/// height are scaled by the ratio of leg lengths. (The performer's leg length is a median, because measured lengths
+/// vary.) Two-bone inverse kinematics then brings the toes to their scaled positions, so standing feet do not slide
+/// (Gleicher 1998 keeps the same contacts). Feet on the floor stay there; if a leg is too short, the hips are lowered.
+/// `body` may be any pose of the target; only its lengths are used.
 BodyMotion Retarget(const BodyMotion& motion, const BodyPose& body);
 
 }  // namespace etude

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Sines below this are rounding errors.
+/// Smaller sines are rounding errors.
 constexpr double kDegenerate = 1e-9;
 
 }  // namespace
@@ -49,19 +49,20 @@ namespace {
 using enum Role;
 
 /// For each limb, in the order of kLimbs, a direction in the middle of the upper bone's range, in the axes of chest or
-/// hips. A straight limb has the twist that a hanging limb gets when it is rotated to this direction and from there to
-/// the pose, both by the shortest rotation. The twist is discontinuous at one direction, the opposite one, which must
-/// lie outside of the range: inward through the chest, backward through the hips.
+/// hips. To find the twist of a straight limb, a hanging limb is rotated to this direction and from there to the pose,
+/// both times by the shortest rotation. The twist is discontinuous only in the opposite direction, which must lie
+/// outside of the range: inward through the chest, or backward through the hips.
 constexpr std::array<glm::dvec3, kLimbs.size()> kMidDirections = {
     {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 
-/// Below kStraight, the plane of an elbow or knee is mostly noise; above kBent, it alone determines the twist.
+/// Bend angles. Below kStraight, the plane of an elbow or knee is mostly noise; above kBent, that plane alone
+/// determines the twist.
 constexpr double kStraight = Radians(10);
 constexpr double kBent = Radians(60);
 
 glm::dvec3 VectorBetween(const BodyPose& pose, Role from, Role to) { return pose[to] - pose[from]; }
 
-/// The orientations, in the world, of the parts that several joints determine.
+/// The orientations, in the world, of the body parts that depend on several joints.
 struct BodyAxes {
   glm::dquat hips, chest;                       ///< X to the left, Y up, Z forward
   std::array<glm::dquat, kLimbs.size()> upper;  ///< X along the upper bone, Y near the hinge axis of elbow or knee
@@ -72,13 +73,14 @@ glm::dquat HipsOf(const BodyPose& pose) {
 }
 
 glm::dquat ChestOf(const BodyPose& pose) {
-  // The trunk's direction is exact and the shoulders' is not, because shoulders rise with the arms; hips do not.
+  // The chest's Y axis follows the trunk exactly, and the shoulders only as far as possible, because shoulders rise
+  // with the arms. Hips do not tilt so, and their X axis is exact.
   const glm::dquat up_first =
       Orientation(VectorBetween(pose, kSpine, kShoulderCentre), VectorBetween(pose, kLeftShoulder, kRightShoulder));
   return up_first * glm::angleAxis(-kPi / 2, glm::dvec3(0, 0, 1));
 }
 
-/// Blends from `axis` to the normal of two bones, with the weight `shown`.
+/// Blends from `axis` to the normal of two bones, which gets the weight `shown`.
 glm::dvec3 Towards(const glm::dvec3& axis, const glm::dvec3& normal, double shown) {
   const double length = glm::length(normal);
   return length > 0 && shown > 0 ? glm::mix(axis, normal / length, shown) : axis;
@@ -88,11 +90,12 @@ glm::dquat UpperOf(const Limb& limb, const glm::dvec3& middle, const glm::dquat&
   const auto [root, hinge, end] = limb.roles;
   const glm::dvec3 upper = VectorBetween(pose, root, hinge), lower = VectorBetween(pose, hinge, end),
                    tip = VectorBetween(pose, end, limb.tip);
-  // Upper × lower points to the right if a hanging arm bends, and to the left if a leg does.
+  // Upper × lower bone points to the right for a bent arm, and to the left for a bent leg.
   const glm::dvec3 hanging_axis(limb.is_arm ? -1 : 1, 0, 0);
   const glm::dquat swing = ShortestTurn(trunk * middle, upper) * trunk * ShortestTurn(glm::dvec3(0, -1, 0), middle);
   glm::dvec3 axis = swing * hanging_axis;
-  // The toes show where the knee faces, unless they point along the leg. Hands rotate independently of their elbows.
+  // A knee faces in the direction of the toes, unless the toes point along the leg. For elbows there is no such rule,
+  // because hands rotate independently.
   constexpr double kPointed = Radians(20), kAcross = Radians(50);
   if (!limb.is_arm) {
     axis = Towards(axis, glm::cross(tip, lower), Smoothstep(kPointed, kAcross, AngleBetween(lower, tip)));
@@ -113,14 +116,14 @@ BodyAxes AxesOf(const BodyPose& pose) {
 std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& pose) {
   const BodyAxes from = AxesOf(rest), to = AxesOf(pose);
   std::array<glm::dquat, kRoleCount> turns;
-  // Applies the parent's rotation, then the shortest rotation to the limb's direction.
+  // Apply the parent's rotation, then the shortest rotation to the limb's direction.
   const auto follow = [&](const glm::dquat& above, Role begin, Role end) {
     return ShortestTurn(above * VectorBetween(rest, begin, end), VectorBetween(pose, begin, end)) * above;
   };
   turns[Index(kHipCentre)] = to.hips * glm::conjugate(from.hips);
   const glm::dquat chest = to.chest * glm::conjugate(from.chest);
   turns[Index(kSpine)] = turns[Index(kShoulderCentre)] = chest;
-  // No joint shows where the head faces, so it faces like the chest.
+  // No joint determines the heading of the head, so the head turns with the chest.
   turns[Index(kHead)] = follow(chest, kShoulderCentre, kHead);
   for (std::size_t i = 0; i < kLimbs.size(); ++i) {
     const auto [root, hinge, end] = kLimbs[i].roles;
@@ -134,8 +137,8 @@ std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& p
   return turns;
 }
 
-/// Chooses the sign of each quaternion that is nearer to the previous frame's, because some programs interpolate the
-/// components.
+/// A rotation has two unit quaternions, q and −q. Chooses for each joint the one nearer to the previous frame's,
+/// because some programs interpolate the components.
 void KeepSign(const LocalPose& before, LocalPose& frame) {
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (glm::dot(before[i].rotation, frame[i].rotation) < 0) frame[i].rotation = -frame[i].rotation;

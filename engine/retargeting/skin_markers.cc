@@ -35,7 +35,7 @@ struct SkinDepths {
   bool has_elbow_widths = false;
 };
 
-/// One side of a body in one frame.
+/// The joints of one side of a body in one frame, with their names mirrored for the right side.
 class SideOf {
  public:
   SideOf(JointPositions& places, bool is_left) : places_(places), is_left_(is_left) {}
@@ -57,8 +57,8 @@ glm::dvec3 Across(const glm::dvec3& v, const glm::dvec3& along) {
   return v - glm::dot(v, unit) * unit;
 }
 
-/// Returns the centre that is `depth` from `marker`, on the side of `inward`, such that its lines to the marker and to
-/// the limb's other end are perpendicular.
+/// Returns the joint centre at distance `depth` from `marker`, on the side of `inward`. The lines from the centre to
+/// the marker and to the limb's other end are perpendicular.
 glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const glm::dvec3& inward, double depth) {
   const glm::dvec3 limb = marker - other_end;
   const double length = glm::length(limb);
@@ -68,8 +68,9 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
   return marker - depth * share * limb / length + depth * std::sqrt(1 - share * share) * aside;
 }
 
-/// Blends from `rough`, which is always known, to the normal of a bend, which is more reliable the stronger the bend. A
-/// marker that is `depth` beside a straight limb makes it seem bent; this apparent bend is not counted.
+/// Returns the inward direction: blends from `rough`, which is always known, to the normal of the bend, which is the
+/// more reliable the stronger the bend is. A marker that is `depth` beside a straight limb makes it seem bent; this
+/// apparent bend is subtracted.
 glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
   constexpr double kCertain = 1.2, kRange = 0.25;  // of sines
   const double a = std::max(glm::length(upper), 1e-9), b = std::max(glm::length(lower), 1e-9);
@@ -92,7 +93,7 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
     std::vector<double> lengths;
     bool is_of_file = true;
     for (const bool is_left : {true, false}) {
-      // Take the joint's width from the file if it has one; `share` of the limb's length replaces it below.
+      // Take the joint's width from the file if possible; otherwise the distance is a share of the limb's length.
       const auto width = size((is_left ? "L" : "R") + std::string(joint.size));
       const bool is_offset = joint.left == kLeftShoulder;
       const double radius = 0.5 * size("MARKERDIAMETER").value_or(kUsualMarker);
@@ -116,7 +117,7 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
 
 void LowerShoulders(JointPositions& places, const SkinDepths& depths) {
   const auto at = [&](Role role) -> MarkerPosition& { return places[Index(role)]; };
-  // Downwards along the trunk by its own markers, otherwise from shoulders to hips.
+  // Take the downward direction from markers on the trunk, otherwise from shoulders to hips.
   glm::dvec3 down(0);
   if (at(kShoulderCentre) && at(kSpine)) {
     down = *at(kSpine) - *at(kShoulderCentre);
@@ -128,13 +129,13 @@ void LowerShoulders(JointPositions& places, const SkinDepths& depths) {
   }
 }
 
-/// Returns the direction inward by a wand.
+/// Returns the inward direction that a wand shows.
 glm::dvec3 ByWand(const glm::dvec3& wand, const glm::dvec3& other_end, const glm::dvec3& marker) {
   return UnitOr(-Across(wand - other_end, marker - other_end), glm::dvec3(0));
 }
 
-/// Returns the inward direction at a knee, from the direction between the hips and from the knee's bending. The bending
-/// of the markers gives a first direction and so the joint centres; their bending gives the result.
+/// Returns the inward direction at a knee, from the line between the hips and the bend of the knee. The bend of the
+/// markers gives a first direction and thereby joint centres; the bend of these centres gives the result.
 glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
   const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
   const double sign = side.is_left() ? -1 : 1, depth = depths.metres[Index(side.On(kLeftKnee))];
@@ -144,7 +145,8 @@ glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
   return Inward(rough, knee - hip, centre - knee, sign, depth);
 }
 
-/// The wands that stand beside their limbs, left then right. Wands in front of a limb or behind it are not used.
+/// For thighs and shanks, left then right: true if the wand stands beside its limb. Wands in front of a limb or behind
+/// it are not used.
 struct UsedWands {
   std::array<bool, 2> thigh = {}, shank = {};
 };
@@ -153,7 +155,7 @@ UsedWands FindUsedWands(const std::vector<Wands>& wands, const SkinDepths& depth
   constexpr double kAside = 0.3;
   UsedWands used;
   for (const bool is_left : {true, false}) {
-    // The cosine between the wand's direction and the knee's axis, in the median frame.
+    // Compute the median over the frames of the cosine between the wand's direction and the knee's axis.
     std::array<std::vector<double>, 2> cosines;
     const std::size_t index = is_left ? 0 : 1;
     for (std::size_t t = 0; t < frames.size(); ++t) {
@@ -179,15 +181,15 @@ void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, cons
   const glm::dvec3 in = thigh && used.thigh[index] ? ByWand(*thigh, hip, skin) : KneeInward(side, depths);
   const glm::dvec3 knee = Chord(hip, skin, in, depths.metres[Index(side.On(kLeftKnee))]);
   side[kLeftKnee] = knee;
-  // Ankle: parallel to the knee, unless its wand shows otherwise.
+  // Ankle: its axis is parallel to the knee's, unless its wand shows another.
   const glm::dvec3 at_ankle = shank && used.shank[index] ? ByWand(*shank, knee, ankle) : knee - skin;
   side[kLeftAnkle] = Chord(knee, ankle, at_ankle, depths.metres[Index(side.On(kLeftAnkle))]);
 }
 
-/// Returns the elbow's centre for a marker on its outside.
+/// Returns the elbow's centre if the marker is on the outside of the elbow.
 glm::dvec3 BesideElbow(const SideOf& side, const SkinDepths& depths) {
   const double depth = depths.metres[Index(side.On(kLeftElbow))];
-  // If Plug-in Gait's widths are known, use its rule, which takes the plane of the markers as it is.
+  // If the file has Plug-in Gait's widths, apply its rule, which hardly corrects the plane of the markers.
   const double seeming = depths.has_elbow_widths ? 0.3 * depth : depth;
   const glm::dvec3 shoulder = *side[kLeftShoulder], skin = *side[kLeftElbow], wrist = *side[kLeftWrist];
   glm::dvec3 rough = *side[kRightShoulder] - shoulder;
@@ -197,14 +199,14 @@ glm::dvec3 BesideElbow(const SideOf& side, const SkinDepths& depths) {
   return Chord(shoulder, skin, Inward(rough, skin - shoulder, wrist - skin, side.is_left() ? 1 : -1, seeming), depth);
 }
 
-/// Returns the elbow's centre for a marker on its point.
+/// Returns the elbow's centre if the marker is on the point of the elbow.
 glm::dvec3 BeforeElbow(const SideOf& side, double depth) {
   const glm::dvec3 wrist = *side[kLeftWrist], skin = *side[kLeftElbow];
   return Chord(wrist, skin, *side[kLeftShoulder] - skin, depth);
 }
 
-/// Returns true if the elbows' markers are on the points of the elbows: the lengths of the upper arms are then far more
-/// constant.
+/// Returns true if the elbow markers are on the points of the elbows: with that assumption the lengths of the upper
+/// arms are far more constant.
 bool AreOnElbowPoints(std::vector<JointPositions>& frames, const SkinDepths& depths) {
   constexpr std::size_t kMinFrames = 5;
   constexpr double kBetter = 0.5, kVisible = 0.0005;
@@ -235,7 +237,7 @@ std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string,
                                const std::vector<Wands>& wands, std::vector<JointPositions>& frames) {
   if (!set.has_skin_limbs && !set.has_skin_shoulders) return "";
   const SkinDepths depths = DepthsOf(set, sizes_m, frames);
-  // Shoulders come first because elbows depend on them.
+  // Move the shoulders first, because elbows depend on them.
   if (set.has_skin_shoulders) {
     for (JointPositions& places : frames) LowerShoulders(places, depths);
   }

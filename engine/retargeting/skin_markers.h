@@ -19,18 +19,19 @@ struct Wands {
   std::array<MarkerPosition, 2> thigh = {}, shank = {};
 };
 
-/// Moves joints from their markers on the skin to the joint's centre (Davis et al. 1991, as in Vicon's Plug-in Gait; the
-/// shares are ours):
-/// - knee and ankle: in the plane of the limb's wand, or otherwise of its bending. The centre is inward of the marker
-///   by half the joint's width and a marker's radius, and its line to the marker is perpendicular to the limb;
+/// Moves joints from their markers on the skin to the joints' centres (Davis et al. 1991, as in Vicon's Plug-in Gait;
+/// the shares are ours):
+/// - knee and ankle: in the plane of the limb's wand or, without one, in the plane in which the limb bends. The centre
+///   is inward of the marker by half the joint's width plus a marker's radius, and its line to the marker is
+///   perpendicular to the limb;
 /// - elbow: along its hinge's axis, from the outside inward. If the lengths of the upper arms are far more constant
-///   that way, the marker is taken to be on the point of the elbow, and the centre lies in front of it;
-/// - shoulder: below its marker, along the trunk. The distances are (width + marker diameter) / 2 by `sizes_m`, the
-/// file's own sizes: "LKNEEWIDTH", "RANKLEWIDTH", "LELBOWWIDTH", "RSHOULDEROFFSET", "MARKERDIAMETER" (otherwise 14 mm).
-/// Without them they are shares of a limb: 12 % of the thigh for the knee, 8.5 % of the shank for the ankle, and 13.5 %
-/// of the upper arm (between its markers) for elbow and shoulder. `frames` are in metres, with shoulders, elbows,
-/// wrists, knees and ankles at their markers; `wands` has as many frames. Returns a sentence about what was moved, or
-/// "".
+///   when the markers are assumed to be on the points of the elbows, the centre is put in front of the marker;
+/// - shoulder: below its marker, along the trunk.
+/// The distances are (width + marker diameter) / 2. Widths come from `sizes_m`, the file's own sizes: "LKNEEWIDTH",
+/// "RANKLEWIDTH", "LELBOWWIDTH", "RSHOULDEROFFSET", "MARKERDIAMETER" (otherwise 14 mm). Without a size, the distance is
+/// a share of a limb's length: 12 % of the thigh for the knee, 8.5 % of the shank for the ankle, and 13.5 % of the
+/// upper arm (between its markers) for elbow and shoulder. `frames` are in metres, with shoulders, elbows, wrists,
+/// knees and ankles at their markers; `wands` has as many frames. Returns a sentence about the moved joints, or "".
 std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string, double>& sizes_m,
                                const std::vector<Wands>& wands, std::vector<JointPositions>& frames);
 

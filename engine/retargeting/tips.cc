@@ -15,29 +15,29 @@ namespace {
 
 using enum Role;
 
-// Lengths of the tips relative to the neighbouring limb (an adult's, cm).
+// Lengths of the tips relative to the neighbouring limb, from an adult's lengths in cm.
 constexpr double kHandPerForearm = 18.0 / 25.0;
 constexpr double kFootPerShank = 18.0 / 42.0;
 constexpr double kHeadPerTrunk = 25.0 / 50.0;
 
-/// The plausible range of a tip's length, relative to the proportion above.
+/// The plausible range of a tip's length, as a multiple of the length by the proportions above.
 struct TipLength {
   double shortest;
   double longest;
 };
-// CMU's fingers are half as long as a hand.
+// CMU's fingers end at half the length of a hand.
 constexpr TipLength kPlausibleHand{0.4, 1.6};
-// Compared with paper B's, the feet of Boxing_Toes are 1.4 times as long, and those of KayKit's toy figures 2.6 times.
+// The feet of the clip Boxing_Toes are 1.4 times as long as paper B's, those of KayKit's toy figures 2.6 times.
 constexpr TipLength kPlausibleFoot{0.4, 3.0};
-// A single "Head" joint lies at the skull's base, at 0.2 of the trunk.
+// A single "Head" joint lies at the base of the skull, 0.2 trunk lengths above the neck.
 constexpr TipLength kPlausibleHead{0.5, 1.6};
 
-// Tips whose distances differ by less than this share count as equally far, because files may have only six decimals,
-// in metres.
+// Tips count as equally far if their distances differ by less than this share, because files may have only six
+// decimals, in metres.
 constexpr double kEquallyFar = 1e-4;
 
-/// Returns the finger of a joint below `top`: by its own name, or by the name of the next joint above it that names a
-/// finger. End sites have no names of their own.
+/// Returns the finger to which a joint below `top` belongs, by the joint's name or by the name of its nearest ancestor
+/// that names a finger. End sites have no names of their own.
 Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
   for (; joint != top; joint = tree.ParentOf(joint)) {
     const Finger finger = FingerOf(tree.NameOf(joint));
@@ -46,10 +46,9 @@ Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
   return Finger::kNotNamed;
 }
 
-/// Returns the farthest descendant of `top` (or `top` itself) at a plausible distance (computed by `distance`), among
-/// those for which `may_be` is true. Of equally far ones, it returns the one with the most suitable finger name,
-/// otherwise the first one of the skeleton, because rounding could otherwise choose different ones on the left and on
-/// the right.
+/// Returns the farthest joint among `top` and its descendants that is at a plausible distance (computed by `distance`)
+/// and for which `may_be` is true. Of equally far joints, returns the one with the most suitable finger name, then the
+/// first in the skeleton. Otherwise, rounding could choose different fingers on the left and on the right.
 template <typename Distance, typename MayBe>
 std::optional<int> FarthestTip(const SkeletonTree& tree, int top, double proportion, const TipLength& plausible,
                                Distance distance_of, MayBe may_be) {
@@ -72,7 +71,7 @@ std::optional<int> FarthestTip(const SkeletonTree& tree, int top, double proport
   return std::ranges::min_element(tips, {}, [&](const Tip& tip) { return FingerBelow(tree, tip.joint, top); })->joint;
 }
 
-/// The body in one pose: where its roles are.
+/// The body in one pose of the clip, with the positions of its roles.
 class PosedBody {
  public:
   PosedBody(const JointMapDraft& draft, const std::vector<GlobalTransform>& joints) : draft_(draft), joints_(joints) {}
@@ -107,12 +106,13 @@ double MedianOf(const JointMapDraft& draft, const MovingPoses& moving, Measure m
   return LowerPercentile(std::move(values), 0.5);
 }
 
-/// Places a tip on `joint`, at the distance `length` from the role `base`. `direction` returns the tip's direction in a
-/// pose; at rest it is `rest`.
+/// Places a composed tip on `joint`, at the distance `length` from the role `base`. `direction` returns the tip's
+/// direction in a pose; at rest the direction is `rest`.
 template <typename Direction>
 void ComposeTip(JointMapDraft& draft, Role tip, int joint, Role base, const glm::dvec3& rest, double length,
                 const MovingPoses& moving, Direction direction) {
-  // The feet of people who kneel or lie point in any direction relative to the body; hands bend by 90° in push-ups.
+  // Hands bend by 90° in push-ups. Feet have no such limit, because the feet of people who kneel or lie point in any
+  // direction relative to the body.
   constexpr double kHeadElsewhere = Radians(60), kHandElsewhere = Radians(100);
   const double elsewhere = tip == kHead ? kHeadElsewhere : kHandElsewhere;
   const bool is_foot = tip == kLeftFoot || tip == kRightFoot;
@@ -142,15 +142,15 @@ void FindLimbTip(JointMapDraft& draft, const Limb& limb, const MovingPoses& movi
   const glm::dvec3 end = draft.RestOf(last);
   const glm::dvec3 last_bone = end - draft.RestOf(middle);
   const double length = glm::length(last_bone) * (limb.is_arm ? kHandPerForearm : kFootPerShank);
-  // A joint that hangs from a separate control is not part of the body.
+  // A joint that hangs from a separate control is not a part of the body.
   if (!IsFree(draft, last)) {
     const TipLength& plausible = limb.is_arm ? kPlausibleHand : kPlausibleFoot;
     const int top = draft.JointOf(last);
     const auto is_no_thumb = [&](int joint) { return FingerBelow(draft.tree(), joint, top) != Finger::kThumb; };
     const auto at_rest = [&](int joint) { return glm::distance(draft.tree().RestOf(joint), end); };
     auto tip = FarthestTip(draft.tree(), top, length, plausible, at_rest, is_no_thumb);
-    // In motion another joint may be farther, for example toes that are folded back at rest. This is not tried for
-    // hands with a tip at rest, because fingers curl.
+    // In motion another joint may be farther, for example toes that are folded back at rest. Hands with a tip at rest
+    // are not searched again, because fingers curl.
     if ((!tip || !limb.is_arm) && !moving.empty()) {
       constexpr double kFarther = 1.2;
       const auto in_motion = [&, last = last](int joint) {
@@ -180,7 +180,8 @@ void FindHeadTip(JointMapDraft& draft, const MovingPoses& moving) {
     return ComposeTip(draft, kHead, draft.JointOf(kShoulderCentre), kShoulderCentre, above, length, moving, trunk_of);
   }
   const int head = draft.JointOf(kHead);
-  // Eyes, jaws and ears also descend from the head, but lie in front of it or beside it; the crown continues the trunk.
+  // Eyes, jaws and ears also descend from the head, but lie in front of it or beside it, while the crown continues the
+  // trunk.
   constexpr double kAside = Radians(30), kAsideInMotion = Radians(45), kUnlike = Radians(25);
   const auto is_straight_on = [&](int joint) {
     return joint == head || AngleBetween(draft.tree().RestOf(joint) - draft.RestOf(kHead), trunk) <= kAside;
@@ -193,8 +194,8 @@ void FindHeadTip(JointMapDraft& draft, const MovingPoses& moving) {
         return glm::distance(body.JointAt(joint), body.At(kShoulderCentre));
       });
     };
-    // An eye is as far from the trunk's line in motion as at rest. If the crown is far from it at rest but not in
-    // motion, the rest pose is not a human pose.
+    // The angle of an eye to the trunk's line is the same in motion as at rest. If the crown's angle is large at rest
+    // but not in motion, the rest pose is not a human pose.
     const auto is_on_in_motion = [&](int joint) {
       const double rest_angle = AngleBetween(draft.tree().RestOf(joint) - draft.RestOf(kHead), trunk);
       const double angle = MedianOf(draft, moving, [&](const PosedBody& body) {

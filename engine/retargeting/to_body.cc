@@ -28,7 +28,7 @@ using enum Role;
 
 constexpr double kMinStature = 1.45;
 constexpr double kMaxStature = 2.1;
-constexpr double kMinSensedStature = 1.2;  // depth sensors measure in millimetres, and too low at the head
+constexpr double kMinSensedStature = 1.2;  // depth sensors write millimetres, and measure the head too low
 
 struct Unit {
   std::string_view name;
@@ -36,7 +36,7 @@ struct Unit {
   double min_stature = kMinStature;
 };
 
-// Neighbouring units differ by more than 2.1 m / 1.45 m, so at most one fits.
+// The ratio of two neighbouring units exceeds 2.1 m / 1.45 m, so at most one unit fits.
 constexpr std::array<Unit, 6> kUnits = {{
     {"metre", 1.0},
     {"foot", 0.3048},
@@ -49,10 +49,10 @@ constexpr double kDefaultStature = 1.70;
 
 constexpr double kMaxSeconds = 3600;
 constexpr double kMaxPoses = 500'000;
-constexpr double kMinToldFloor_cm = 0.1;  // lower ones are rounding
+constexpr double kMinToldFloor_cm = 0.1;  // smaller heights are rounding errors
 constexpr double kMinBody = 1e-6;  // in any unit; smaller bodies have no size
 
-/// Returns the up axis given by the user, otherwise the format's, otherwise the one found.
+/// Returns the up axis that the user gives, otherwise the format's, otherwise the axis that FindUp finds.
 UpFinding UpOf(const BodyOptions& options, const BodyPose& rest, const UpSamples& samples) {
   if (options.up) return {.axis = AxisOf(*options.up), .evidence = UpEvidence::kTold};
   if (options.found_up) return *options.found_up;
@@ -75,8 +75,9 @@ double WorstGap(const BodyPose& a, const BodyPose& b) {
   return worst;
 }
 
-/// Returns the number of frames at the start that show one constant T-pose, if the motion then jumps: by much more than
-/// in the step after it, and by more than 5 % of the stature. Returns 0 if there is none.
+/// Returns the length, in frames, of a constant T-pose at the start that does not belong to the motion: the motion
+/// jumps away from it by more than 5 % of the stature, and by much more than in the next step. Returns 0 without such a
+/// T-pose.
 std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up) {
   constexpr double kStillPerStature = 1e-4;
   constexpr double kJumpPerStature = 0.05;
@@ -108,7 +109,7 @@ bool IsFinite(const BodyPose& pose) {
                              [](const glm::dvec3& joint) { return std::isfinite(glm::dot(joint, joint)); });
 }
 
-/// Samples the clip from frame `first` to its end, upright.
+/// Resamples the clip from frame `first` to its end, and rotates it upright.
 Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, std::size_t first, double rate_hz,
                                         UpAxis up, const std::string& file) {
   const auto frames = static_cast<double>(clip.frames.size() - 1 - first);
@@ -135,7 +136,7 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
 
 double MedianStature(const std::vector<BodyPose>& poses) { return LowerPercentile(OverFrames(poses, Stature), 0.5); }
 
-/// Returns the unit in which a stature is human, or null.
+/// Returns the unit in which `stature` is human, or null.
 const Unit* UnitOf(double stature) {
   const auto is_human = [&](const Unit& unit) {
     return stature * unit.metres >= unit.min_stature && stature * unit.metres <= kMaxStature;
@@ -147,9 +148,9 @@ const Unit* UnitOf(double stature) {
 constexpr double kMaxRatio = 1.25;
 bool AreAlike(double ratio) { return ratio > 1 / kMaxRatio && ratio < kMaxRatio; }
 
-/// Finds the unit by the stature. Uses the stature of the rest pose, which all clips of a file share, unless that of
-/// the frames differs: some files store all offsets only in the frames, others scale the hips there. `remarks` states
-/// this. Fails, naming `file`, if the given unit is implausible, and names the likely one.
+/// Finds the unit by the stature of the rest pose, which all clips of a file share. If the stature of the frames
+/// differs, that one is used: some files store all offsets only in the frames, others scale the hips there; `remarks`
+/// states this. If the given unit is implausible, fails, naming `file` and the likely unit.
 Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const BodyOptions& options,
                       const std::string& file, BodyConversion& done, std::vector<std::string>& remarks) {
   const std::optional<double>& given = options.metres_per_unit;
@@ -203,7 +204,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
 }
 
 double FindFloor(const std::vector<BodyPose>& poses) {
-  // A percentile, not the minimum: a single frame with a lost marker must not raise the whole clip.
+  // Use a percentile, not the minimum: a single frame with a lost marker must not raise the whole clip.
   constexpr double kLow = 0.05;
   return LowerPercentile(OverFrames(poses, LowestHeight), kLow);
 }
@@ -212,7 +213,7 @@ double LeftLegLength(const BodyPose& pose) {
   return glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
 }
 
-/// Returns `told` if within a leg's length of the floor found.
+/// Returns `told` if it is within a leg's length of the floor found, otherwise that floor.
 double FloorOf(const std::vector<BodyPose>& poses, const std::optional<double>& told) {
   const double own = FindFloor(poses);
   return told && std::abs(own - *told) <= LeftLegLength(poses.front()) ? *told : own;
@@ -238,7 +239,7 @@ std::string LiesAlong(std::span<const BodyPose> poses) {
 /// Lists the findings and changes as texts for people.
 std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& map, const Clip& clip,
                                    const std::string& lies) {
-  // Unit, axis and frames.
+  // Describe unit, axis and frames.
   std::vector<std::string> changes = {
       fmt::format("1 unit = {:.4g} cm", 100 * done.metres_per_unit) +
       (done.unit == "unknown" ? fmt::format(" (unknown unit, scaled to a stature of {:.2f} m)", kDefaultStature)
@@ -253,7 +254,7 @@ std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& m
   if (clip.rate_hz != done.motion.rate_hz) {
     changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", clip.rate_hz, done.motion.rate_hz));
   }
-  // Floor and joints.
+  // Describe floor and joints.
   const double floor_cm = 100 * done.floor * done.metres_per_unit;
   if (std::abs(floor_cm) >= kMinToldFloor_cm) {
     changes.push_back(fmt::format("the floor was at {:.4g} cm: moved to 0", floor_cm));

@@ -15,33 +15,33 @@
 
 namespace etude {
 
-/// Properties of a file; those that are not given here are estimated.
+/// Properties of a file that are known. The others are estimated.
 struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;
   std::optional<UpAxis> up = std::nullopt;           ///< given by the user; overrules everything else
   std::optional<UpRule> up_rule = std::nullopt;      ///< of the file or its format
-  std::optional<UpFinding> found_up = std::nullopt;  ///< FindGround's result, for one of several clips
-  bool keep_floor = false;                           ///< leave the body at the file's own height
+  std::optional<UpFinding> found_up = std::nullopt;  ///< the result of FindGround, if the file has several clips
+  bool keep_floor = false;                           ///< do not move the file's floor to 0
   std::optional<double> floor = std::nullopt;    ///< the floor's height along the up axis, in the file's unit
   std::optional<double> stature = std::nullopt;  ///< of the moving body, in the file's unit: Ground::stature
   bool drop_t_pose = true;                       ///< drop a leading T-pose from which the motion jumps
 };
 
-/// A clip as the twenty joints: metres, Y up, feet on the floor.
+/// A clip converted to the twenty joints: metres, Y up, feet on the floor.
 struct BodyConversion {
   double metres_per_unit = 0;
   std::string unit;  ///< "centimetre", "CMU", …; "unknown" (scaled to a human), "scaled", "given"
   UpAxis up = UpAxis::kY;
-  UpFinding found_up = {};         ///< the axis of the file, and the reason for it
+  UpFinding found_up = {};         ///< the axis of the file that points up, and its evidence
   double floor = 0;                ///< height of the floor in the file's unit, along its up axis
-  std::size_t dropped_frames = 0;  ///< number of frames of a T-pose dropped at the beginning
-  /// The findings and every correction of the file's data, each as a text for people: "1 unit = 5.64 cm (CMU)",
-  /// "dropped a leading T-pose".
+  std::size_t dropped_frames = 0;  ///< length of a leading T-pose that was dropped, frames
+  /// A text for people about each finding and each correction of the file's data: "1 unit = 5.64 cm (CMU)", "dropped a
+  /// leading T-pose".
   std::vector<std::string> changes = {};
   BodyMotion motion;
 
-  /// Returns `changes` as one line, joined by semicolons.
+  /// Returns `changes` as one line, separated by semicolons.
   std::string Note() const { return Join(changes, "; "); }
 };
 
@@ -49,27 +49,28 @@ struct BodyConversion {
 /// - Z-up files are rotated upright (FindUp).
 /// - A leading T-pose is dropped if the body jumps away from it; CMU's converted files begin with one.
 /// - The motion is resampled to `rate_hz` by interpolating rotations (SampleFrame); the first frame is unchanged.
-/// - Unit: the one of metre, foot, CMU (1/0.45 inch), inch, cm and mm that gives a stature of 1.45 m (for millimetres,
-///   which depth sensors write, 1.2 m) to 2.1 m. If none does (children, toys), the body is scaled to a stature of 1.70
-///   m. The stature is the length from ankle over knee, hip, spine and neck to the head, divided by 0.92, at rest. If
-///   the median over the frames differs by a factor of more than 1.25, that median is used and the note states it; if
-///   no unit fits the median, the rest pose's unit is used and the frames are scaled back, positions included
-///   (UndoScales is better if the scale is that of joints). The note states a ratio above 1.05, and a size that changes
-///   by more than 1.25 times within the clip. Clips of one file share a unit: pass them FindGround's stature; the note
-///   states if a clip's own median differs.
+/// - Unit: metre, foot, CMU (1/0.45 inch), inch, cm or mm, whichever gives a stature of 1.45 m to 2.1 m (for
+///   millimetres, which depth sensors write, from 1.2 m). If none does (children, toys), the body is scaled to a
+///   stature of 1.70 m. The stature is the length from ankle over knee, hip, spine and neck to the head at rest,
+///   divided by 0.92. If the median stature over the frames differs by a factor of more than 1.25, that median is used
+///   and the note states it; if no unit fits the median, the rest pose's unit is used and the frames are scaled back,
+///   positions included (if the joints themselves are scaled, use UndoScales). The note also states a ratio above 1.05,
+///   and a size that changes by a factor of more than 1.25 within the clip. Clips of one file share a unit: pass them
+///   FindGround's stature; the note states if a clip's own median differs.
 /// - Floor: the 5th percentile, over the frames, of the lowest joint's height (finger tips excluded) becomes y = 0.
-///   Horizontal position and heading stay as in the file. Clips of one file share a floor: pass them FindGround's; a
-///   clip that stays farther from it than the length of its legs has another root and gets its own floor.
+///   Horizontal position and heading stay as in the file. Clips of one file share a floor: pass them the floor of
+///   FindGround. If a clip stays farther from that floor than the length of its legs, the clip has another root and
+///   gets its own floor.
 ///
-/// Fails, naming `file`, if there are no frames, more than an hour or more than half a million poses; if the body has
-/// no size, two or more of its eight limbs have no length in the median frame, or it is not 0.4 to 4 m tall in a given
-/// unit. It also fails if left and right are swapped or the axes are left-handed, which shows in a left arm on the side
-/// of the right leg or in feet that point backwards (if feet are composed: arms that point backwards, or knees that
-/// bend backwards by more than 35° or together with the arms). The note states a smaller overextension of the knees.
+/// Fails, naming `file`, for: no frames; more than an hour or half a million poses; a body without size; two or more of
+/// its eight limbs without length in the median frame; a body that is not 0.4 to 4 m tall in a given unit. Also fails
+/// if left and right are swapped or the axes are left-handed: the left arm is on the side of the right leg, or feet
+/// point backwards (if feet are composed: arms point backwards, or knees bend backwards by more than 35° or together
+/// with the arms). The note states a smaller overextension of the knees.
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options = {});
 
-/// A file's up axis, the height of its floor, and the stature of the body.
+/// The up axis of a file, the height of its floor, and the stature of its body.
 struct Ground {
   UpAxis up = UpAxis::kY;
   double floor = 0;    ///< along that axis, in the file's unit
@@ -77,18 +78,20 @@ struct Ground {
   UpFinding found_up = {};
 };
 
-/// Finds the ground of all clips of one skeleton in one file, by the rules of ToBodyMotion applied to all of their
-/// frames, so that a person who sits in one clip and stands up in another has the same floor in both, and all clips
-/// have one unit. Values given in `options` are used. Returns nullopt if no clip has a frame, or if a position is not
-/// finite.
+/// Finds the ground of all clips of one skeleton in one file. The rules of ToBodyMotion are applied to the frames of
+/// all clips together. A person who sits in one clip and stands in another therefore has the same floor in both, and
+/// all clips have one unit. Values given in `options` are used. Returns nullopt if no clip has a frame, or if a
+/// position is not finite.
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
 
-/// Removes from a file's frames the scales that its rest pose does not have, such as one on the hips. This is done if
-/// the body at rest has a person's size in some unit, and the frames show it taller or smaller by a factor of more than
-/// 1.25 (median over the clips), but not without their scales. Returns that factor; nullopt if the clips are unchanged.
+/// Removes scales from a file's frames that its rest pose does not have, such as a scale of the hips. The scales are
+/// removed only if the body at rest has a person's size in some unit, and only the scales make the body in the frames
+/// taller or smaller by a factor of more than 1.25 (median over the clips). Returns that factor; nullopt if the clips
+/// are unchanged.
 std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 
-/// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result, for the clip's meshes.
+/// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result. Apply it to the clip's
+/// meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
 
 /// Returns true if the body stands with straight legs and both arms stretched out sideways.

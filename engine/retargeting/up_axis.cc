@@ -27,7 +27,7 @@ struct Stance {
   double on_hands = 0;  ///< share of the frames with a wrist beyond the head, as in a handstand
 };
 
-/// A share of the frames that is next to none.
+/// A share of the frames below this counts as never.
 constexpr double kHardlyEver = 0.05;
 
 double MeanLegLength(const BodyPose& pose) {
@@ -45,7 +45,7 @@ bool IsUpright(const BodyPose& pose, const glm::dvec3& up) {
          glm::dot(pose[kHead] - pose[kShoulderCentre], up) > 0;
 }
 
-/// Returns true if the body's weight lies over the box around ankles and toes, which is extended to include the heels.
+/// Returns true if the body's weight lies over the box around ankles, toes and (estimated) heels.
 bool IsBalanced(const BodyPose& pose, const glm::dvec3& up, double stature) {
   constexpr double kHeel = 0.035, kFootless = 0.09, kAboveFeet = 0.4, kMinFoot = 0.02;
   if (glm::dot(pose[kHipCentre] - MeanAnkle(pose), up) < kAboveFeet * MeanLegLength(pose)) return false;
@@ -105,14 +105,14 @@ Frames FramesOf(std::span<const BodyPose> poses, double rate_hz) {
 }
 
 Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
-  constexpr double kTravelling = 0.15, kStands = 0.4;  // statures a second; of the hips' speed
+  constexpr double kTravelling = 0.15, kStands = 0.4;  // relative speeds of the hips and of a standing ankle
   Stance stance;
   std::vector<double> lowest;
   double count = 0, travelling = 0;
   glm::dvec3 low = frames.poses.front()[kHipCentre], high = low;
   const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
   for (std::size_t i = 0; i < frames.poses.size(); i += frames.stride) {
-    // Postures and the lowest joint.
+    // Measure postures and the lowest joint.
     const BodyPose& pose = frames.poses[i];
     count += 1;
     stance.upright += IsUpright(pose, up) ? 1 : 0;
@@ -123,7 +123,7 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
     lowest.push_back(Lowest(pose, up));
     low = glm::min(low, pose[kHipCentre]);
     high = glm::max(high, pose[kHipCentre]);
-    // Steps: one ankle stands while the hips travel.
+    // Measure steps: one ankle stands while the hips travel.
     if (i + frames.later >= frames.poses.size()) continue;
     const BodyPose& later = frames.poses[i + frames.later];
     const auto moved = [&](Role role) { return glm::length(flat(later[role] - pose[role])); };
@@ -146,20 +146,21 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
 /// Returns true if a motion is sufficient evidence that `other` points up, and not the usual axis.
 bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const UpRule& rule) {
   constexpr double kMostly = 0.8, kStillFloor = 0.05;
-  // A handstand: arms stretched beyond the head to hands that stay on the floor.
+  // Exclude a handstand: the hands are beyond the head and stay on the floor.
   if (is_opposite && other.on_hands > 0.5 && usual.floor < kStillFloor) return false;
-  // The floor is still along the other axis only.
+  // Accept `other` if the floor is constant along that axis only.
   constexpr double kNow = 0.1, kFloorless = 0.15;
   if (other.upright >= kNow && other.floor < kStillFloor && usual.floor > std::max(kFloorless, 3 * other.floor)) {
     return true;
   }
   if (other.upright < kMostly || usual.upright >= kHardlyEver) return false;
-  // Nobody stands on the head without the hands. If the usual axis is only a guess, the body may lie along it instead.
+  // Accept the opposite axis, because nobody stands on the head without the hands. (If the usual axis is only a guess,
+  // the body may instead lie along it.)
   if (is_opposite && other.on_hands <= 0.5 && rule.evidence != UpEvidence::kPosture) return true;
-  // It walks.
+  // Accept `other` if the body walks across it.
   if (other.way > 0.5 && other.steps > 0.4) return true;
   if (rule.is_of_rest) return false;
-  // The body stands on its feet, and either moves or stands quite still.
+  // Accept `other` if the body stands on its feet, and either moves over a constant floor or stands quite still.
   if (other.balanced > 0.75 && other.floor < kStillFloor && usual.floor > std::max(0.06, 2 * other.floor)) return true;
   return other.straight > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
 }
@@ -181,7 +182,7 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     return std::ranges::all_of(pose.joints, [](const glm::dvec3& p) { return std::isfinite(glm::dot(p, p)); });
   });
   if (poses.empty()) return found;
-  // Find the axis for which the motion is evidence; among several, the one along which the body is upright most often.
+  // Find the axes for which the motion is evidence; take the one along which the body is upright most often.
   const Frames frames = FramesOf(poses, rate_hz);
   const Stance usual = MeasureStance(frames, rule.axis);
   const glm::dvec3* best = nullptr;
@@ -193,7 +194,7 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     most = stance.upright;
     best = &axis;
   }
-  // Posture is the last evidence.
+  // Otherwise the posture is the only evidence.
   const std::string usually = fmt::format("{} is {}", AxisName(rule.axis), rule.source);
   if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
     found.axis = *best;

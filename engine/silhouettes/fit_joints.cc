@@ -78,7 +78,7 @@ class JointFit {
     }
   }
 
-  // Returns the Jacobian of a point with respect to every coordinate: 3 rows.
+  // Returns the Jacobian (3 rows) of a point's position with respect to every coordinate.
   Eigen::MatrixXd MotionOf(const TreePoint& point, Eigen::Index size) const {
     Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, size);
     const glm::dvec3 p_WQ = PlaceOf(point, frames_);
@@ -86,14 +86,14 @@ class JointFit {
       const glm::dvec3 moves = glm::cross(axis, p_WQ - about);
       motion.col(coordinate) = Eigen::Vector3d(moves.x, moves.y, moves.z);
     };
-    // The root: three translations and three rotations.
+    // Root: three translations and three rotations.
     for (int axis = 0; axis < 3; ++axis) {
       motion(axis, axis) = 1;
       glm::dvec3 unit(0);
       unit[axis] = 1;
       turn(3 + axis, unit, frames_.joints[0].position);
     }
-    // The angles of the joints from the point's limb up to the root.
+    // Angles: those of the joints from the point's limb up to the root.
     for (int j = point.joint; j >= 0; j = body_.tree.joints[j].parent) {
       const TreeJoint& joint = body_.tree.joints[j];
       for (int dof = joint.first_dof; dof < joint.first_dof + joint.dof_count; ++dof) {
@@ -103,7 +103,7 @@ class JointFit {
     return motion;
   }
 
-  // Returns the damped step; angles at a limit that they would leave do not move.
+  // Returns the damped step. An angle at a limit does not move if its gradient points out of the range.
   Eigen::VectorXd StepWith(const TreeState& state, double damping) const {
     Eigen::MatrixXd h = hessian_;
     Eigen::VectorXd g = gradient_;
@@ -129,7 +129,7 @@ class JointFit {
   Eigen::MatrixXd hessian_;
 };
 
-// Returns the mean of all targets, an estimate of the body's position.
+// Returns the mean position of all targets, an estimate of the body's position.
 glm::dvec3 MiddleOf(const JointTargets& targets) {
   glm::dvec3 sum(0);
   int count = 0;
@@ -150,7 +150,7 @@ TreeState FitJoints(const SilhouetteBody& body, const JointTargets& targets, con
     fit.Minimise(state);
     return state;
   }
-  // Without a start, minimise from every heading and posture, and keep the lowest cost.
+  // Without a start, minimise from every heading and posture, and keep the pose with the lowest cost.
   constexpr int kHeadings = 4;
   std::optional<TreeState> best;
   double least = 0;

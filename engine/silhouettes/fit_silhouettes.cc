@@ -13,15 +13,15 @@
 namespace etude {
 namespace {
 
-// The derivatives of the two ends of one capsule in one picture: for each coordinate that moves its limb, a column of
-// the six numbers δ of SilhouetteResidual.
+// The derivatives of a capsule's two ends in one picture. Each coordinate that moves the limb has one column, with the
+// six numbers δ of SilhouetteResidual.
 struct CapsuleMotion {
   std::vector<int> coordinates;
   std::vector<std::array<double, 6>> columns;
 };
 
-// The offset of a joint from the pixel where it was seen, its loss (Geman and McClure), and the weight of its square in
-// a step. All are 0 for a joint behind the camera.
+// For one seen joint: its offset from the pixel where it was seen, its loss (Geman and McClure), and the weight of the
+// squared offset in a step. All are 0 for a joint behind the camera.
 struct JointError {
   glm::dvec2 off{0};
   double loss = 0, weight = 0;
@@ -45,13 +45,13 @@ class Linearisation {
   Linearisation(const SilhouetteBody& body, int size)
       : body_(body), gradient_(Eigen::VectorXd::Zero(size)), hessian_(Eigen::MatrixXd::Zero(size, size)) {}
 
-  // Adds the residuals of one picture. They are summed by capsule first and then transformed to coordinates, because
-  // there are far fewer capsules than residuals.
+  // Adds the residuals of one picture. Residuals are summed by capsule first and only then transformed to coordinates,
+  // because there are far fewer capsules than residuals.
   void Add(const std::vector<SilhouetteResidual>& residuals, const TreeFrames& frames, const ProjectionMatrix& matrix,
            const SilhouetteCostOptions& options) {
     using Six = Eigen::Matrix<double, 6, 1>;
     using SixBySix = Eigen::Matrix<double, 6, 6>;
-    // Sum gradient and Hessian by the six numbers of each capsule.
+    // Sum gradient and Hessian of each capsule, with respect to its six numbers.
     std::vector<Six> gradients(body_.flesh.size(), Six::Zero());
     std::vector<SixBySix> hessians(body_.flesh.size(), SixBySix::Zero());
     for (const SilhouetteResidual& residual : residuals) {
@@ -91,7 +91,7 @@ class Linearisation {
       const TreePoint& point = body_.roles[Index(seen.role)];
       const glm::dvec3 p_WQ = PlaceOf(point, frames);
       const PixelScale::Slopes at = camera.SlopesAt(p_WQ);
-      // Derivatives of the joint's pixel by every coordinate that moves it.
+      // Compute the derivatives of the joint's pixel with respect to every coordinate that moves the joint.
       slopes_.clear();
       ForEachMotion(point.joint, frames, [&](int coordinate, const glm::dvec3& axis, const glm::dvec3* about) {
         const glm::dvec3 moves = about == nullptr ? axis : glm::cross(axis, p_WQ - *about);
@@ -132,8 +132,8 @@ class Linearisation {
     });
   }
 
-  // Calls take(coordinate, axis, about) for every coordinate that moves the limb of `joint`: a translation along the
-  // axis if `about` is null, otherwise a rotation about the axis through that point.
+  // Calls take(coordinate, axis, about) for every coordinate that moves the limb of `joint`: a translation along `axis`
+  // if `about` is null, otherwise a rotation about the line through `about` along `axis`.
   template <typename Take>
   void ForEachMotion(int joint, const TreeFrames& frames, const Take& take) const {
     for (int axis = 0; axis < 3; ++axis) {
@@ -203,7 +203,7 @@ Linearisation LineariseAt(const SilhouetteBody& body, std::span<const Silhouette
   return linear;
 }
 
-// Returns which angles are at a limit and would leave it in the direction of descent.
+// For each angle, returns true if the angle is at a limit and a descent step would leave the range.
 std::vector<bool> Held(const KinematicTree& tree, const TreeState& state, const Eigen::VectorXd& gradient) {
   std::vector<bool> held(gradient.size(), false);
   for (std::size_t i = 0; i < state.angles.size(); ++i) {
@@ -231,7 +231,7 @@ Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held,
   return -h.llt().solve(g);
 }
 
-// Computes the cost of `state`, whose flesh is `flesh`.
+// Computes the cost of `state` from `flesh`, its projected flesh.
 SilhouetteFit CostOfSeen(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
                          const PosePrior* prior, const SilhouetteCostOptions& options,
                          const std::vector<SeenFlesh>& flesh, const FitWorkspace& workspace) {
@@ -282,7 +282,7 @@ SilhouetteFit FitFurther(const SilhouetteBody& body, std::span<const SilhouetteV
   SilhouetteFit fit = CostOfSeen(body, views, start, prior, options.cost, workspace.kept, workspace);
   double damping = kFirstDamping;
   while (fit.iterations < options.max_iterations && damping < kMaxDamping) {
-    // Linearise at the current pose; angles that their limits hold stay out of the step.
+    // Linearise at the current pose. Angles that are held at a limit are left out of the step.
     const Linearisation linear = LineariseAt(body, views, fit.state, prior, options.cost, workspace);
     const std::vector<bool> held = Held(body.tree, fit.state, linear.gradient());
     bool is_better = false;

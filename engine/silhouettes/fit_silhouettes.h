@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// Prior knowledge of a pose: it is near `near`, with these standard deviations.
+/// A normal prior of a pose: its mean `near` and standard deviations.
 struct PosePrior {
   TreeState near;
   double place_m = 0.1;    ///< of the root's position, along each axis
@@ -19,7 +19,7 @@ struct PosePrior {
 struct FitOptions {
   SilhouetteCostOptions cost;
   int max_iterations = 20;
-  /// The iteration ends after a step that lowers the cost by less than this share of it.
+  /// The iteration ends after a step that lowers the cost by less than this share of the cost.
   double enough = 1e-3;
 };
 
@@ -31,7 +31,7 @@ struct SilhouetteFit {
   int iterations = 0;
 };
 
-/// Memory that is reused from fit to fit.
+/// Memory that later fits use again.
 struct FitWorkspace {
   TreeFrames frames;
   std::vector<SeenFlesh> flesh;  ///< by view, of the pose whose cost was computed last
@@ -44,18 +44,19 @@ SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView>
                      const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace);
 
 /// Fits the body to the silhouettes of one moment by the method of Levenberg and Marquardt, from `start`, over the
-/// root's position, the root's rotation and all angles within their limits (an angle that its limit holds is taken out
-/// of the step). This is analysis by synthesis: no pixel is labelled with a limb; the nearest capsule explains it.
+/// root's position, the root's rotation and all angles within their limits. Angles that are held at a limit are left
+/// out of the step. This is analysis by synthesis: no pixel is labelled with a limb; each outline point is attributed
+/// to the nearest capsule.
 SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
                              const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace);
-/// Fits the body further, with other options, from `start`, at which the last fit of the same body to the same views
-/// ended with this workspace.
+/// Continues a fit with other options. `start` must be the pose at which the last fit with this `workspace` ended, for
+/// the same body and views.
 SilhouetteFit FitFurther(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
                          const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace);
 
-/// The normal equations of a step of `FitSilhouettes`: the gradient of half the cost and the Gauss–Newton approximation
-/// of its Hessian, by columns. The coordinates are the root's position, its rotation (a rotation vector in the world),
-/// then the angles.
+/// The normal equations of a step of `FitSilhouettes`: the gradient of half the cost, and its Hessian in the
+/// Gauss–Newton approximation, stored by columns. The coordinates are the root's position, its rotation (a rotation
+/// vector in the world), then the angles.
 struct NormalEquations {
   std::vector<double> gradient;
   std::vector<double> hessian;

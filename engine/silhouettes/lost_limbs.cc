@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-// Returns the angle at `share` of the range of a degree of freedom.
+// Returns the angle at the given share of a degree of freedom's range.
 double InRange(const KinematicTree& tree, int dof, double share) {
   return std::lerp(tree.limits[dof].lower, tree.limits[dof].upper, share);
 }
@@ -24,13 +24,13 @@ void Bend(const SilhouetteBody& body, bool arms, double upper, double lower, Tre
   }
 }
 
-// Returns true if `joint` is `ancestor` or moves with it.
+// Returns true if `joint` is `ancestor` or its descendant.
 bool MovesWith(const KinematicTree& tree, int joint, int ancestor) {
   while (joint > ancestor) joint = tree.joints[joint].parent;
   return joint == ancestor;
 }
 
-// The cost of one limb's position while the rest of the body stays in place.
+// Computes the cost of one limb's position while the rest of the body stays in place.
 class LimbCost {
  public:
   LimbCost(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state, int upper,
@@ -48,7 +48,8 @@ class LimbCost {
     }
   }
 
-  // Returns the cost, or infinity as soon as it reaches `limit`: it is a sum of losses, none of which is negative.
+  // Returns the cost. As soon as the cost reaches `limit`, returns infinity; this is safe because the cost is a sum of
+  // losses ≥ 0.
   double Of(const TreeState& state, double limit) {
     double cost = 0;
     ComputeFrames(limb_.tree, state, frames_);
@@ -102,7 +103,7 @@ std::vector<TreeState> LimbCandidates(const SilhouetteBody& body, std::span<cons
   LimbCost cost(body, views, state, limb.upper, options);
   std::vector<Candidate> best;
   TreeState trial = state;
-  // Try the middle of every cell of the grid and keep the best, sorted by cost.
+  // Try the middle of every cell of the grid, and keep the positions with the lowest costs, in order.
   const auto share = [](int i, int count) { return (i + 0.5) / count; };
   for (int x = 0; x < kForward; ++x) {
     trial.angles[upper] = InRange(body.tree, upper, share(x, kForward));

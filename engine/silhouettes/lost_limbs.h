@@ -11,8 +11,8 @@ namespace etude {
 /// The root is at the origin and faces +Z.
 std::vector<TreeState> Postures(const SilhouetteBody& body);
 
-/// Returns `state` with one arm or leg in other positions: the two of lowest cost on a grid over the range of the
-/// limb's joints.
+/// Returns two copies of `state` in which one arm or leg has another position: the two positions of lowest cost on a
+/// grid over the range of the limb's joints.
 std::vector<TreeState> LimbCandidates(const SilhouetteBody& body, std::span<const SilhouetteView> views,
                                   const TreeState& state, const SilhouetteBody::Limb& limb,
                                   const SilhouetteCostOptions& options);

@@ -53,8 +53,8 @@ SilhouetteBody ThicknessEstimate::Apply() const {
 
 namespace {
 
-// A search widens the reaches of the losses and ends after fewer iterations than the final fit.
-constexpr double kWideReach = 3;  // times the reach of the options
+// A search uses losses with a wider reach than the final fit, and fewer iterations.
+constexpr double kWideReach = 3;  // multiple of the reach in the options
 constexpr int kCoarseSteps = 8, kFineSteps = 12;
 constexpr double kSpeedKept = 0.6;  // share of the last change that is extrapolated to the next frame
 
@@ -100,7 +100,8 @@ SilhouetteFit MomentFitter::Follow(const MomentViews& views, const TreeState& be
   return Fit(views, still ? last : foretold, &prior, true);
 }
 
-// Fits the body from every heading and posture at the triangulated centre; returns the fits by ascending cost.
+// Fits the body from every heading and posture, at the point that the silhouettes' centres triangulate; returns the
+// fits by ascending cost.
 std::vector<SilhouetteFit> MomentFitter::Guesses(const MomentViews& views) {
   constexpr int kHeadings = 8;
   std::vector<SilhouetteFit> fits;

@@ -17,7 +17,7 @@ class ThicknessEstimate {
  public:
   explicit ThicknessEstimate(const SilhouetteBody& body);
 
-  /// Adds the outline points of one frame, compared with the pose `state`.
+  /// Adds the outline points of one frame in which the body's pose is `state`.
   void Add(std::span<const SilhouetteView> views, const TreeState& state, const SilhouetteCostOptions& options,
            FitWorkspace& workspace);
 
@@ -29,53 +29,54 @@ class ThicknessEstimate {
   std::vector<double> products_, squares_;  // of each part: Σ w r e, Σ w r²
 };
 
-/// The options of finding and following a body, for `TrackSilhouettes` (a whole take) and `SilhouetteFollower`
-/// (online).
+/// Options for finding and following a body. `TrackSilhouettes` uses them for a whole take, `SilhouetteFollower`
+/// online.
 struct TrackOptions {
   SilhouetteCostOptions cost;
   /// The accuracy of a known start: standard deviations of an angle and of the root's rotation (radians), and of the
   /// root's position.
   double start_angle = Radians(10);
   double start_position_m = 0.1;
-  /// The number of frames, evenly over the take, in which the body is searched for if the start is not known.
+  /// The number of frames, evenly spaced over the take, in which the body is searched for if the start is not known.
   int anchors = 5;
-  /// The number of frames for which each likely pose is followed if the start is not known. A single silhouette often
+  /// If the start is not known, each likely pose is followed for this number of frames. A single silhouette often
   /// cannot tell front from back; several frames can.
   int trial_frames = 8;
-  /// The change from one frame to the next beyond the extrapolated motion: standard deviations of an angle, radians,
-  /// and of the position. Use larger values for frame rates below 30 Hz.
+  /// The expected deviation of a frame from the extrapolated motion: standard deviations of an angle, radians, and of
+  /// the position. Use larger values for frame rates below 30 Hz.
   double angle_change = 0.15;
   double position_change_m = 0.05;
-  /// A frame whose cost exceeds this multiple of the take's 20th percentile has lost a limb and is searched again.
+  /// If the cost of a frame exceeds this multiple of the take's 20th percentile, a limb is assumed to be lost and
+  /// searched again.
   double lost = 1.8;
   /// The number of passes over a whole take in which lost frames are searched again and all frames are smoothed.
   int repairs = 2;
-  /// The number of passes that estimate the thickness of trunk, head, arms and legs, each from the pose of the one
-  /// before. 0 keeps the average body.
+  /// The number of passes that estimate the thickness of trunk, head, arms and legs. Each pass uses the poses of the
+  /// previous one. 0 keeps the average body.
   int thickness_passes = 2;
 };
 
-/// The cameras' pictures of one moment that show somebody.
+/// The pictures of one moment, without the cameras that show nobody.
 using MomentViews = std::vector<SilhouetteView>;
 
-/// Fits a body to one moment: by a search, from a known pose, or from the moments before.
+/// Fits a body to one moment: by a search, from a known pose, or from the previous moments.
 class MomentFitter {
  public:
-  /// Both must outlive this object. The body's thickness may change in between.
+  /// `body` and `options` must outlive this object. The body's thickness may be changed between calls.
   MomentFitter(const SilhouetteBody& body, const TrackOptions& options);
 
   /// Fits one moment from `start`. If `is_far`, a fit with a wide reach of the loss comes first. `prior` may be null.
   SilhouetteFit Fit(const MomentViews& views, const TreeState& start, const PosePrior* prior, bool is_far);
-  /// Fits one moment from a known start, whose accuracy the options state.
+  /// Fits one moment from a known start; the options state the start's accuracy.
   SilhouetteFit FitKnown(const MomentViews& views, const TreeState& start);
   /// Fits the next moment of a body whose last two poses were `before_last` and `last`.
   SilhouetteFit Follow(const MomentViews& views, const TreeState& before_last, const TreeState& last);
-  /// Searches for the body: returns the most likely pose and further ones that face other ways, at most three in all;
+  /// Searches for the body. Returns at most three fits: the most likely pose first, then poses with other headings;
   /// none if the silhouettes' centres cannot be triangulated.
   std::vector<SilhouetteFit> Find(const MomentViews& views);
-  /// Tries every arm and leg in other positions and returns the fit with those that lower the cost.
+  /// Tries other positions for every arm and leg. Returns the fit with the positions that lower the cost.
   SilhouetteFit WithLimbsFound(const MomentViews& views, const SilhouetteFit& fit, const PosePrior* prior);
-  /// Returns the prior that the next pose is near `state`.
+  /// Returns a prior with mean `state` for the next pose.
   PosePrior PriorNear(const TreeState& state) const;
 
   FitWorkspace& workspace() { return workspace_; }

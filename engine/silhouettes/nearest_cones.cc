@@ -1,12 +1,12 @@
-// Compiled once for every vector instruction set of x86-64 CPUs; the best one is chosen at run time. All of them give
-// identical bits in every lane because MulAdd is never used.
+// This file is compiled once for every vector instruction set of x86-64 CPUs; the best version is chosen at run time.
+// All versions compute identical bits, because MulAdd is never used.
 #include "engine/silhouettes/nearest_cones.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/silhouettes/nearest_cones.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// Included after foreach_target.h, once for each target.
+// This header must be included after foreach_target.h.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,13 +17,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Real = hn::CappedTag<double, kBlockPoints>;
 using Vec = hn::Vec<Real>;
 
-/// Cones: another in every lane, or the same in all.
+/// Cones in SIMD lanes: a different cone in every lane, or one cone in all lanes.
 struct Cone {
   Vec rows[kConeRows];
 };
 
-/// Returns the signed distances of points to cones, lane by lane. The nearest point of the axis is where the distance
-/// minus the radius is least (`NearestOnCone`).
+/// Returns the signed distances of points to cones, lane by lane. The nearest point on the axis minimises the distance
+/// minus the radius (`NearestOnCone`).
 HWY_INLINE Vec SignedDistance(const Cone& cone, Vec u, Vec v) {
   const Real real;
   const Vec* const c = cone.rows;
@@ -57,15 +57,14 @@ void FindNearest(const ConeColumns& cones, const PointColumns& points, double* d
   double near[kMaxCones];
   for (size_t block = 0; block < points.blocks; ++block) {
     const size_t first_point = block * kBlockPoints;
-    // The distances of all cones from the block's centre.
+    // Compute the distances of all cones from the block's centre.
     const auto centre_u = hn::Set(real, points.centre_u[block]), centre_v = hn::Set(real, points.centre_v[block]);
     double least = 1e300;
     for (size_t i = 0; i < cones.count; i += lanes) {
       hn::StoreU(SignedDistance(ConesFrom(cones, i), centre_u, centre_v), real, near + i);
     }
     for (size_t i = 0; i < cones.count; ++i) least = near[i] < least ? near[i] : least;
-    // A cone farther from the centre than this is not the nearest to any point of the block, nor nearer than its
-    // present distance.
+    // Compute the reach: a cone farther from the centre can lower the distance of no point in the block.
     double farthest = distance[first_point];
     for (size_t i = 1; i < kBlockPoints; ++i) {
       farthest = distance[first_point + i] > farthest ? distance[first_point + i] : farthest;

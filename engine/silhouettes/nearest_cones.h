@@ -6,31 +6,31 @@ namespace etude {
 
 inline constexpr std::size_t kConeLanes = 8, kMaxCones = 64, kBlockPoints = 8;
 
-/// The numbers of a projected capsule, pixels: one end, the axis from there to the other end, its squared length, the
-/// radius of the other end minus that of this end, √(length² − that²), the radius of this end, and the end (0 or 1)
-/// whose circle contains the other's, or −1.
+/// The numbers of a projected capsule, pixels: end 0 (u, v), the axis from end 0 to end 1 (u, v), its squared length,
+/// the growth of the radius from end 0 to end 1, √(squared length − growth²), and the radius of end 0. kOnlyEnd is the
+/// end whose circle contains the other end's circle, or −1.
 enum ConeRow { kEndU, kEndV, kAxisU, kAxisV, kLength2, kWidens, kSlant, kRadius, kOnlyEnd, kConeRows };
 
-/// Projected capsules, one per column; `count` is a multiple of kConeLanes. Columns beyond the last capsule, and those
-/// of invalid capsules, hold a cone at infinite distance.
+/// Projected capsules, one per column; `count` is a multiple of kConeLanes. Spare columns and columns of invalid
+/// capsules hold a cone at infinite distance.
 struct ConeColumns {
   std::size_t count = 0;
   double rows[kConeRows][kMaxCones];
 };
 
-/// Points (u, v) in pixels, in blocks of kBlockPoints neighbours, with a circle around each block. The last block is
-/// filled up by repeating its last point.
+/// Points (u, v) in pixels, in blocks of kBlockPoints neighbouring points, with a circle around each block. The last
+/// block is filled up with copies of its last point.
 struct PointColumns {
   std::size_t blocks = 0;
   const double *u = nullptr, *v = nullptr;
   const double *centre_u = nullptr, *centre_v = nullptr, *radius = nullptr;
 };
 
-/// Lowers each point's `distance` (pixels) to its smallest signed distance to the cones, negative inside, if that is
-/// less; then sets the point's `owner` to the index of the cone, the first of several at equal distance. Each block
-/// tests only the cones that can be nearest to one of its points: if a point moves, its signed distance changes by at
-/// most as much. Uses SIMD in double precision; with any vector width the bits are those of `NearestOnCone`
-/// (silhouette_cost.cc).
+/// For each point, finds the smallest signed distance to the cones, pixels, negative inside. If it is smaller than the
+/// point's `distance`, writes it to `distance`, and the cone's index (the first of equally near cones) to `owner`. For
+/// each block, only cones that can be nearest to one of its points are tested: a signed distance changes by at most as
+/// much as the point moves. Uses SIMD in double precision; with any vector width, the bits equal those of
+/// `NearestOnCone` (silhouette_cost.cc).
 void FindNearestCones(const ConeColumns& cones, const PointColumns& points, double* distance, double* owner);
 
 }  // namespace etude

@@ -12,14 +12,14 @@
 namespace etude {
 namespace {
 
-// The lower envelope of the parabolas (x − q)² + heights[q] (the paper's DT1D), for at most `size` of them.
+// The lower envelope of up to `size` parabolas (x − q)² + heights[q] (the paper's DT1D).
 class Envelope {
  public:
   explicit Envelope(int size) : apex_(size), begins_(size + 1) {}
 
   // Computes out[x] = min over q of (x − q)² + heights[q]; heights of at least `kNone` count as infinite.
   void Fill(const std::vector<double>& heights, int size, std::vector<double>& out) {
-    // Add the parabolas from left to right; each removes the last ones that it undercuts everywhere.
+    // Add the parabolas from left to right. Each removes earlier ones that are no longer lowest anywhere.
     int last = -1;
     for (int q = 0; q < size; ++q) {
       if (heights[q] >= kNone) continue;
@@ -61,7 +61,8 @@ std::vector<double> SquaredDistancesTo(const Mask& mask, std::uint8_t value) {
   const int width = mask.width, height = mask.height;
   const int longest = std::max(width, height);
   std::vector<double> squared(mask.pixels.size());
-  // Along each column, count the steps to the nearest such pixel above and below; all columns advance row by row.
+  // Along each column, count the steps to the nearest pixel of that value, above and below. All columns advance row by
+  // row.
   std::vector<double> steps(width, Envelope::kNone);
   const auto walk = [&](int y, const auto& take) {
     for (int x = 0; x < width; ++x) {
@@ -130,7 +131,8 @@ struct Box {
   int left, top, right, bottom;  // right and bottom are exclusive
 };
 
-// Returns the box around all set pixels, with a margin, clipped to the picture; an empty box if no pixel is set.
+// Returns the box around all set pixels, with a margin, clipped to the picture. Returns an empty box if no pixel is
+// set.
 Box BoxOf(const Mask& mask) {
   constexpr int kMargin = 8;
   Box box{mask.width, mask.height, 0, 0};
@@ -152,8 +154,8 @@ Mask CutOut(const Mask& mask, const Box& box) {
   return part;
 }
 
-// Returns the pixels whose signed distance is at most `distance`: a dilation, or an erosion if it is negative. A
-// dilation leaves set pixels set, an erosion unset ones unset, so each needs only one kind of distances.
+// Returns the pixels whose signed distance is at most `distance`: a dilation, or an erosion for a negative value. A
+// dilation keeps all set pixels and an erosion all unset pixels, so each needs only one of the two distance maps.
 Mask Grown(const Mask& mask, double distance) {
   const bool erodes = distance < 0;
   const std::vector<double> squared = SquaredDistancesTo(mask, erodes ? 0 : 1);
@@ -166,7 +168,7 @@ Mask Grown(const Mask& mask, double distance) {
   return grown;
 }
 
-// Removes what is thinner than a disc of this radius (morphological opening).
+// Removes parts that are thinner than a disc of this radius (morphological opening).
 Mask Opened(const Mask& mask, double radius) {
   if (radius <= 0) return mask;
   return Grown(Grown(mask, -radius), radius);
@@ -199,7 +201,7 @@ void SampleOutline(const Mask& mask, const SilhouetteOptions& options, Silhouett
 OutlineColumns MakeColumns(const std::vector<OutlinePoint>& outline) {
   OutlineColumns columns;
   if (outline.empty()) return columns;
-  // Sort the points by squares of 8 pixels in Morton order, so that neighbours in the picture are neighbours in memory.
+  // Sort the points along a Morton curve of 8-pixel squares, which keeps neighbours in the picture together in memory.
   constexpr double kSquare = 8;  // pixels
   const auto key = [&](int point) {
     const glm::dvec2 square = glm::max(outline[static_cast<std::size_t>(point)].pixel / kSquare, glm::dvec2(0));
@@ -223,7 +225,7 @@ OutlineColumns MakeColumns(const std::vector<OutlinePoint>& outline) {
     columns.u.push_back(columns.u.back());
     columns.v.push_back(columns.v.back());
   }
-  // A circle around each block.
+  // Compute a circle around each block.
   for (std::size_t first = 0; first < columns.u.size(); first += kBlockPoints) {
     glm::dvec2 centre(0);
     for (std::size_t i = first; i < first + kBlockPoints; ++i) centre += glm::dvec2(columns.u[i], columns.v[i]);
@@ -270,7 +272,7 @@ DistanceAt DistanceAtPixel(const Silhouette& silhouette, const glm::dvec2& pixel
   const double a = field.At(x, y), b = field.At(x + 1, y), c = field.At(x, y + 1), d = field.At(x + 1, y + 1);
   DistanceAt found{(1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d),
                    {(1 - t) * (b - a) + t * (d - c), (1 - s) * (c - a) + s * (d - b)}};
-  // No gradient along an axis on which the point was clamped.
+  // Set the gradient to 0 along each axis on which the point was clamped.
   const glm::dvec2 beyond = in_box - at;
   for (int axis = 0; axis < 2; ++axis) {
     if (beyond[axis] != 0 || seen[axis] != wanted[axis]) found.gradient[axis] = 0;

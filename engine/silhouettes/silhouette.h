@@ -8,21 +8,22 @@
 namespace [[gnu::visibility("default")]] etude {
 
 /// Computes the signed Euclidean distance from every pixel's centre to the border of the mask, in mask pixels: positive
-/// outside, negative inside. The border runs half a pixel beyond the centres of set pixels, so |distance| ≥ 0.5. The
-/// distances are exact, in time linear in the number of pixels: P. Felzenszwalb and D. Huttenlocher, "Distance
-/// transforms of sampled functions", Theory of Computing 8 (2012), section 2. If the mask has no set (or no unset)
-/// pixel, every distance is +(width + height) (or −(width + height)).
+/// outside, negative inside. The border runs half a pixel outside the centres of set pixels, so |distance| ≥ 0.5. The
+/// distances are exact; the time is linear in the number of pixels (P. Felzenszwalb and D. Huttenlocher, "Distance
+/// transforms of sampled functions", Theory of Computing 8 (2012), section 2). If no pixel is set, every distance is
+/// width + height; if all are set, −(width + height).
 Image<float> SignedDistances(const Mask& mask);
 
 struct SilhouetteOptions {
   /// The width of a mask pixel in pixels of the camera: 2 for a mask of half the picture's size.
   double mask_pixel = 1;
-  /// The side, in mask pixels, of the squares from each of which one outline point is sampled. Larger squares give
-  /// fewer points and a faster fit; 3 leaves about two hundred points of a person who fills a picture of 320 × 240.
+  /// Outline points are sampled on a grid of squares: one point per square, whose side is this many mask pixels. Larger
+  /// squares give fewer points and a faster fit; with 3, a person who fills a picture of 320 × 240 has about two
+  /// hundred points.
   int spacing = 3;
-  /// The radius, in mask pixels, of the disc of the morphological opening. It removes what is thinner than the disc,
-  /// such as lines of furniture and ragged edges. A forearm four metres away is five pixels wide in a mask of 320 ×
-  /// 240. With 0 the mask is not opened.
+  /// The radius, in mask pixels, of the disc of the morphological opening. The opening removes parts thinner than the
+  /// disc, such as lines of furniture and ragged edges. For comparison, a forearm four metres away is five pixels wide
+  /// in a mask of 320 × 240. With 0 the mask is not opened.
   double thinnest = 1;
 };
 
@@ -32,7 +33,7 @@ struct OutlinePoint {
   glm::dvec2 normal{0};  ///< unit vector, points out of the silhouette
 };
 
-/// The pixels of an outline as columns, neighbours together, for a search of many points at once (nearest_cones.h).
+/// The pixels of an outline as columns, with neighbouring points together (nearest_cones.h).
 struct OutlineColumns {
   std::vector<int> places;  ///< the column of each outline point
   std::vector<double> u, v;
@@ -40,9 +41,9 @@ struct OutlineColumns {
 };
 OutlineColumns MakeColumns(const std::vector<OutlinePoint>& outline);
 
-/// One camera's picture of a person, prepared for the fit. The distances cover only the box around the person.
+/// One camera's picture of a person, prepared for the fit. Distances are stored only for the box around the person.
 struct Silhouette {
-  Image<float> distances;  ///< `SignedDistances` of the mask, in mask pixels, from (left, top) on
+  Image<float> distances;  ///< `SignedDistances` of the mask, in mask pixels; begins at (left, top)
   int left = 0, top = 0;
   int width = 0, height = 0;  ///< size of the whole mask
   double mask_pixel = 1;
@@ -54,11 +55,11 @@ struct Silhouette {
 
 Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options = {});
 
-/// Returns the signed distance at a pixel of the camera, in pixels of the camera, and its gradient, by bilinear
-/// interpolation between pixel centres. Outside the box around the person it is the distance at the box's edge plus the
-/// distance to the box, which is never less than the true one. Outside the picture it is the distance of the nearest
-/// pixel inside, with no gradient across the picture's edge, so flesh outside the picture is not pulled back.
-/// Precondition: `silhouette.area` > 0.
+/// Returns the signed distance at a pixel of the camera, in the camera's pixels, and its gradient, by bilinear
+/// interpolation between pixel centres. Outside the box around the person, the distance is the sum of the distance at
+/// the box's edge and the distance to the box; this is never less than the true distance. Outside the picture, the
+/// distance is that of the nearest pixel inside, and the gradient across the picture's edge is 0, so flesh outside the
+/// picture is not pulled back. Precondition: `silhouette.area` > 0.
 struct DistanceAt {
   double distance = 0;
   glm::dvec2 gradient{0};

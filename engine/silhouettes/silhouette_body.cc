@@ -35,7 +35,7 @@ enum JointIndex {
 
 enum Part { kTrunk, kHeadAndNeck, kArms, kHands, kLegs, kFeet, kPartCount };
 
-// Axes of the limbs in the world when the body stands at rest and faces +Z: columns X, Y, Z.
+// The axes X, Y, Z of the limbs, as columns, in the world, for a body that stands at rest and faces +Z.
 const glm::dvec3 kRight(-1, 0, 0), kUp(0, 1, 0), kForward(0, 0, 1);
 const glm::dmat3 kRising(kRight, kForward, kUp);
 const glm::dmat3 kHanging(kRight, -kForward, -kUp);
@@ -45,9 +45,9 @@ const glm::dmat3 kFootwards(kRight, -kUp, kForward);
 
 using AngleHabit = SilhouetteBody::Habit;
 
-// A joint of the tree: its position and the limb that it turns. Limits are in degrees, one range for each degree of
-// freedom: X bends forward and back, Y leads sideways, Z turns about the limb. They are the limits of joint_limits.h,
-// widened to what people reach beyond the tables, so that no pose that a picture shows is forbidden.
+// A joint of the tree: its position and the limb that rotates about it. Limits are in degrees, one range for each
+// degree of freedom: X bends forward and back, Y moves the limb sideways, Z rotates it about its own axis. The limits
+// of joint_limits.h are widened to what people really reach, so every pose in a picture is allowed.
 struct JointRow {
   JointIndex self;
   std::string_view name;
@@ -60,7 +60,7 @@ struct JointRow {
 
 const std::array<JointRow, kJointCount>& JointRows() {
   static const std::array<JointRow, kJointCount> rows = {{
-      // Joint, name, parent, position, axes at rest, limits, usual angles with deviations.
+      // Columns: joint, name, parent, position, axes at rest, limits, usual angles with standard deviations.
       {kPelvis, "pelvis", -1, kHipCentre, kRising, {}, {}},
       {kLoins, "loins", kPelvis, kHipCentre, kRising, {{-60, 30}, {-35, 35}, {-45, 45}}, {{0, 20}, {0, 12}, {0, 15}}},
       {kChest, "chest", kLoins, kSpine, kRising, {{-45, 25}, {-25, 25}, {-35, 35}}, {{0, 15}, {0, 10}, {0, 12}}},
@@ -115,9 +115,9 @@ constexpr std::array<JointIndex, kRoleCount> kCarriers = {
     kLeftPalm, kRightUpperArm, kRightForearm, kRightPalm,  kRightPalm,    kLeftThigh,   kLeftShank,
     kLeftSole, kLeftSole,      kRightThigh,   kRightShank, kRightSole,    kRightSole};
 
-// Lengths and offsets of a person of 1.70 m; kStatureLengths is the sum of thigh, shank and trunk.
+// Lengths and offsets belong to a person of 1.70 m; kStatureLengths is that person's sum of thigh, shank and trunk.
 constexpr double kStatureLengths = 1.32;  // metres
-constexpr double kShoulderFall = 0.025;   // the shoulders lie this far below the base of the neck
+constexpr double kShoulderFall = 0.025;   // metres; height of the base of the neck above the shoulders
 
 // Returns the standing pose at rest with the hip centre at the origin.
 BodyPose RestPose(const LimbLengths& lengths, double scale) {
@@ -142,7 +142,7 @@ BodyPose RestPose(const LimbLengths& lengths, double scale) {
   return rest;
 }
 
-// Makes the tree of JointRows() with the offsets between joints of the pose at rest.
+// Makes the tree of JointRows(), with the offsets between the joints of the rest pose.
 KinematicTree MakeTree(const BodyPose& rest) {
   KinematicTree tree;
   tree.standing_root = kRising;
@@ -162,8 +162,9 @@ KinematicTree MakeTree(const BodyPose& rest) {
   return tree;
 }
 
-// A capsule on the left half or in the middle of the body; the right half mirrors it. Each end is a joint's position
-// plus an offset in the standing body, in centimetres to the left, up and forward, of a person of 1.70 m.
+// A capsule on the left half or in the middle of the body; capsules on the right mirror those on the left. Each end is
+// a joint's position plus an offset in the standing body: centimetres to the left, up and forward, for a person of 1.70
+// m.
 struct FleshRow {
   Part part;
   JointIndex limb;
@@ -176,8 +177,8 @@ struct FleshRow {
 
 const std::vector<FleshRow>& FleshRows() {
   static const std::vector<FleshRow> rows = {
-      // Centimetres: the pelvis and the chest are about 34 wide and 23 deep, the waist 29 wide; the crotch lies 8 below
-      // the hip joints.
+      // In centimetres, the pelvis and the chest are about 34 wide and 23 deep, and the waist 29 wide; the crotch lies
+      // 8 below the hip joints.
       {kTrunk, kPelvis, kHipCentre, {4, -1, 0}, kHipCentre, {5.5, 2, -1}, 7.5, 11.8},
       {kTrunk, kPelvis, kHipCentre, {5.5, 2, -1}, kHipCentre, {4.5, 9, 0}, 11.8, 11},
       {kTrunk, kLoins, kHipCentre, {4.2, 8, 0}, kSpine, {4.5, 0, 0}, 10.7, 10.7},

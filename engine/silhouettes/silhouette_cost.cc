@@ -77,14 +77,15 @@ void AppendOutline(const SeenFlesh& flesh, const Silhouette& silhouette, std::ve
   }
 }
 
-// The points along a capsule's axis at which it must lie inside the silhouette: 0 at a, 1 at b.
+// Positions along a capsule's axis (0 at a, 1 at b) at which the capsule must lie inside the silhouette.
 constexpr std::array<double, SeenFlesh::kInsideSamples> kSamples = {0, 1.0 / 3, 2.0 / 3, 1};
 
 DistanceAt DistanceAtSample(const Silhouette& silhouette, const ProjectedCapsule& capsule, std::size_t sample) {
   return DistanceAtPixel(silhouette, glm::mix(capsule.a, capsule.b, kSamples[sample]));
 }
 
-// Calls take(residual) for every residual of containment; distance_at(capsule, sample) is the silhouette's distance.
+// Calls take(residual) for every residual of containment. distance_at(capsule, sample) must return the silhouette's
+// signed distance at that sample.
 template <typename Distance, typename Take>
 void ForEachContainment(const std::vector<ProjectedCapsule>& flesh, const SilhouetteCostOptions& options,
                         const Distance& distance_at, const Take& take) {
@@ -162,7 +163,7 @@ void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
                double& sum) {
   if (silhouette.area == 0) return;
-  double outline = sum;  // a local variable: the compiler knows that no write to it changes an option
+  double outline = sum;  // a local copy shows the compiler that writes to the sum change no option
   for (const int place : silhouette.columns.places) {
     const auto at = static_cast<std::size_t>(place);
     if (flesh.owners[at] >= 0) outline += LossOf({.value = flesh.distances[at]}, options).loss;

@@ -31,11 +31,11 @@ class PixelScale {
   glm::dvec2 PixelOf(const glm::dvec3& p_WQ) const {
     return glm::dvec2(glm::dot(rows_[0], p_WQ) + offsets_[0], glm::dot(rows_[1], p_WQ) + offsets_[1]) / DepthOf(p_WQ);
   }
-  /// Returns the focal length in pixels, the geometric mean over both directions: the size of one metre at a depth of
-  /// one metre.
+  /// Returns the size in pixels of one metre at a depth of one metre: the focal length, as the geometric mean over both
+  /// directions.
   double focal_px() const { return focal_px_; }
 
-  /// The gradients of u, v and of the pixels per metre, with respect to the position of the point.
+  /// The gradients of u, of v and of the pixels per metre with respect to the point's position.
   struct Slopes {
     glm::dvec3 u, v, pixels_per_metre;
   };
@@ -66,24 +66,24 @@ struct SilhouetteView {
   std::span<const SeenJoint> joints = {};
 };
 
-/// The options of comparing a pose with silhouettes. All lengths are pixels of the camera.
+/// Options for comparing a pose with silhouettes. All lengths are in pixels of the camera.
 struct SilhouetteCostOptions {
   /// The residual that counts as one standard deviation, relative to the priors of the body's angles. It is several
-  /// times the error of one outline point because the errors of neighbouring points are correlated: clothes, or flesh
-  /// of another shape.
+  /// times the error of one outline point, because clothes and differences in body shape make the errors of
+  /// neighbouring points correlated.
   double sigma_px = 8;
-  /// The reach of the loss (Geman and McClure): the weight of an outline point, or of flesh outside the silhouette,
-  /// falls beyond it. Such a residual comes from a shadow, a lost piece of the mask, or a limb in another position. Use
-  /// a wide reach far from the solution and a narrow one near it.
+  /// The reach of the loss (Geman and McClure). A larger residual, of an outline point or of flesh outside the
+  /// silhouette, loses weight: it comes from a shadow, a lost piece of the mask, or a limb in another position. Use a
+  /// wide reach far from the solution and a narrow one near it.
   double outline_reach_px = 14;
   double inside_reach_px = 60;
-  /// The share of each flesh radius that must lie inside the silhouette. It is less than 1 because this person may be
-  /// thinner than the body.
+  /// The share of each flesh radius that must lie inside the silhouette. It is below 1 because the person may be
+  /// thinner than the body model.
   double inside_share = 0.8;
-  /// The weight of one sample of the flesh relative to one point of the outline.
+  /// The weight of one flesh sample (containment) relative to one outline point (coverage).
   double inside_weight = 2;
-  /// The reach of the same loss for seen joints, in their standard deviations. A joint beyond it probably belongs to
-  /// another person or to the other side of the body.
+  /// The reach of the loss for seen joints, in standard deviations of a joint. A joint with a larger residual probably
+  /// belongs to another person or to the other side of the body.
   double joint_reach = 3;
 };
 
@@ -95,8 +95,8 @@ struct ProjectedCapsule {
   double radius_a = 0, radius_b = 0;
 };
 
-/// A residual and its derivatives by the six numbers of its capsule: it is e + Σ slopesᵢ δᵢ with δ = changes of (a.u,
-/// a.v, radius_a, b.u, b.v, radius_b).
+/// A residual and its derivatives with respect to the six numbers of its capsule. Near the current pose the residual is
+/// e + Σ slopesᵢ δᵢ, where δ are changes of (a.u, a.v, radius_a, b.u, b.v, radius_b).
 struct SilhouetteResidual {
   double value = 0;  ///< e, pixels
   int capsule = -1;  ///< -1: none
@@ -112,42 +112,42 @@ void ProjectFlesh(const SilhouetteBody& body, const TreeFrames& frames, const Pr
 /// derivatives.
 SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel);
 
-/// Returns that distance alone.
+/// Returns only the signed distance of DistanceTo.
 double SignedDistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel);
 
-/// The flesh of one pose in one picture, with the nearest capsule of every point of the outline. It depends on no option
-/// of the cost, so a fit computes it once for each pose.
+/// The flesh of one pose in one picture, with the capsule nearest to every outline point. It depends on no option of
+/// the cost, so a fit computes it once for each pose.
 struct SeenFlesh {
   std::vector<ProjectedCapsule> capsules;
   std::vector<double> distances;  ///< by column of the silhouette: the smallest signed distance to a capsule, pixels
   std::vector<double> owners;     ///< by column: that capsule's index; -1 if none is valid
-  /// By capsule: the silhouette's signed distances at kInsideSamples points along its axis, pixels.
+  /// For each capsule, the silhouette's signed distances at kInsideSamples points along the capsule's axis, pixels.
   static constexpr std::size_t kInsideSamples = 4;
   std::vector<std::array<DistanceAt, kInsideSamples>> inside;
 };
-/// Finds all distances of `flesh.capsules`.
+/// Fills all distances of `flesh` for `flesh.capsules`.
 void MeasureFlesh(const Silhouette& silhouette, SeenFlesh& flesh);
 
 /// Appends the residuals of the flesh in one picture to `out`:
-/// - coverage: every point of the silhouette's outline lies on the outline of the flesh, so its signed distance to the
-///   nearest capsule is 0;
-/// - containment: every capsule lies inside the silhouette: at samples along its axis, the silhouette's signed distance
-///   plus `inside_share` of the radius is at most 0. Samples that satisfy this leave no residual.
+/// - coverage: every point of the silhouette's outline should lie on the outline of the flesh. The residual is its
+///   signed distance to the nearest capsule;
+/// - containment: every capsule should lie inside the silhouette. The residual of a sample on its axis is the
+///   silhouette's signed distance plus `inside_share` of the radius; there is none if this sum is at most 0.
 void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
                      std::vector<SilhouetteResidual>& out);
 
-/// Adds the losses (LossOf) of the same residuals to `sum`, one after the other.
+/// Adds the loss (LossOf) of every residual of AppendResiduals to `sum`, in order.
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options, double& sum);
 
-/// AddLosses in two steps, for a search that tries many positions of a few capsules. OutlineDistances lowers each of
-/// `distances` (pixels, one per column of the silhouette) to the point's smallest signed distance to `flesh`, if that
-/// is less.
+/// These functions do the work of AddLosses in steps, for a search that tries many positions of a few capsules.
+/// OutlineDistances computes each outline point's smallest signed distance to `flesh`, pixels. If that is less than the
+/// point's entry in `distances` (one per column of the silhouette), it replaces the entry.
 void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                           const SilhouetteCostOptions& options, double& sum);
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                       std::span<double> distances);
 
-/// Geman and McClure's loss of a residual, e²/(1 + e²/reach²) in units of sigma², and the weight of its square in a
+/// Geman and McClure's loss of a residual e, which is e²/(1 + e²/reach²) in units of sigma², and the weight of e² in a
 /// Gauss–Newton step.
 struct Loss {
   double loss = 0;

@@ -28,7 +28,8 @@ void SilhouetteFollower::Begin(const MomentViews& views) {
   for (const SilhouetteFit& fit : fitter_.Find(views)) paths_.push_back({fit, fit.state, fit.picture_cost});
 }
 
-// The 20th percentile of the last moments is the usual cost of a moment in which no limb is lost.
+// Returns true if the cost of `fit` far exceeds the usual cost without a lost limb: the 20th percentile of the last
+// moments.
 bool SilhouetteFollower::IsLost(const SilhouetteFit& fit) const {
   constexpr std::size_t kEnough = 10;
   if (costs_.size() < kEnough) return false;
@@ -75,7 +76,7 @@ std::optional<SilhouetteFit> SilhouetteFollower::Next(std::span<const Silhouette
     for (Path& path : paths_) Follow(views, path);
   }
   if (paths_.empty()) return std::nullopt;
-  // After the trial only the path of lowest cost is kept.
+  // After the trial, keep only the path with the lowest cost.
   std::ranges::stable_sort(paths_, {}, &Path::cost);
   if (++moments_ >= options_.trial_frames) paths_.resize(1);
   costs_.push_back(paths_.front().fit.picture_cost);

@@ -13,9 +13,9 @@ namespace etude {
 
 /// Follows a body by its silhouettes online: each pose depends only on the pictures up to its moment. Without a known
 /// start, the body is searched for in the first moment that shows somebody; the most likely poses are followed in
-/// parallel for `trial_frames`, and the one of lowest total cost is kept. If a moment costs far more than most before
-/// it, arms and legs are searched for in other positions. The thickness is estimated from the pictures so far. A pose
-/// that was returned is final: nothing is smoothed afterwards.
+/// parallel for `trial_frames`, and the pose with the lowest total cost is kept. If the cost of a moment is far higher
+/// than usual, other positions of arms and legs are tried. The thickness is estimated from the pictures so far.
+/// Returned poses are final; they are not smoothed afterwards.
 class SilhouetteFollower {
  public:
   /// @param cameras projections from the world (metres) to pixels, at least two
@@ -25,18 +25,18 @@ class SilhouetteFollower {
   SilhouetteFollower(const SilhouetteFollower&) = delete;
   SilhouetteFollower& operator=(const SilhouetteFollower&) = delete;
 
-  /// Fits the next moment's pictures, one for each camera. Returns nullopt if fewer than two show anybody, or if nobody
-  /// is found.
+  /// Fits the pictures of the next moment, one for each camera. Returns nullopt if fewer than two pictures show a
+  /// person, or if the search finds no body.
   std::optional<SilhouetteFit> Next(std::span<const Silhouette> silhouettes);
 
   /// Returns the body with the thickness estimated so far.
   const SilhouetteBody& body() const { return body_; }
 
  private:
-  /// A sequence of poses that is followed.
+  /// A candidate sequence of poses that is followed.
   struct Path {
     SilhouetteFit fit;
-    TreeState before;  ///< the pose before the last
+    TreeState before;  ///< the last pose but one
     double cost = 0;   ///< sum of `picture_cost` over its moments
   };
 

@@ -13,8 +13,8 @@ namespace etude {
 namespace {
 
 using Fits = std::vector<std::optional<SilhouetteFit>>;
-// The number of start poses that are followed through the take, the number of frames in which the reversed body is
-// searched for, and the ratio of costs below which the reversed body is chosen.
+// Three constants: the number of start poses that are followed through the take; the number of frames in which the
+// reversed body is searched for; and the ratio of costs below which the reversed body is taken.
 
 constexpr std::size_t kFollowedAnchors = 2;
 constexpr int kTurnedMoments = 5;
@@ -22,7 +22,8 @@ constexpr double kClearlyBetter = 0.95;
 
 double Squared(double x) { return x * x; }
 
-// Returns the cost of going from one pose to the next: the sum of squared differences over the expected changes.
+// Returns the cost of the change between two poses: the sum of squared differences, each in units of its expected
+// change.
 double StepCost(const TreeState& a, const TreeState& b, const TrackOptions& options) {
   const glm::dvec3 moved = a.root_position - b.root_position;
   const glm::dvec3 turned = TurnOf(a.root_frame * glm::transpose(b.root_frame));
@@ -62,7 +63,7 @@ class Tracker {
     if (is_first) return {body_, std::move(fits)};
     // Try the body turned front to back.
     fits = EitherWayRound(std::move(fits));
-    // Estimate the thickness and fit every frame again.
+    // Estimate the thickness, and fit every frame again.
     for (int i = 0; i < options_.thickness_passes; ++i) {
       FitThickness(fits);
       Refit(fits);
@@ -92,7 +93,7 @@ class Tracker {
     return std::nullopt;
   }
 
-  // Returns the mean cost of the frames around an anchor, through which its body is followed.
+  // Follows an anchor's body through the frames around the anchor, and returns their mean cost.
   double TrialCost(const Anchor& anchor) {
     const std::size_t reach = options_.trial_frames;
     const std::size_t first = anchor.frame < reach ? 0 : anchor.frame - reach;
@@ -111,8 +112,8 @@ class Tracker {
     return sum / count;
   }
 
-  // Returns the poses from which the take is followed: the known start first, then the poses found in the pictures, the
-  // most likely first.
+  // Returns the start poses for following the take: the known start first, then poses found in the pictures, the most
+  // likely first.
   std::vector<Anchor> ChooseAnchors() {
     std::vector<Anchor> anchors = FindAnchors();
     if (const std::optional<Anchor> known = KnownAnchor()) anchors.insert(anchors.begin(), *known);
@@ -120,7 +121,7 @@ class Tracker {
     return anchors;
   }
 
-  // Returns at most `most` frames, evenly spaced over those that show somebody.
+  // Returns at most `most` frames, evenly spaced over the frames that show a person.
   std::vector<std::size_t> MomentsOf(int most) const {
     std::vector<std::size_t> shown, frames;
     for (std::size_t k = 0; k < frame_count_; ++k) {
@@ -167,12 +168,12 @@ class Tracker {
     return fits;
   }
 
-  // The silhouettes of a body that is turned front to back, with left and right limbs exchanged, are nearly the same.
-  // Such a body is searched for in a few frames, from the positions of this one's limbs, and followed through the take.
-  // Its cost, with the angle priors, must be clearly lower: errors of neighbouring frames are correlated, so a small
-  // difference between sums over frames may be due to chance.
+  // A body turned front to back, with left and right limbs exchanged, has nearly the same silhouettes. This function
+  // searches for the reversed body in a few frames, from the limb positions in `fits`, and follows it through the take.
+  // The reversed body is taken only if its cost, with the angle priors, is clearly lower: errors of neighbouring frames
+  // are correlated, so a small difference between sums over frames may be due to chance.
   Fits EitherWayRound(Fits fits) {
-    // Find the reversed pose of the lowest trial cost.
+    // Find the reversed pose with the lowest trial cost.
     std::optional<Anchor> likeliest;
     double least = 0;
     for (const std::size_t frame : MomentsOf(kTurnedMoments)) {
@@ -192,7 +193,7 @@ class Tracker {
     return OwnCost(turned) < kClearlyBetter * OwnCost(fits) ? Better(fits, turned) : fits;
   }
 
-  // Returns the sum of the frames' own costs, without the costs of the steps between frames.
+  // Returns the sum of the frames' costs, without the costs of the changes between frames.
   double OwnCost(const Fits& fits) {
     double sum = 0;
     for (std::size_t k = 0; k < frame_count_; ++k) {
@@ -201,7 +202,8 @@ class Tracker {
     return sum;
   }
 
-  // Follows the take from each of its ends to the other, and returns the better path.
+  // Follows the take forwards and backwards, each time from the pose in `fits` at that end, and returns the better
+  // path.
   Fits Retraced(const Fits& fits) {
     const auto first = std::ranges::find_if(fits, [](const auto& fit) { return fit.has_value(); });
     const auto last = std::find_if(fits.rbegin(), fits.rend(), [](const auto& fit) { return fit.has_value(); });
@@ -215,7 +217,8 @@ class Tracker {
     return Better(forwards, backwards);
   }
 
-  // Chooses `a` or `b` in each frame so that the sum of the costs and of the steps between frames is minimal (Viterbi).
+  // Chooses the pose of `a` or `b` in each frame by Viterbi's algorithm, which minimises the sum of the frames' costs
+  // and of the changes between frames.
   Fits Better(const Fits& a, const Fits& b) const {
     Fits kept(frame_count_);
     std::vector<std::size_t> shown;
@@ -262,7 +265,7 @@ class Tracker {
     }
   }
 
-  // Predicts a frame from its neighbours: their mean, or the only one that is fitted.
+  // Predicts a frame as the mean of its two neighbours, or as the only neighbour that is fitted.
   std::optional<TreeState> Between(const Fits& fits, std::size_t k) const {
     const bool before = k > 0 && fits[k - 1], after = k + 1 < frame_count_ && fits[k + 1];
     if (before && after) return MeanState(fits[k - 1]->state, fits[k + 1]->state);
@@ -283,8 +286,8 @@ class Tracker {
     return *usual;
   }
 
-  // Searches for the limbs in every fifth of the frames with an excessive cost and follows the result through the
-  // others, forwards and backwards in time; keeps the better path.
+  // Searches for lost limbs in every fifth frame with an excessive cost, and follows the results through the other
+  // frames, forwards and backwards in time. Keeps the better path.
   void Repair(Fits& fits) {
     constexpr int kFollowed = 4;
     const double too_much = options_.lost * UsualCost(fits);

@@ -17,8 +17,8 @@ struct SilhouetteTake {
   std::span<const ProjectionMatrix> cameras;
   /// `silhouettes[camera][frame]`; all cameras' frames were taken at the same moments.
   std::span<const std::vector<Silhouette>> silhouettes;
-  /// The body's approximate pose in the first frame, if it is known because the person begins in an agreed pose.
-  /// Without it the start is found from the pictures (a "cold" start).
+  /// The body's approximate pose in the first frame. It is known if the person begins in an agreed pose; otherwise the
+  /// start is found from the pictures (a "cold" start).
   std::optional<TreeState> start;
   /// `joints[camera][frame]`: joints seen in addition to the silhouettes; empty if there are no joints.
   std::span<const std::vector<std::vector<SeenJoint>>> joints = {};
@@ -30,11 +30,11 @@ struct SilhouetteTrack {
   std::vector<std::optional<SilhouetteFit>> frames;  ///< nullopt if fewer than two pictures show anybody
 };
 
-/// Follows a body through a take by its silhouettes and by the joints seen. The body is found in a few frames by trying
-/// headings and postures, or starts from a known pose. It is fitted from frame to frame forwards, and again backwards
-/// from the end; in each frame, one of the two poses is kept such that costs and changes are lowest in total (Viterbi's
-/// shortest path). The same is done for the body turned front to back (`TurnedRound`), which is taken if its cost is
-/// clearly lower. Then lost limbs are searched for, and every frame is fitted once more with its neighbours as a prior.
+/// Follows a body through a take by its silhouettes and by the joints seen. The body starts from the known pose, or is
+/// found in a few frames by trying headings and postures. Each frame is fitted twice: from the frame before it, and
+/// backwards in time from the frame after it. Viterbi's algorithm chooses one of the two poses in each frame. The same
+/// is done for the body turned front to back (`TurnedRound`), which is taken if its cost is clearly lower. Finally,
+/// lost limbs are searched for, and every frame is fitted once more with its neighbours as a prior.
 SilhouetteTrack TrackSilhouettes(const SilhouetteBody& body, const SilhouetteTake& take,
                                  const TrackOptions& options = {});
 

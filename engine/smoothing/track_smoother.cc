@@ -14,16 +14,17 @@ struct Estimate {
   StateMatrix covariance;
 };
 
-/// The motion from one frame to the next: x ↦ F x + noise of covariance Q.
+/// The transition from one frame to the next: x ↦ F x + noise with covariance Q.
 struct Transition {
   StateMatrix F = StateMatrix::Identity();
   StateMatrix Q = StateMatrix::Zero();
 
   explicit Transition(const PointMotion& motion) {
     const double t = motion.frame_s, q = motion.acceleration_density, tau = motion.velocity_memory_s;
-    // The integrals of e^(−s/τ) and of its square over one frame.
+    // The integrals of e^(−s/τ) and of e^(−2s/τ) over one frame.
     const double once = -tau * std::expm1(-t / tau), twice = -tau / 2 * std::expm1(-2 * t / tau);
-    // τ² (t − 2·once + twice); for large τ, where the terms cancel, its Taylor series.
+    // The variance of the position for q = 1: τ² (t − 2·once + twice). For large τ the terms cancel, so use its Taylor
+    // series.
     const double x = t / tau;
     constexpr double kCancels = 1e-3;
     const double drift =
@@ -46,9 +47,9 @@ Estimate FirstEstimate(const PointMotion& motion) {
   return first;
 }
 
-constexpr double kMinInformationShare = 1e-12;  // directions with less of the largest information count as unmeasured
+constexpr double kMinInformationShare = 1e-12;  // eigenvalues below this share of the largest count as unmeasured
 
-/// The measurement as rows of unit variance: y = A p, one row per measured direction.
+/// A measurement in the form y = A p with errors of unit variance, one row for each measured direction.
 struct WhiteMeasurement {
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> A;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> y;
@@ -58,7 +59,7 @@ struct WhiteMeasurement {
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) information(i, k) = measurement.information[k][i];
     }
-    // Its eigenvectors with positive information are the measured directions.
+    // Directions are measured if they are eigenvectors of the information with a positive eigenvalue.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
     const double min_information = kMinInformationShare * eigen.eigenvalues()[2];
     int rows = 0;
@@ -72,8 +73,8 @@ struct WhiteMeasurement {
   }
 };
 
-// Updates the estimate by a measurement, and returns the measurement's log-likelihood. Joseph's form keeps the
-// covariance positive definite if a wide prior is combined with an accurate measurement.
+// Updates the estimate with a measurement, and returns the measurement's log-likelihood. Joseph's form keeps the
+// covariance positive definite when a wide prior meets an accurate measurement.
 double Update(const WhiteMeasurement& measurement, Estimate& estimate) {
   const auto rows = measurement.A.rows();
   if (rows == 0) return 0;

@@ -6,8 +6,8 @@
 
 namespace etude {
 
-/// A measurement of a moving point in one frame. `information` is the inverse covariance of its error, 1/m²: zero if
-/// the point is not seen, of rank 2 if it is known to lie on a line.
+/// A measurement of a moving point in one frame. `information` is the inverse covariance of the measurement's error,
+/// 1/m²: zero if the point is not seen, of rank 2 if only a line through the point is known.
 struct PointMeasurement {
   glm::dvec3 position{0};  ///< metres
   glm::dmat3 information{0};
@@ -17,14 +17,14 @@ struct PointMeasurement {
 /// Ornstein–Uhlenbeck process). A point that is lost in full motion therefore comes to rest instead of moving away.
 struct PointMotion {
   double frame_s = 1.0 / 30;  ///< seconds from frame to frame
-  /// The spectral density of the acceleration along each axis, m²/s³: in a short time t the variance of the velocity
-  /// grows by this · t. Typical values are 1 for a trunk and 100 for a hand.
+  /// The spectral density q of the acceleration along each axis, m²/s³: in a short time t the variance of the velocity
+  /// grows by q · t. Typical values are 1 for a trunk and 100 for a hand.
   double acceleration_density = 10;
   /// The time constant of the velocity's decay, seconds. The default suits limbs, which reverse about twice a second
   /// *(ours)*. A very large value means constant velocity.
   double velocity_memory_s = 0.5;
-  /// The standard deviations of the first state, whose mean is rest at the origin: metres and m/s. They are so large
-  /// that any measurement outweighs them.
+  /// The standard deviations of the first state, metres and m/s; its mean is rest at the origin. They are so large that
+  /// any measurement outweighs the prior.
   double first_position_m = 100;
   double first_velocity_mps = 10;
 };
@@ -41,7 +41,8 @@ struct SmoothedTrack {
 /// also the least-squares solution over all frames.
 SmoothedTrack SmoothTrack(std::span<const PointMeasurement> measurements, const PointMotion& motion);
 
-/// Returns the acceleration density of maximum likelihood among 0.01 · 4ᵏ m²/s³, k = 0…9; on a tie the smallest.
+/// Returns the acceleration density among 0.01 · 4ᵏ m²/s³, k = 0…9, that has the maximum likelihood; of equally likely
+/// ones, the smallest.
 double LikeliestAccelerationDensity(std::span<const PointMeasurement> measurements, const PointMotion& motion);
 
 }  // namespace etude

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Readers of one format each. Positions are in the file's own unit; ReadStreamRecording applies the checks that all
-/// formats share.
+/// Each function reads one format. Positions are in the file's own unit. ReadStreamRecording applies the checks that
+/// all formats share.
 Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& file, const StreamReading& reading);
 Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& file);
 Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string& file, StreamFormat format,
@@ -16,7 +16,7 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
 Result<StreamRecording> ReadNtuSkeleton(std::string_view text, const std::string& file, const StreamReading& reading);
 Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string& file, const StreamReading& reading);
 
-/// Reads one further row of the file whose rows so far are `recording`; `index` is its frame's index from 0.
+/// Reads one more row of a file. `recording` holds the rows before it; `index` is the new frame's index from 0.
 Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& file, const StreamRecording& recording,
                                     std::size_t index);
 
@@ -24,8 +24,8 @@ Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& fil
 Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, const std::string& file,
                                    const StreamReading& reading);
 
-/// Determines the unit of the positions by the trunk's length and converts them to metres. Fails if no unit gives a
-/// human trunk.
+/// Determines the unit of the positions from the trunk's length, and converts positions to metres. Fails if no unit
+/// gives a human trunk.
 Result<void> ToMetres(StreamRecording& recording, const std::string& file);
 
 /// Returns true if rows with `columns` numbers can belong to the format.

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The layout of a row.
+/// The layout of a row of numbers.
 struct RowLayout {
   std::size_t columns;
   std::size_t joints;
@@ -42,12 +42,13 @@ const RowLayout* FindLayout(StreamFormat format, std::size_t columns) {
   return nullptr;
 }
 
-/// Converts a point of the sensor's space (X to its left, Y up, Z away from it) to a space in which a person who faces
-/// the sensor looks along +Z.
+/// Converts a point from the sensor's space (X to the sensor's left, Y up, Z away from it) to a space in which a person
+/// who faces the sensor looks along +Z.
 glm::dvec3 FromSensor(const glm::dvec3& p) { return {-p.x, p.y, -p.z}; }
 
 /// Returns true if the fourth number of each joint is its tracking state in the SDK (0 not tracked, 1 inferred, 2
-/// tracked): all are 0, 1 or 2, and at least one is 2. In MSRC-12 the fourth number is a weight, always 1.
+/// tracked): all are 0, 1 or 2, and at least one is 2. In MSRC-12 the fourth number is instead a weight, which is
+/// always 1.
 bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
   if (!layout.has_fourth) return false;
   bool some_tracked = false;
@@ -92,7 +93,7 @@ std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::
   return std::nullopt;
 }
 
-// Converts a row to a frame; joints without a position, and joints that are not tracked, are missing.
+// Converts a row to a frame. Joints without a position and joints that are not tracked are missing in it.
 RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool has_states) {
   std::vector<std::optional<glm::dvec3>> places(layout.joints);
   std::vector<TrackingState> states(layout.joints, TrackingState::kTracked);
@@ -113,7 +114,7 @@ RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool
   return frame;
 }
 
-/// Converts a row to the frame with index `index` of the recording.
+/// Converts a row to the recording's frame with index `index`, with its time.
 Result<RecordedFrame> TimedFrame(std::span<const double> row, Place place, const RowLayout& layout,
                                  const StreamRecording& recording, std::size_t index) {
   RecordedFrame frame = FrameOf(row, layout, recording.records_states);
@@ -162,7 +163,7 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
 
 Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& file, const StreamRecording& recording,
                                     std::size_t index) {
-  // ReadNumberRows takes the first line for a heading if it contains words, so a heading is put before the row.
+  // ReadNumberRows takes a first line with words for a heading. Adding a heading keeps it from dropping the row.
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);
   if (layout == nullptr || (layout->first == 0 && recording.records_times)) {

@@ -16,7 +16,7 @@ constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
 constexpr double kMaxTime_s = 1e12;  // seconds; clocks may start at any time
 constexpr std::size_t kMaxNameBytes = 200;
 
-/// A word and its column in the line, from 1.
+/// One cell of a line: its text and its column, from 1.
 struct Cell {
   std::string_view text;
   int column = 1;
@@ -103,7 +103,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     };
     Label label;
     label.line = number;
-    // Names and truth.
+    // Read names and truth.
     ASSIGN_OR_RETURN(label.clip, NameIn(cell(0), file, number, "clip"));
     ASSIGN_OR_RETURN(label.move, NameIn(cell(3), file, number, "move"));
     ASSIGN_OR_RETURN(const std::string truth, NameIn(cell(4), file, number, "truth ('right' or the fault)"));
@@ -111,7 +111,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     if (!cell(5).text.empty()) {
       ASSIGN_OR_RETURN(label.person, NameIn(cell(5), file, number, "person"));
     }
-    // Times: both, only the first, or none.
+    // Read the times: both, only the first, or none.
     for (const std::size_t i : {1, 2}) {
       if (cell(i).text.empty()) continue;
       ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kMaxTime_s));
@@ -127,7 +127,8 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
   return labels;
 }
 
-/// Reads ticks of a clock of 49.875 MHz; the recording's clock counts microseconds.
+/// Reads MSRC-12's tag stream. Its ticks have 49.875 MHz and are converted to the recording's clock, which counts
+/// microseconds.
 Result<std::vector<Label>> ReadTags(Lines lines, const std::string& file, std::string_view clip) {
   constexpr double kTicksPerSecond = 49'875'000;
   std::vector<Label> labels;
@@ -157,7 +158,7 @@ bool IsTakeName(std::string_view line) {
 Result<std::vector<Label>> ReadActionLabels(Lines lines, const std::string& file) {
   std::vector<Label> labels;
   std::string take;
-  // A line is a take's name, or an action with its first and last frame.
+  // A line is either a take's name, or an action with its first and last frame.
   while (const auto line = lines.Next()) {
     const int number = lines.number();
     if (IsTakeName(Trimmed(*line))) {

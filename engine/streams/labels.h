@@ -17,9 +17,9 @@ struct Label {
   /// the whole recording is one performance.
   std::optional<double> from_s, to_s;
   std::string move;           ///< the intended move
-  std::string fault;          ///< what was wrong with it; empty: it was right
+  std::string fault;          ///< the fault, if the performance was wrong; empty: it was right
   std::string person;         ///< the performer; empty: unknown
-  bool by_own_clock = false;  ///< times are read from the recording's own clock, not counted from its first frame
+  bool by_own_clock = false;  ///< times refer to the recording's own clock instead of its first frame
   int line = 0;
 
   bool IsRight() const { return fault.empty(); }
@@ -42,7 +42,7 @@ constexpr double kActionPointTolerance = 0.333;
 /// beginnings, a file without labels, and more than 16 MiB.
 Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& file, std::string_view clip = "");
 
-/// Returns true if the label belongs to the recording of that name: the names are equal or, for UTKinect, the
+/// Returns true if the label belongs to the recording with this name: the names are equal or, for UTKinect, the
 /// recording's name contains the label's.
 bool IsLabelOf(const Label& label, std::string_view recording);
 

@@ -26,7 +26,7 @@ bool ShowsTrunk(const RecordedFrame& frame) {
 LiveStream::LiveStream(std::string name, const StreamReading& reading, const StreamOptions& options)
     : name_(std::move(name)), reading_(reading), options_(options) {}
 
-// Once started, convert each line to frames.
+// After the start, convert each line to frames.
 Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& stream) {
   ++line_;
   if (line.size() > kMaxLineBytes)
@@ -44,7 +44,7 @@ Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& s
     frame->line = line_;
     return Add(*std::move(frame), stream);
   }
-  // Before that, collect lines until there are enough for the estimates.
+  // Before the start, collect lines until there are enough for the estimates.
   if (rows_++ == 0) heading_ = line;
   first_lines_ += line;
   first_lines_ += '\n';
@@ -92,7 +92,7 @@ std::string LiveStream::RemarkOnLevel() const {
   return level_.turn_deg != 0 || level_.trunk_deg != 0 ? Describe(level_) : "";
 }
 
-/// Adds a frame unless it has the same time as the one before.
+/// Adds a frame unless the previous frame has the same time.
 Result<void> LiveStream::Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream) {
   const bool again = frames_ > 0 && frame.time_s == last_s_;
   ++frames_;

@@ -11,17 +11,17 @@
 
 namespace etude {
 
-/// Reads skeletons line by line as a device sends them: Etude's CSV, and the rows of both Kinects; the format is
-/// recognised by the first lines. The properties that are estimated from a whole file (unit, clock, gravity and floor;
-/// for CSV only the clock) are estimated from the first second in which a body is visible. The frames of that second
-/// are returned together; afterwards each line returns its frames.
+/// Reads skeletons line by line as a device sends them: Etude's CSV, and the rows of both Kinects. The format is
+/// recognised from the first lines. Some properties are usually estimated from a whole file (unit, clock, gravity and
+/// floor; for CSV only the clock). Here they are estimated from the first second in which a body is visible. The frames
+/// of that second are returned together; afterwards each line returns its frames at once.
 class LiveStream {
  public:
-  /// Makes a reader whose error messages call the stream `name`.
+  /// `name` is the stream's name in error messages.
   LiveStream(std::string name, const StreamReading& reading, const StreamOptions& options);
 
-  /// Takes the next line, without its line end, and appends the frames that are now known. Fails, with the line, for
-  /// the errors of ReadStreamRecording and StreamMaker, for formats that do not consist of rows, and after ten minutes
+  /// Takes the next line, without its line end, and appends the frames that it completes. Fails, with the line, for the
+  /// errors of ReadStreamRecording and StreamMaker, for formats that do not consist of rows, and after ten minutes
   /// without a body.
   Result<void> Take(std::string_view line, std::vector<SensedFrame>& stream);
   /// Ends the stream: appends the frames of a stream that is shorter than a second.
@@ -29,8 +29,8 @@ class LiveStream {
 
   /// Returns the format, units and clock that were detected; nullopt before the first frames are returned.
   const std::optional<StreamRecording>& Meaning() const { return meaning_; }
-  /// Returns what was found about the sensor's level: that it was rotated, or that trunks are far from upright; "" if
-  /// there is nothing to say, or nothing is known yet.
+  /// Returns a remark about the sensor's level: it was rotated, or trunks are far from upright. Returns "" without such
+  /// a finding, and before the start.
   std::string RemarkOnLevel() const;
 
  private:

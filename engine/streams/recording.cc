@@ -72,7 +72,7 @@ Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::
               Join(unknown), rest, Join(missing));
 }
 
-/// Returns the median distance of two joints over the frames that have both; 0 if there are none.
+/// Returns the median distance between two joints over the frames that have both; 0 without such frames.
 double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
   for (const RecordedFrame& frame : recording.frames) {
@@ -83,7 +83,7 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   return UpperMedian(std::move(lengths));
 }
 
-/// Fails if joints are farther from the sensor than a person can be.
+/// Fails if a joint is farther from the sensor than a person can be.
 Result<void> CheckReach(const StreamRecording& recording, const std::string& file) {
   constexpr double kMaxDistance_m = 100;
   for (const RecordedFrame& frame : recording.frames) {
@@ -97,7 +97,7 @@ Result<void> CheckReach(const StreamRecording& recording, const std::string& fil
   return {};
 }
 
-/// Checks that times do not decrease. Of frames with the same time only the last one is kept.
+/// Checks that times do not decrease. Of several frames with the same time, keeps only the last.
 Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
   for (const RecordedFrame& frame : recording.frames) {
@@ -233,7 +233,7 @@ Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& 
   ASSIGN_OR_RETURN(const MarkerRows rows, ReadTrcRows(text, file));
   const MarkerMotion& markers = rows.markers;
   RETURN_IF_ERROR(CheckMarkerNames(markers.names, file));
-  // Even rows are exactly one period apart, whatever their times are rounded to.
+  // Place rows of constant rate exactly one period apart, because their written times are rounded.
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, markers.rate_hz, markers.names.size(), file));
   StreamRecording recording{.format = StreamFormat::kTrc, .records_times = true, .is_level = true};
   recording.rate_hz = grid ? grid->rate_hz : markers.rate_hz;

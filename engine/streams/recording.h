@@ -25,13 +25,13 @@ enum class StreamFormat {
 /// Lists "etude-csv", "trc", "kinect-v2", "kinect-v1", "ntu", "azure-kinect", in the order of the enum.
 const std::vector<std::string>& StreamFormatNames();
 std::string_view StreamFormatName(StreamFormat format);
-/// Returns the format of that name, which must be one of StreamFormatNames().
+/// Returns the format with this name, which must be one of StreamFormatNames().
 StreamFormat FindStreamFormat(std::string_view name);
 
-/// Detects the format of a text by its first lines; returns nullopt if it is none of them.
+/// Detects the format of a text by its first lines; nullopt if the format is not supported.
 std::optional<StreamFormat> DetectStreamFormat(std::string_view text);
 
-/// One frame as in a file.
+/// One frame as a file contains it.
 struct RecordedFrame {
   double time_s = 0;  ///< by the file's own clock
   int line = 0;       ///< its line in the text, from 1; 0: not known
@@ -40,7 +40,7 @@ struct RecordedFrame {
   std::array<TrackingState, kRoleCount> states{};  ///< of joints that have a position
 };
 
-/// The content of a file, before estimation and resampling.
+/// The content of a file, not yet levelled and resampled.
 struct StreamRecording {
   StreamFormat format = StreamFormat::kEtudeCsv;
   bool records_states = false;  ///< false: every joint that has a position counts as tracked
@@ -53,14 +53,14 @@ struct StreamRecording {
   std::vector<std::string> remarks = {};   ///< decisions made while reading ("2 bodies, of which body 0")
 };
 
-/// Properties that a file may lack.
+/// Properties of a file that the user can state.
 struct StreamReading {
   std::optional<StreamFormat> format = {};  ///< otherwise detected by content
   std::optional<double> rate_hz = {};       ///< for files without a clock; otherwise 30
   std::optional<int> body = {};  ///< which of several bodies, by first appearance; otherwise the one in most frames
 };
 
-/// Reads a file of skeletons. Fails, with file, line and column, for: an unknown format, a wrong number of joints, text
+/// Reads a file of skeletons. Fails, with file, line and column, for an unknown format, a wrong number of joints, text
 /// in place of a number, infinity, a clock that runs backwards, a body that has no human size in any unit, a file
 /// without a body, and more than 64 MiB of text.
 Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,

@@ -19,13 +19,13 @@ namespace {
 /// The people of one file, distinguished by the identifiers in it.
 class Bodies {
  public:
-  /// Adds a frame of the body called `id`, with its index among the file's frames.
+  /// Adds a frame in which the body `id` is seen. `frame` is the frame's index in the file.
   void Add(std::string_view id, std::size_t frame, const RolePositions& places,
            const std::array<TrackingState, kRoleCount>& states);
 
-  /// Puts one body into the recording's frames: the requested one, counted by first appearance, otherwise the one in
-  /// most frames, and among those the one that moves most, because sensors in crowded rooms temporarily take furniture
-  /// for a person. Bodies that continue each other are joined before (JoinContinued).
+  /// Copies one body into the recording's frames. Takes the requested body, counted by first appearance; without a
+  /// request, the body in most frames. If several are in equally many frames, takes the one that moves most, because in
+  /// crowded rooms sensors sometimes take furniture for a person. JoinContinued runs first.
   Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
 
  private:
@@ -39,9 +39,9 @@ class Bodies {
     std::vector<Seen> frames;
   };
 
-  /// Joins bodies that continue each other (ours): a tracker that loses a person for a moment gives the person a new
-  /// identifier. The second body begins at most a second after the first one ends, with a mean distance of the joints
-  /// of at most half a trunk. The nearest pair is joined first, and a body continues at most one other. A remark
+  /// Joins bodies that are one person (ours): a tracker that loses a person for a moment gives the person a new
+  /// identifier. The second body must begin at most a second after the first one ends, with a mean distance of the
+  /// joints of at most half a trunk. The nearest pair is joined first, and a body continues at most one other. A remark
   /// reports each pair.
   void JoinContinued(StreamRecording& recording);
 
@@ -58,7 +58,7 @@ void Bodies::Add(std::string_view id, std::size_t frame, const RolePositions& pl
   body->frames.push_back({frame, places, states});
 }
 
-/// Returns the total length of all joints' paths, in the file's unit.
+/// Returns the total length of the paths of all joints, in the file's unit.
 double Bodies::PathOf(const Body& body) {
   double path = 0;
   for (std::size_t t = 1; t < body.frames.size(); ++t) {
@@ -70,7 +70,7 @@ double Bodies::PathOf(const Body& body) {
   return path;
 }
 
-/// Returns the mean distance, in trunk lengths, of the joints that both frames have; nullopt without a trunk.
+/// Returns the mean distance, in trunk lengths, between the joints that both frames have; nullopt without a trunk.
 std::optional<double> Bodies::GapInTrunks(const Seen& before, const Seen& after) {
   const auto &hips = before.places[Index(Role::kHipCentre)], &neck = before.places[Index(Role::kShoulderCentre)];
   double sum = 0;
@@ -90,7 +90,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     double gap;
     std::size_t before, after;
   };
-  // Collect the pairs of an end and a later beginning that are close enough.
+  // Collect the pairs of bodies of which the second can continue the first.
   std::vector<Pair> pairs;
   const auto begin_of = [](const Body& body) { return body.frames.front().frame; };
   for (std::size_t a = 0; a < bodies_.size(); ++a) {
@@ -147,7 +147,7 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
     recording.remarks.push_back(fmt::format("{} bodies, of which body {} is read{}", bodies_.size(), chosen,
                                             reading.body ? "" : ", in the most frames"));
   }
-  // Copy its joints to the recording.
+  // Copy the joints of the chosen body to the recording.
   for (const Seen& seen : bodies_[chosen].frames) {
     recording.frames[seen.frame].places = seen.places;
     recording.frames[seen.frame].states = seen.states;
@@ -163,15 +163,15 @@ constexpr std::array<std::size_t, kRoleCount> kJointOfRole = {0,  1,  3,  26,   
                                                               5,  6,  7,  8,  12, 13, 14, 15,  // arms
                                                               18, 19, 20, 21, 22, 23, 24, 25};
 
-/// Returns a number of a list; nullopt if there is none.
+/// Returns the number at index `i` of a list; nullopt without one.
 std::optional<double> NumberAt(const Json& list, std::size_t i) {
   if (!list.is_array() || i >= list.size() || !list[i].is_number()) return std::nullopt;
   const double value = list[i].get<double>();
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Returns a body's confidences, K4ABT_JOINT_CONFIDENCE_* (0 none, 1 low, 2 medium, 3 high); null if there are none.
-/// The offline processor itself writes none; recorders derived from it do, under one of these names.
+/// Returns a body's confidences, K4ABT_JOINT_CONFIDENCE_* (0 none, 1 low, 2 medium, 3 high); null without them. The
+/// offline processor does not write confidences; recorders derived from it do, under one of these names.
 const Json* ConfidencesOf(const Json& body) {
   for (const char* key : {"confidence_level", "confidence_levels", "joint_confidence"}) {
     const auto found = body.find(key);
@@ -180,8 +180,9 @@ const Json* ConfidencesOf(const Json& body) {
   return nullptr;
 }
 
-/// Converts a position from the depth camera's space (X to its right, Y down, Z away from it, millimetres) to a space
-/// with Y up in which a person who faces the camera looks along +Z. Returns nullopt for a missing or zero position.
+/// Converts a position from the depth camera's space (X to the camera's right, Y down, Z away from it, millimetres) to
+/// a space with Y up in which a person who faces the camera looks along +Z. Returns nullopt for a missing or zero
+/// position.
 std::optional<glm::dvec3> PlaceAt(const Json& joint) {
   const auto x = NumberAt(joint, 0), y = NumberAt(joint, 1), z = NumberAt(joint, 2);
   if (!x || !y || !z || (*x == 0 && *y == 0 && *z == 0)) return std::nullopt;
@@ -321,7 +322,7 @@ class NtuReader {
     TrackingState state = TrackingState::kTracked;
   };
 
-  /// Reads one joint. A nan means that the joint was not reported.
+  /// Reads one joint. A NaN means that the joint was not reported.
   Result<Joint> ReadJoint() {
     std::array<double, 12> values{};
     bool is_missing = false;

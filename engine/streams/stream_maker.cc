@@ -20,7 +20,7 @@ using enum Role;
 constexpr double kMaxTilt = Radians(30), kMaxDifference = Radians(15);
 const glm::dvec3 kFileUp(0, 1, 0);
 
-/// Returns the median of the trunk's directions, axis by axis.
+/// Returns the median direction of the trunk, normalised; the median is taken axis by axis.
 std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
   std::vector<double> axes[3];
   for (const RecordedFrame& frame : frames) {
@@ -82,22 +82,22 @@ std::optional<glm::dvec3> UpOfFeet(const std::vector<glm::dvec3>& points) {
   return glm::normalize(glm::dvec3(-a, 1, -b));
 }
 
-/// Returns the smallest rotation from one unit vector to another, for angles below 180°.
+/// Returns the smallest rotation from one unit vector to another; the angle between them must be below 180°.
 glm::dmat3 Swing(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 v = glm::cross(from, to);
   const glm::dmat3 cross(0, v.z, -v.y, -v.z, 0, v.x, v.y, -v.x, 0);
   return glm::dmat3(1) + cross + cross * cross / (1 + glm::dot(from, to));
 }
 
-/// Returns the rotation by quarter turns about the line of sight, Z, that takes X to Y.
+/// Returns the rotation by `quarters` quarter turns about the line of sight, Z. A quarter turn takes X to Y.
 glm::dmat3 QuarterTurns(int quarters) {
   constexpr int kCosines[] = {1, 0, -1, 0}, kSines[] = {0, 1, 0, -1};
   const double c = kCosines[quarters], s = kSines[quarters];
   return {c, s, 0, -s, c, 0, 0, 0, 1};
 }
 
-/// Returns the number of quarter turns that set bodies upright if the sensor was in portrait or upside down; 0 if it
-/// was not.
+/// If the sensor was in portrait or upside down, returns the number of quarter turns that set bodies upright; otherwise
+/// 0.
 int QuartersOfSensor(std::span<const RecordedFrame> frames) {
   constexpr double kMinShare = 0.7, kHardlyAny = 0.05, kFaces = 0.7;
   std::array<double, 4> upright{};
@@ -122,7 +122,7 @@ int QuartersOfSensor(std::span<const RecordedFrame> frames) {
   return is_portrait && (fronts.empty() || UpperMedian(std::move(fronts)) > kFaces) ? 0 : most;
 }
 
-/// Estimates the level of a sensor that is not turned.
+/// Estimates the level of a sensor that is neither in portrait nor upside down.
 StreamLevel LevelOf(std::span<const RecordedFrame> frames, double rate_hz) {
   // Choose the evidence for the up direction: feet if they agree with the trunk, otherwise the trunk.
   StreamLevel level;
@@ -135,7 +135,7 @@ StreamLevel LevelOf(std::span<const RecordedFrame> frames, double rate_hz) {
     up = trunk;
     level.up_by = StreamLevel::By::kTrunk;
   }
-  // Rotate to it unless the tilt is implausible.
+  // Rotate the up direction to Y, unless the tilt is implausible.
   if (up && AngleBetween(*up, kFileUp) <= kMaxTilt) {
     level.R_WF = Swing(*up, kFileUp);
     level.tilt_deg = Degrees(AngleBetween(*up, kFileUp));
@@ -199,7 +199,7 @@ bool ShowsBody(const RecordedFrame& frame) {
   return std::ranges::any_of(frame.places, [](const auto& place) { return place.has_value(); });
 }
 
-/// Interpolates between two frames; a joint that one of them lacks is missing.
+/// Interpolates between two frames. A joint that one of them lacks is missing in the result.
 RecordedFrame Between(const RecordedFrame& a, const RecordedFrame& b, double part) {
   RecordedFrame frame;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
@@ -242,7 +242,8 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
                 "time {:.6g} s after {:.6g} s; allowed: a clock that increases, by at most {} s per row", frame.time_s,
                 before_->time_s, kMaxLoss_s);
   }
-  // Make every frame of the stream up to this one: the nearest recorded frame, an interpolation, or no body.
+  // Make the stream's frames up to the time of this frame: each is the nearest recorded frame, an interpolation, or
+  // without a body.
   for (;; ++next_) {
     const double time = start_s_ + static_cast<double>(next_) / options_.rate_hz;
     if (time > frame.time_s + kSameTime) break;

@@ -12,17 +12,18 @@
 
 namespace etude {
 
-/// The transform from a recording's space to the world, whose Y axis points up and whose floor is at 0. X and Z are not
-/// shifted.
+/// The transform from a recording's space to the world, whose Y axis points up and whose floor is at height 0. X and Z
+/// are not shifted.
 struct StreamLevel {
   enum class By { kNothing, kFeet, kTrunk };
 
-  glm::dmat3 R_WF{1};       ///< rotates the file's directions into the world: the turn, then about a horizontal axis
+  glm::dmat3 R_WF{1};       ///< rotates the file's directions into the world: first by turn_deg, then by tilt_deg
   double floor_m = 0;       ///< height of the floor after that rotation
   int turn_deg = 0;         ///< turn of a sensor in portrait or upside down, about its line of sight: 0, 90, 180, 270
   double tilt_deg = 0;      ///< angle of the rotation about a horizontal axis
   By up_by = By::kNothing;  ///< the evidence for the up direction
-  /// Angle between the trunk and the file's up if the file's up was kept nevertheless, otherwise 0.
+  /// The angle between the trunk and the file's up direction, degrees, if the file's up was kept although the trunk
+  /// contradicts it; otherwise 0.
   double trunk_deg = 0;
 
   glm::dvec3 Apply(const glm::dvec3& place) const { return R_WF * place - glm::dvec3(0, floor_m, 0); }
@@ -30,16 +31,16 @@ struct StreamLevel {
 
 /// Estimates gravity and floor from the body alone, because few files contain the tilt of their sensor (ours). Up is
 /// the normal of the plane under standing feet if they determine it (standard deviation of at least 10 cm in both
-/// directions, at most 3 cm off the plane, within 15° of the trunk); otherwise it is the trunk's median direction, so a
-/// constant lean counts as a tilt of the sensor. Nothing is rotated if the result is more than 30° from the file's own
-/// up. A sensor in portrait or upside down is turned back first. It is recognised because the trunk is within 30° of
-/// another of its axes in seven of ten frames and of the file's up in hardly any. In portrait, the body must also face
-/// the sensor, because a lying body faces up or down. The floor is the 10th percentile of the lower foot's height.
-/// `rate_hz` > 0 is the frames' rate.
+/// directions, at most 3 cm off the plane, within 15° of the trunk). Otherwise up is the trunk's median direction, so a
+/// constant lean counts as a tilt of the sensor. If the result is more than 30° from the file's own up, nothing is
+/// rotated. A sensor in portrait or upside down is turned back first. It is recognised by the trunk, which in seven of
+/// ten frames is within 30° of another axis of the file, and hardly ever near the file's up. In portrait, the body must
+/// also face the sensor, because a lying body faces up or down. The floor is the 10th percentile of the lower foot's
+/// height. `rate_hz` > 0 is the frames' rate.
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz);
 
-/// Describes a level: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor"; also states a sensor that was
-/// turned back, and a trunk that is far from the file's up.
+/// Describes a level for people: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor". Also mentions a sensor
+/// that was turned back, and a trunk that is far from the file's up.
 std::string Describe(const StreamLevel& level);
 
 struct StreamOptions {
@@ -51,12 +52,13 @@ struct StreamOptions {
 /// Resamples recorded frames online to a constant rate: frame k is at k / rate_hz seconds after the first one. Between
 /// two recorded frames at most 0.2 s apart, joints are interpolated linearly; over a longer gap the body is lost. A
 /// joint that is not reported keeps its last position with the state "not tracked", as on a Kinect; before its first
-/// report it is at its parent's position. If a recorded frame is within half a millisecond, it is used unchanged.
+/// report it is at its parent's position. A recorded frame within half a millisecond of a stream's frame is used
+/// unchanged.
 class StreamMaker {
  public:
   StreamMaker(const StreamLevel& level, const StreamOptions& options, std::string file);
 
-  /// Takes the next recorded frame and appends the frames of the stream that are now known. Fails, naming the line, if
+  /// Takes the next recorded frame and appends the frames of the stream that it completes. Fails, naming the line, if
   /// the clock does not increase, or jumps by more than ten minutes.
   Result<void> Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream);
 
@@ -72,7 +74,7 @@ class StreamMaker {
   std::array<std::optional<glm::dvec3>, kRoleCount> last_;
 };
 
-/// The stream of a recording.
+/// A recording converted to a stream.
 struct MadeStream {
   SkeletonStream stream;
   StreamLevel level;
@@ -80,12 +82,13 @@ struct MadeStream {
   std::size_t lost_frames = 0;  ///< number of the stream's frames without a body
 };
 
-/// Makes the stream of a whole recording, with the level estimated from all of it.
+/// Converts a whole recording to a stream. The level is estimated from all frames.
 Result<MadeStream> MakeStream(const StreamRecording& recording, const std::string& file,
                               const StreamOptions& options = {});
 
-/// Returns the mean cosine between the feet and the direction that the body faces by its left and right: +1 is straight
-/// ahead, −1 backwards as in a mirrored recording. Returns nullopt if no foot was tracked.
+/// Returns the mean cosine of the angle between the feet and the facing direction, which is computed from the body's
+/// left and right: +1 is straight ahead; −1 is backwards, as in a mirrored recording. Returns nullopt if no foot was
+/// tracked.
 std::optional<double> FeetForward(const SkeletonStream& stream);
 
 }  // namespace etude

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Returns the person whom the labels of each stream name; "" if they name nobody.
+/// Returns for each stream the person that its labels name; "" if they name nobody. Fails if they name two people.
 Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   std::vector<std::string> names(all.streams.size());
   for (const LabelledPart& part : all.parts) {
@@ -98,6 +98,7 @@ SkeletonStream PartOf(const SkeletonStream& stream, int begin, int end) {
 Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels) {
   LabelledStreams all;
   all.streams = std::move(streams);
+  // Find the performed parts: by the labels, or each whole stream.
   all.file = all.streams.front().source;
   if (labels.empty()) {
     all.parts = WholeStreams(all.streams);
@@ -110,6 +111,7 @@ Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const Lab
     }
     ASSIGN_OR_RETURN(all.parts, MatchLabels(read, all.file, all.streams));
   }
+  // Assign a person to every stream.
   ASSIGN_OR_RETURN(const auto named, NamedByLabels(all));
   std::map<std::string, std::vector<std::size_t>> streams_of;
   for (std::size_t s = 0; s < all.streams.size(); ++s) {
@@ -121,6 +123,7 @@ Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const Lab
     }
     streams_of[stream.person].push_back(s);
   }
+  // Collect people and moves.
   for (auto& [name, own] : streams_of) all.people.push_back({name, std::move(own)});
   std::set<std::string> moves;
   for (LabelledPart& part : all.parts) {

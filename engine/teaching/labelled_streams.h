@@ -16,7 +16,7 @@ namespace etude {
 /// A recording of one person.
 struct NamedStream {
   std::string name;    ///< the file's name without folder and extension, or the clip's name
-  std::string source;  ///< what opens it again
+  std::string source;  ///< the name under which it can be opened again
   std::string person;  ///< the person in the file's name, for known data sets (PersonInName); otherwise empty
   SkeletonStream stream;
   double start_s = 0;                     ///< time of the first frame by the file's own clock
@@ -24,8 +24,8 @@ struct NamedStream {
   std::optional<BodyMotion> motion = {};  ///< the true motion; known for clips only
 };
 
-/// Returns the person that a file name of a known data set names: NTU's "P003" in "S001C002P003R002A013", MSRC-12's
-/// "p06" in "P1_1_1_p06", UTKinect's "s01" in "joints_s01_e02"; otherwise "".
+/// Returns the person that a file name states, for known data sets: NTU's "P003" in "S001C002P003R002A013", MSRC-12's
+/// "p06" in "P1_1_1_p06", UTKinect's "s01" in "joints_s01_e02". Returns "" for other names.
 std::string PersonInName(std::string_view name);
 
 /// A performance within its recording.
@@ -39,20 +39,20 @@ struct LabelledPart {
   bool IsRight() const { return fault.empty(); }
 };
 
-/// Finds the frames of these streams to which the labels refer, sorted by stream and then by time. Labels of other
+/// Finds the frames of `streams` to which the labels refer, sorted by stream and then by time. Labels of other
 /// recordings are left out. Fails, with the label's line, if times are outside the recording by more than half a
 /// second, or if no label belongs to any of the recordings.
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 
-/// Makes each stream without labels a right performance of one move, which has the file's name; for NTU's files it is
+/// Treats each stream, without labels, as one right performance. The move has the file's name; for NTU's files it is
 /// the action ("A013").
 std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams);
 
-/// Returns the frames [begin, end) alone.
+/// Returns only the frames [begin, end).
 SkeletonStream PartOf(const SkeletonStream& stream, int begin, int end);
 
-/// A person of a set, with all that was recorded of them.
+/// A person of a data set, with all recordings of this person.
 struct RecordedPerson {
   std::string name;
   std::vector<std::size_t> streams;  ///< indices
@@ -60,11 +60,11 @@ struct RecordedPerson {
 
 /// Recordings, the people in them, and the moves performed.
 struct LabelledStreams {
-  std::string file;  ///< of the labels, for error messages; the recordings' if there are no labels
+  std::string file;  ///< the labels' file, for error messages; the first recording's without labels
   std::vector<NamedStream> streams;
   std::vector<LabelledPart> parts;     ///< sorted by stream, then by time
   std::vector<RecordedPerson> people;  ///< by name
-  std::vector<std::string> moves;      ///< all that labels name, sorted
+  std::vector<std::string> moves;      ///< all moves that labels name, sorted
   std::string nobody;                  ///< a recording whose person is not known; "" if there is none
 };
 
@@ -73,8 +73,8 @@ using LabelTexts = std::map<std::string, std::string>;
 
 /// Combines labels and recordings. Without any labels, each recording is one performance (WholeStreams); otherwise a
 /// recording without a label contains no move. The person of a recording is named by its labels, otherwise by its
-/// file's name; otherwise it is a person of its own. Fails as ReadLabels and MatchLabels do, and if the labels of a
-/// recording name two people.
+/// file's name; otherwise each recording counts as another person. Fails for the errors of ReadLabels and MatchLabels,
+/// and if the labels of a recording name two people.
 Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels);
 
 }  // namespace etude

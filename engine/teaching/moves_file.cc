@@ -34,7 +34,7 @@ void WriteStream(const SkeletonStream& stream, std::string& text) {
     for (const Role role : AllRoles()) text += LetterOf(frame, role);
     for (const SensedJoint& joint : frame.joints) {
       for (int axis = 0; axis < 3; ++axis) {
-        // Rounded to whole tenths, so that the shortest digits are read back exactly; zero has no minus sign.
+        // Round to whole tenths: the shortest digits of a tenth are read back exactly. Zero has no minus sign.
         const double tenths = std::round(10 * kMillimetres * joint.position[axis]);
         text += fmt::format(" {}", tenths == 0 ? 0.0 : tenths / 10);
       }
@@ -118,7 +118,7 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
     return Fail(place, "found {}; allowed: {} letters t, i, n or -, then {} numbers", Quote(letters), kRoleCount,
                 3 * kRoleCount);
   }
-  // The first letter tells whether a body is seen.
+  // The first letter states whether a body is seen.
   line.remove_prefix(letters.size());
   frame.body_seen = letters.front() != '-';
   // Read the state and the position of each joint.

@@ -24,9 +24,9 @@ namespace etude {
 ///         wrong: []
 std::string WriteMoves(const std::vector<TaughtMove>& moves);
 
-/// Reads what WriteMoves writes: positions to 0.1 mm, everything else exactly. Returns an error with file, line and
-/// column for unknown keys and features, tolerances of 0, frames with a wrong number of values, two moves of the same
-/// name, or more than 64 MiB.
+/// Reads the output of WriteMoves: positions to 0.1 mm, everything else exactly. Fails, with file, line and column, for
+/// unknown keys and features, tolerances of 0, frames with a wrong number of values, two moves with the same name, and
+/// more than 64 MiB.
 Result<std::vector<TaughtMove>> ReadMoves(std::string_view text, const std::string& file);
 
 }  // namespace etude

@@ -15,8 +15,8 @@ namespace {
 using Angles = std::array<double, kFeatureCount>;
 using Track = std::vector<Angles>;
 
-/// Returns the ten angles of every frame that shows a body, as a moving average over a sixth of a second, which removes
-/// noise but keeps key poses.
+/// Returns the ten angles of every frame that shows a body. A moving average over a sixth of a second removes noise but
+/// keeps key poses.
 Track TrackOf(const SkeletonStream& stream) {
   const SeenStream seen = SeeStream(stream, {});
   Track raw;
@@ -35,20 +35,20 @@ Track TrackOf(const SkeletonStream& stream) {
   return smooth;
 }
 
-/// Returns the range of an angle between its 5th and 95th percentile.
+/// Returns the difference between the 95th and the 5th percentile of an angle.
 double RangeOf(const Track& track, std::size_t feature) {
   std::vector<double> values;
   for (const Angles& angles : track) values.push_back(angles[feature]);
   return LowerPercentile(values, 0.95) - LowerPercentile(values, 0.05);
 }
 
-/// Groups of angles that always appear in a key pose together.
+/// Groups of angles: if a key pose uses one angle of a group, it uses all of them.
 constexpr Feature kTogether[][4] = {{Feature::kRH, Feature::kLH, Feature::kRHE, Feature::kLHE},
                                     {Feature::kRF, Feature::kRFK, Feature::kRF, Feature::kRFK},
                                     {Feature::kLF, Feature::kLFK, Feature::kLF, Feature::kLFK}};
 
-/// Returns the angles that define the move: those that change in the median example, and the rest of their groups. For
-/// a move that hardly moves, they are the arms' angles.
+/// Returns the angles that define the move: those with a large range in the median example, and the rest of their
+/// groups. For a move that hardly moves, returns the arms' angles.
 std::vector<std::size_t> AnglesThatMatter(std::span<const Track> tracks, const TeachOptions& options) {
   // Find the median range of each angle over the examples.
   std::array<double, kFeatureCount> ranges{};
@@ -81,9 +81,9 @@ double Distance(const Angles& a, const Angles& b, std::span<const std::size_t> f
   return std::sqrt(sum);
 }
 
-/// Marks the poses that are held: within a tenth of a second before and after, no angle differs by the minimum
-/// tolerance, so a recogniser can match the pose in several frames. If there is none, all poses are marked, because any
-/// pose is as good as another if the move never rests.
+/// Marks the held poses, so that a recogniser can match a key pose in several frames. A pose is held if within a tenth
+/// of a second before and after, no angle differs by the minimum tolerance or more. If the move never rests, all poses
+/// are marked.
 std::vector<bool> HeldPoses(const Track& track, std::span<const std::size_t> features, double rate_hz,
                             const TeachOptions& options) {
   const auto count = static_cast<int>(track.size());
@@ -102,7 +102,7 @@ std::vector<bool> HeldPoses(const Track& track, std::span<const std::size_t> fea
   return held;
 }
 
-/// Returns the top of the first peak that is nearly as high as the highest one.
+/// Returns the index of the top of the first peak that is nearly as high as the highest peak.
 std::size_t FirstOfFarthest(const std::vector<double>& distances) {
   constexpr double kNearPeak = 0.95;
   const double farthest = *std::ranges::max_element(distances);
@@ -112,7 +112,7 @@ std::size_t FirstOfFarthest(const std::vector<double>& distances) {
   return t;
 }
 
-/// Returns the frames of key poses, in order of time.
+/// Returns the frames of the key poses, in order of time.
 std::vector<std::size_t> KeyFrames(const Track& track, std::span<const std::size_t> features, double rate_hz,
                                    const TeachOptions& options) {
   // The first key pose is the held pose farthest from the mean.
@@ -143,8 +143,8 @@ std::vector<std::size_t> KeyFrames(const Track& track, std::span<const std::size
   return frames;
 }
 
-/// Aligns a track with another by dynamic time warping. Each frame of the result is the mean of the frames that are
-/// matched with that frame of the other track.
+/// Aligns `track` with `to` by dynamic time warping. Each frame of the result is the mean of the frames of `track` that
+/// are matched with that frame of `to`.
 Track Aligned(const Track& track, const Track& to, std::span<const std::size_t> features) {
   // Compute the cost of the best path to every pair of frames.
   const std::size_t rows = to.size(), columns = track.size();
@@ -158,7 +158,7 @@ Track Aligned(const Track& track, const Track& to, std::span<const std::size_t> 
       cost[i * columns + j] = before + Distance(to[i], track[j], features);
     }
   }
-  // Go back along the best path and average the matched frames.
+  // Trace the best path back, and average the matched frames.
   Track aligned(rows);
   std::vector<int> counts(rows, 0);
   for (std::size_t i = rows - 1, j = columns - 1;;) {
@@ -182,7 +182,7 @@ Track Aligned(const Track& track, const Track& to, std::span<const std::size_t> 
   return aligned;
 }
 
-/// Returns the example of median length.
+/// Returns the index of the example with the median length.
 std::size_t MiddleExample(std::span<const Track> tracks) {
   std::vector<std::size_t> order(tracks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -242,7 +242,7 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
     }
     longest = std::max(longest, SecondsOf(stream));
   }
-  // Find the key poses; the span allows a slower performance than the longest example.
+  // Find the key poses. The span allows performances slower than the longest example.
   std::vector<TaughtPose> poses = FindKeyPoses(tracks, right.front().rate_hz, options);
   return TaughtMove{.name = name,
                     .poses = std::move(poses),

@@ -8,11 +8,11 @@
 
 namespace etude {
 
-/// Teaches every move of these parts, by name: right performances are examples, wrong ones counter-examples. An action
-/// point is only a moment, so its performance is taken from half-way after the preceding action point, at most two
-/// seconds before, to at most one second after it (ours). Parts for which `takes` returns false are left out. Fails as
-/// TeachMove does; without `is_strict`, a performance that cannot be used is left out, and so is a move without a
-/// usable right performance.
+/// Teaches every move that occurs in these parts, by name: right performances become examples, wrong ones
+/// counter-examples. An action point is only a moment; its performance is taken to begin half-way after the preceding
+/// action point, at most two seconds before its own, and to end at most one second after it (ours). Parts for which
+/// `takes` returns false are left out. Fails for the errors of TeachMove. Without `is_strict`, performances that cannot
+/// be used are left out instead, and so are moves without a usable right performance.
 Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& streams,
                                            const std::vector<LabelledPart>& parts,
                                            const std::function<bool(const LabelledPart&)>& takes, bool is_strict);
@@ -22,7 +22,8 @@ std::vector<LabelledPart> PerformancesToLearn(const std::vector<NamedStream>& st
                                               const std::vector<LabelledPart>& parts,
                                               const std::function<bool(const LabelledPart&)>& takes, bool is_strict);
 
-/// Returns the parts with action points turned into performances as above; the others stay as they are.
+/// Returns the parts, with each action point replaced by a performance as TeachMoves describes; other parts are
+/// unchanged.
 std::vector<LabelledPart> PerformancesOf(const std::vector<LabelledPart>& parts,
                                          const std::vector<NamedStream>& streams);
 

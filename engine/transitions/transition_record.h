@@ -14,7 +14,7 @@ namespace etude {
 /// The rule that decides which of several matching pairs of frames is taken.
 enum class Pick {
   kFirst,     ///< the first one found, as in paper A
-  kSmallest,  ///< the smallest distance in the window, from paper A's other wording ("the smallest difference")
+  kSmallest,  ///< the smallest distance in the window; paper A also says "the smallest difference"
 };
 
 /// The rules that decide whether two frames match by the fuzzy distance (equation 1).
@@ -40,33 +40,33 @@ enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kIn
 /// Returns "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced", "unbroken".
 std::string_view BranchName(Branch branch);
 
-/// The ways in which the joins `minimum-jerk` and `planted-feet` lead from the old motion to the new one.
+/// The ways in which the joins `minimum-jerk` and `planted-feet` change from the old motion to the new one.
 enum class JoinStyle {
   kDecays,  ///< the new motion plays, and the old motion's offset from it decays
-  kFades,   ///< both motions play, and the new one takes over
+  kFades,   ///< both motions play, and the share of the new one grows
   kDirect,  ///< each limb moves from its old pose to the new motion's pose at the end of the join
 };
 
-/// The join that a choice of frames prefers. It is set by `played`, which tries several, and by the answers of external
-/// methods.
+/// The join that a choice of frames prefers. The choice `played`, which tries several joins, sets it; answers of
+/// external methods may also set it.
 struct PreferredJoin {
   double blend_s = 0;  ///< time until only the new motion is shown, seconds
   JoinStyle way = JoinStyle::kDecays;
-  /// True: the new motion is placed where the body's momentum carries it (CarriedShift), not by the feet. Only
-  /// `planted-feet` uses it.
+  /// True: the new motion is placed where the body's momentum carries it (CarriedShift). False: it is placed by the
+  /// feet. Only `planted-feet` uses this.
   bool carried = false;
 };
 
-/// A run of frames to show, of a clip or made by the method itself.
+/// A run of frames to show; they belong to a clip or were made by the method.
 ///
 /// In the first segment, `first` is the frame shown at the request. In every later segment, frame `first` is aligned
-/// (yaw, x, z) with the last frame shown and replaces it; the next frame is shown after it.
+/// (yaw, x, z) with the last shown frame and replaces it; the next frame to be shown is `first` + 1.
 struct Segment {
   static constexpr int kOwnFrames = -1;
   int clip = kOwnFrames;                        ///< index in the library, or kOwnFrames
   int first = 0;                                ///< index in the clip or in `own`
   int last = 0;                                 ///< the last frame shown
-  std::vector<BodyPose> own;                    ///< frames made by the method; only with kOwnFrames
+  std::vector<BodyPose> own;                    ///< frames made by the method, only with kOwnFrames
   std::optional<PreferredJoin> preferred = {};  ///< the preferred join into this segment
   bool in_place = false;                        ///< true if `own` is already aligned
 };
@@ -86,28 +86,28 @@ struct Candidate {
   int from_frame = 0;  ///< in the clip that is left, or in the in-between
   int to_frame = 0;    ///< in the clip that is entered, or in the in-between
   FuzzyDistance distance;
-  std::optional<double> cost;  ///< the cost by which the choice ranks, if it is not the distance
+  std::optional<double> cost;  ///< the cost by which the choice ranks, unless that is the distance
   CandidateOutcome outcome = CandidateOutcome::kTooFar;
-  int point = 0;  ///< index of the record's transition point for which it was considered
+  int point = 0;  ///< index of the record's transition point to which it belongs
 };
 
-/// The record of a transition: how it gets from one clip into another, and how it was found.
+/// The record of a transition: its segments, and how they were found.
 struct TransitionRecord {
   Branch branch = Branch::kNone;
   int request_frame = 0;
-  std::vector<Segment> segments;         ///< none if there is no way; two if it is direct, three with an in-between
-  std::vector<FuzzyDistance> distances;  ///< of the two frames of each transition point: segments.size() − 1 entries
+  std::vector<Segment> segments;         ///< none: no transition was found; two: direct; three: with an in-between
+  std::vector<FuzzyDistance> distances;  ///< one per transition point: segments.size() − 1 entries
   /// The taken pair and the best others, at most kMaxCandidates, in order of frames.
   std::vector<Candidate> candidates;
-  std::int64_t pairs_seen = 0;     ///< number of pairs of frames within the budget, including those after a first match
+  std::int64_t pairs_seen = 0;     ///< pairs of frames within the budget, including those after a first match
   std::int64_t pairs_matched = 0;  ///< number of these pairs that match
   double wait_s = 0;               ///< time from the request until the wanted clip plays
   std::string cost_unit;           ///< unit of the candidates' `cost`, for example "cm"; empty if they have none
-  std::string why;                 ///< one sentence: why this way was taken, or why there is none
+  std::string why;                 ///< one sentence: why this transition was taken, or why there is none
 };
 constexpr std::size_t kMaxCandidates = 12;
 
-/// Returns the time from the request until the last segment begins, in seconds.
+/// Returns the time in seconds from the request until the last segment begins.
 double WaitOf(const std::vector<Segment>& segments, double rate_hz);
 
 }  // namespace etude

@@ -11,16 +11,16 @@
 
 namespace etude {
 
-/// Returns the index in `person.people` of the person `number`, counted from 0 among those whom at least two cameras
-/// see; nothing if there are fewer.
+/// Returns the index in `person.people` of person number `number`. Persons are counted from 0, without those whom fewer
+/// than two cameras see. Returns nullopt if there are too few.
 std::optional<std::size_t> IndexOfPerson(const RecoveredPerson& person, std::size_t number);
 
 /// Adjusts a person to keypoints and outlines together *(ours)*: the motion estimated from outlines is an additional
-/// observation of each joint (`AdjustPersonOptions::outlines`). Returns true if that was solved; otherwise `person`
-/// stays as it was.
-/// @param cameras without their lenses' distortion, like the pixels of `seen`
-/// @param seen the keypoints that `person` was recovered from
-/// @param outlines the same frames as `person`, in its world
+/// observation of each joint (`AdjustPersonOptions::outlines`). Returns true if the adjustment succeeded; otherwise
+/// `person` is unchanged.
+/// @param cameras pinhole projections; the pixels of `seen` must be undistorted
+/// @param seen the keypoints from which `person` was recovered
+/// @param outlines the motion in the frames and the world of `person`
 bool JoinOutlines(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, const BodyMotion& outlines,
                   AdjustPersonOptions options, RecoveredPerson& person);
 

@@ -15,7 +15,8 @@
 namespace etude {
 namespace {
 
-/// Returns `adult` with the thickness of `body` relative to `average`. All three must have the same parts.
+/// Returns `adult` with the relative thickness of `body`: each radius is multiplied by the ratio of `body` to
+/// `average`. All three bodies must have the same parts.
 SilhouetteBody WithThicknessOf(SilhouetteBody adult, const SilhouetteBody& body, const SilhouetteBody& average) {
   assert(adult.flesh.size() == body.flesh.size() && body.flesh.size() == average.flesh.size());
   for (std::size_t i = 0; i < adult.flesh.size(); ++i) {
@@ -37,7 +38,7 @@ LimbLengths AdultLengths(double stature_m) {
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
                   const FitOptions& options) {
   constexpr std::array kScales = {0.94, 0.96, 0.98, 1.0, 1.02, 1.04, 1.06};
-  // Cost of every scale, summed over the moments.
+  // Compute the cost of every scale, summed over the moments.
   const SilhouetteBody average = MakeSilhouetteBody(AdultLengths(stature_m));
   std::array<double, kScales.size()> costs{};
   FitWorkspace workspace;
@@ -50,7 +51,7 @@ double FitStature(const SilhouetteBody& body, double stature_m, std::span<const 
   }
   const auto best = static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin());
   if (best == 0 || best + 1 == kScales.size()) return kScales[best] * stature_m;
-  // The minimum of the parabola through the best scale and its neighbours.
+  // Take the minimum of the parabola through the best scale and its neighbours.
   const double below = costs[best - 1] - costs[best], above = costs[best + 1] - costs[best];
   const double step = kScales[1] - kScales[0];
   const double shift = below + above > 0 ? 0.5 * step * (below - above) / (below + above) : 0;
@@ -64,7 +65,7 @@ std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px) {
     if (!(keypoint.confidence > 0)) continue;
     joints.push_back({role, keypoint.pixel, sigma_px / std::sqrt(std::min(1.0, keypoint.confidence))});
   }
-  std::ranges::stable_partition(joints, [](const SeenJoint& joint) {  // the fit adds up the hands last
+  std::ranges::stable_partition(joints, [](const SeenJoint& joint) {  // the hands come last
     return joint.role != Role::kLeftHand && joint.role != Role::kRightHand;
   });
   return joints;
@@ -72,13 +73,13 @@ std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px) {
 
 namespace {
 
-// The options of engine/silhouettes are in pixels of a camera with twice the resolution of the masks.
+// The default options of engine/silhouettes are tuned in pixels of a camera with twice the resolution of these masks.
 constexpr double kMaskPixel = 2;
 constexpr double kUsualStature = 1.70;  // metres
 
 using Frames = std::vector<std::size_t>;
 
-/// Returns the stature that the caller gives directly or by limb lengths, metres; nothing if neither is known.
+/// Returns the stature that the caller states directly or by limb lengths, metres; nullopt if neither is known.
 std::optional<double> KnownStature(const UnmarkedTake& take) {
   if (!take.lengths) return take.stature_m;
   const LimbLengths &own = *take.lengths, adult = AdultLengths(kUsualStature);
@@ -108,7 +109,7 @@ class Recovery {
 
   Result<UnmarkedMotion> Run() {
     Frames all(FrameCount());
-    // Alternate between estimating rooms and tracking the body in some frames, then track it in all.
+    // Alternate between estimating rooms and tracking the body in some frames; finally track the body in all frames.
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
     const Frames some = EvenlySpaced(all.size(), options_.samples);
     rooms_.assign(take_.rooms.begin(), take_.rooms.end());
@@ -132,7 +133,8 @@ class Recovery {
     return pictures;
   }
 
-  /// Estimates the rooms from pixels with little motion and, if a body has been tracked in these frames, away from it.
+  /// Estimates the rooms from pixels with little motion. If a body has been tracked in these frames, only pixels away
+  /// from the body are used.
   void EstimateRooms(const Frames& frames, const SilhouetteTrack& track) {
     constexpr double kMotionLag = 0.1;  // seconds
     // Convert the lag of motion detection from seconds to sampled frames.
@@ -149,8 +151,9 @@ class Recovery {
     }
   }
 
-  /// Calls `visit(x, y, distance)` for all pixels of a mask that may be within `reach` of the body, once for each part
-  /// of it. Lengths are in pixels of `matrices_`. Does nothing if the body is unknown in that frame.
+  /// Calls `visit(x, y, distance)` for all pixels of a mask that may be within `reach` of the body; a pixel near
+  /// several body parts is visited several times. Lengths are in pixels of `matrices_`. Does nothing if the body is
+  /// unknown in that frame.
   template <typename Visit>
   void VisitFlesh(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, const glm::dvec2& size,
                   double reach, const Visit& visit) {
@@ -158,7 +161,7 @@ class Recovery {
     if (!fit) return;
     flesh_.clear();
     ProjectFlesh(track.body, ComputeFrames(track.body.tree, fit->state), matrices_[camera], flesh_);
-    // Visit the bounding box of each part.
+    // Visit the bounding box of each body part.
     for (const ProjectedCapsule& capsule : flesh_) {
       if (!capsule.is_valid) continue;
       const double margin = std::max(capsule.radius_a, capsule.radius_b) + reach;
@@ -187,8 +190,8 @@ class Recovery {
     return 1 - static_cast<double>(both) / static_cast<double>(any);
   }
 
-  /// Adds to the activity of each pixel its nearness to the body, `reach` minus distance, which exceeds any activity of
-  /// motion. If the body is unknown, every pixel counts as near.
+  /// Adds to each pixel's activity its nearness to the body: `reach` minus the distance, in pixels. On the body, this
+  /// exceeds any activity of motion. If the body is unknown, every pixel counts as near.
   void AddNearness(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, Activity& activity) {
     const double reach = kMaskPixel * options_.body_reach_px;
     const bool is_known = track.frames[frame].has_value();
@@ -199,9 +202,9 @@ class Recovery {
     for (std::size_t i = 0; i < activity.pixels.size(); ++i) activity.pixels[i] += nearness.pixels[i];
   }
 
-  /// Tracks the body in these frames, with the present rooms as backgrounds.
+  /// Tracks the body in these frames, with the current rooms as backgrounds.
   SilhouetteTrack Track(const Frames& frames) {
-    // Silhouettes of the person in every picture.
+    // Find the silhouette of the person in every picture.
     masks_.clear();
     silhouettes_.clear();
     for (std::size_t c = 0; c < take_.cameras.size(); ++c) {
@@ -219,7 +222,7 @@ class Recovery {
     TrackOptions track = options_.track;
     track.angle_change *= kJudgedRateHz / rate;
     track.position_change_m *= kJudgedRateHz / rate;
-    // Keypoints, in pixels of `matrices_`.
+    // Convert keypoints to pixels of `matrices_`.
     std::vector<std::vector<std::vector<SeenJoint>>> joints;
     for (const auto& of_camera : take_.people) {
       auto& seen = joints.emplace_back();
@@ -266,7 +269,7 @@ class Recovery {
       return Fail({}, "there is no frame in which two films show a moving person{}",
                   take_.rooms.empty() && take_.masks.empty() ? "; a person who never moves cannot be distinguished from the room" : "");
     }
-    // Poses and cost; untracked frames repeat the last pose.
+    // Copy poses and cost; untracked frames repeat the last pose.
     BodyPose last = ToBodyPose(track.body, (*first)->state);
     for (const auto& fit : track.frames) {
       if (fit) {

@@ -17,8 +17,8 @@
 
 namespace etude {
 
-/// Returns the limb lengths of an adult of this stature, metres: those of `LimbLengths{}`, which belong to a stature of
-/// 1.74, scaled uniformly.
+/// Returns the limb lengths of an adult with this stature, metres: `LimbLengths{}`, which belongs to a stature of 1.74
+/// m, scaled uniformly.
 LimbLengths AdultLengths(double stature_m);
 
 /// The views of one moment of a take, and the pose found in them.
@@ -27,59 +27,62 @@ struct PosedViews {
   TreeState state;
 };
 
-/// Finds the stature of the lowest cost *(ours)* among adults 6 % smaller to 6 % larger than `stature_m`. At each
-/// stature the body is fitted to every moment again, starting from its pose; its thickness relative to an average adult
-/// is that of `body` at `stature_m`. Silhouettes determine stature because calibrated cameras measure metres. `body`
-/// must be `MakeSilhouetteBody(AdultLengths(stature_m))`, with any thickness.
+/// Finds the stature with the lowest cost *(ours)*, from 6 % below to 6 % above `stature_m`. At each stature the body
+/// is fitted again to every moment, starting from the moment's pose. Its thickness relative to an average adult is that
+/// of `body` at `stature_m`. Silhouettes determine the stature because calibrated cameras measure metres. `body` must
+/// be `MakeSilhouetteBody(AdultLengths(stature_m))`, with any thickness.
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
                   const FitOptions& options);
 
-/// Returns the joints that keypoints show. A keypoint of confidence 1 has the standard deviation `sigma_px`; for a
-/// lower confidence the variance is divided by it. Nose, eyes, ears and the top of the head are not joints of the body
-/// and are left out.
+/// Returns the joints that keypoints show. A keypoint of confidence 1 has the standard deviation `sigma_px`; at a lower
+/// confidence, its variance is sigma_px² divided by the confidence. Nose, eyes, ears and the top of the head are left
+/// out, because they are not joints of the body.
 std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px);
 
 /// Films of one person by stationary cameras.
 struct UnmarkedTake {
   /// The longer side, in pixels, of the pictures for which the default options are tuned; the person fills half of it.
   static constexpr int kPictureSide = 480;
-  /// Pinhole cameras, at least two, each in the pixels of its pictures; Y of their world points up.
+  /// Pinhole cameras, at least two, each in the pixels of its pictures. Y of the world points up.
   std::span<const Camera> cameras;
   /// `pictures[camera][frame]`, taken at the same times by all cameras.
   std::span<const std::vector<ColourImage>> pictures;
-  /// The empty room as seen by each camera; if empty, rooms are estimated from the pictures.
+  /// The empty room in each camera's picture; if empty, rooms are estimated from the pictures.
   std::span<const ColourImage> rooms;
-  /// `masks[camera][frame]`: the person in pictures of the cameras' sizes, from any segmenter. Then `pictures` and `rooms`
-  /// are not used and may be empty; if this is empty, the person is found in `pictures`.
+  /// `masks[camera][frame]`: the person in each picture, at the cameras' picture sizes, from any segmenter. With masks,
+  /// `pictures` and `rooms` are not used and may be empty. Without masks, the person is found in `pictures`.
   std::span<const std::vector<Mask>> masks = {};
   double rate_hz = 30;
-  /// The person's stature, metres; if empty, it is estimated from the pictures.
+  /// The person's stature, metres; if absent, it is estimated from the pictures.
   std::optional<double> stature_m;
-  /// The person's limb lengths, which then also determine the stature; if empty, those of an adult.
+  /// The person's limb lengths, which then also determine the stature; if absent, an adult's.
   std::optional<LimbLengths> lengths = {};
-  /// `people[camera][frame]`: the keypoints of an estimator, in pixels of the pictures; nothing where it does not see
-  /// the person. Empty: there is no estimator.
+  /// `people[camera][frame]`: the keypoints of an estimator, in pixels of the pictures; nullopt where the estimator
+  /// does not see the person. Empty: there are no keypoints.
   std::span<const std::vector<std::optional<SeenPerson>>> people = {};
 };
 
 struct UnmarkedOptions {
-  /// The options of the person finder; regions are smaller here than in pictures of 640 × 480.
+  /// The options of the person finder. Minimum sizes of regions are smaller than its defaults, which are meant for
+  /// pictures of 640 × 480.
   PersonOptions person = {.segmenter = Segmenter::kRatio,
                           .change = {},
                           .pieces = PersonPieces::kLarge,
                           .min_piece_px = 60,
                           .piece_reach = 30};
   TrackOptions track;
-  /// The number of times that rooms are estimated, each time away from the body found in front of the last estimate. On
-  /// the one film that was tried, a fourth round still improved them slightly.
+  /// The number of times that rooms are estimated. Each time after the first, pixels near the body tracked in front of
+  /// the previous estimate are avoided. In the one film that was tried, a fourth round still improved the rooms
+  /// slightly.
   int rounds = 4;
-  /// The number of pictures of a camera, evenly spaced over the film, from which rooms are estimated and in which the
-  /// body is tracked for that purpose. More take longer; pictures of a short film show little more.
+  /// The number of pictures of a camera, evenly spaced over the film, in which the body is tracked and from which rooms
+  /// are estimated. More pictures take longer, and improve a short film little.
   std::size_t samples = 50;
-  /// The number of these pictures whose median gives a pixel of the room. Keep it small: a pixel of the room may be
+  /// The number of quietest pictures whose median gives a pixel of the room. Keep it small: a pixel of the room may be
   /// visible only for a moment.
   std::size_t kept = 5;
-  /// Pixels within this distance of the body, in pixels, may be its shadow or rim and are not trusted as room.
+  /// Pixels within this distance of the body, in pixels, may be the body's shadow or rim, and are avoided in estimates
+  /// of the room.
   double body_reach_px = 8;
   /// The standard deviation of the distance between a keypoint of confidence 1 and the true joint, pixels.
   double keypoint_px = 3;
@@ -95,15 +98,15 @@ struct UnmarkedMotion {
   double cost = 0;
   std::vector<ColourImage> rooms;              ///< one per camera
   std::vector<std::vector<Mask>> silhouettes;  ///< per camera and frame
-  /// 1 − intersection over union of the projected body and the silhouette, per camera and frame; nothing if either is
-  /// empty.
+  /// For each camera and frame, 1 − intersection over union of the projected body and the silhouette; nullopt if either
+  /// is empty.
   std::vector<std::vector<std::optional<double>>> apart;
 };
 
-/// Recovers a person's motion from silhouettes alone (engine/silhouettes) *(ours)*: without marks, keypoint estimator
-/// or picture of the empty room. The room is first estimated from pixels with little motion. A body tracked in front of
-/// that estimate shows where and when the room is visible, which improves the estimate; this is repeated. Fails if no
-/// frame shows a person to two cameras.
+/// Recovers a person's motion from silhouettes (engine/silhouettes) *(ours)*; it needs neither marks nor keypoints nor
+/// a picture of the empty room. The room is first estimated from pixels with little motion. The body tracked in front
+/// of that estimate shows where and when the room is visible, which improves the next estimate. Fails if no frame shows
+/// a person to two cameras.
 Result<UnmarkedMotion> RecoverUnmarked(const UnmarkedTake& take, const UnmarkedOptions& options = {});
 
 }  // namespace etude

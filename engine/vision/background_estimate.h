@@ -8,27 +8,27 @@
 
 namespace etude {
 
-/// The motion activity at every pixel of a picture, in any unit; pixels of lower activity are more likely background.
+/// The motion activity at every pixel of a picture, in any unit. Pixels with lower activity are more likely background.
 using Activity = Image<float>;
 
 struct MotionOptions {
   std::size_t lag = 1;  ///< picture n is compared with pictures n − lag and n + lag
-  /// Half the side of the square around a pixel in which motion counts, pixels. A trunk shows motion only at its rim,
-  /// and its middle must not count as background: choose a quarter of a trunk's width.
+  /// Half the side of the square around a pixel in which motion is counted, pixels. Choose about a quarter of a trunk's
+  /// width: a trunk shows motion only at its rim, and its middle must not count as background.
   int reach = 12;
   int change = 14;  ///< colour difference, in levels, that counts as motion; several standard deviations of noise
 };
 
-/// Computes, for each picture and pixel, the share of the pixels in the square around it whose colour differs from the
-/// picture `lag` before or after.
+/// Computes the activity of each picture and pixel: in the square around the pixel, the share of pixels whose colour
+/// differs from the picture `lag` before or after.
 std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, const MotionOptions& options = {});
 
 /// Estimates the background of a static scene: for each pixel and channel, the median over the `kept` pictures with the
-/// lowest activity there; ties go to the earliest. A pixel that is never uncovered keeps the colour of what hides it.
-/// (B. Laugraud, S. Piérard, M. Van Droogenbroeck, "LaBGen: a method based on motion detection for generating the
-/// background of a scene", Pattern Recognition Letters 96, 2017; theirs counts motion in patches.)
-/// @param activity of each picture, of its size
-/// @param kept at least one; the number of pictures gives the plain median
+/// lowest activity there; of equal ones, the earliest. A pixel that is always covered keeps the colour of the covering
+/// object. (B. Laugraud, S. Piérard, M. Van Droogenbroeck, "LaBGen: a method based on motion detection for generating
+/// the background of a scene", Pattern Recognition Letters 96, 2017; they count motion in patches.)
+/// @param activity one per picture, of the picture's size
+/// @param kept at least one; if it is the number of pictures, the result is the plain median
 ColourImage EstimateBackground(std::span<const ColourImage> pictures, std::span<const Activity> activity,
                                std::size_t kept);
 

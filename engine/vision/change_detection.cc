@@ -37,7 +37,7 @@ class HueComparison {
 
   bool Differ(Chroma a, Chroma b) const {
     const double dot = Dot4(a, b);
-    // Thresholds are below a right angle, so their cosine is positive and may be squared.
+    // Thresholds are below a right angle, so their cosine is positive and the comparison may use squares.
     return (dot <= 0) | (dot * dot < cosine2_ * Dot4(a, a) * Dot4(b, b));
   }
 
@@ -45,7 +45,7 @@ class HueComparison {
   double cosine2_;
 };
 
-// Grey has no hue in the paper's formula; here it has hue 0, that of pure red.
+// Grey has no hue in the paper's formula; here it has hue 0, like pure red.
 Chroma ChromaOrRed(Rgb8 colour) {
   constexpr int kRed = Chroma(Rgb8{255, 0, 0}).x;
   Chroma chroma(colour);
@@ -53,7 +53,8 @@ Chroma ChromaOrRed(Rgb8 colour) {
   return chroma;
 }
 
-/// Returns true if a pixel is not its background's colour times a factor that light explains.
+/// Returns true if no change of light can turn the background's colour into the pixel's colour: the pixel is too far
+/// from all multiples of the background's colour, or the factor is implausible.
 bool IsNoShade(Rgb8 background, Rgb8 pixel, const ChangeOptions& o) {
   const double br = background.r, bg = background.g, bb = background.b;
   const double dot = pixel.r * br + pixel.g * bg + pixel.b * bb;
@@ -72,7 +73,7 @@ class GatedComparison {
     const Tone b(background), p(pixel);
     const bool hue_b = HasHue(b), hue_p = HasHue(p);
     if (hue_b && hue_p && hues_.Differ(b.chroma, p.chroma)) return true;
-    // If only one pixel has a hue, that may be due to noise, so the saturations must differ clearly.
+    // If only one of both pixels has a hue, noise may be the cause, so require clearly different saturations.
     if (hue_b != hue_p && std::abs(b.Saturation() - p.Saturation()) > o_.saturation_threshold) return true;
     return p.sum < o_.darkest_shadow * b.sum || p.sum > o_.brightest_light * b.sum;
   }
@@ -107,13 +108,14 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
   assert(background.width == picture.width && background.height == picture.height);
   assert(options.hue_threshold >= 0 && options.hue_threshold < kPi / 2);
   Mask mask(picture.width, picture.height);
-  // Each segmenter is a test of two colours: the background's and the picture's.
+  // Each segmenter is a test of two colours, the background's and the picture's. `compare` applies such a test to every
+  // pixel.
   const auto compare = [&](auto differ) {
     for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
       mask.pixels[i] = differ(background.pixels[i], picture.pixels[i]);
     }
   };
-  // Apply it to every pixel.
+  // Choose the test.
   switch (segmenter) {
     case Segmenter::kRgb:
       compare([&](Rgb8 b, Rgb8 p) { return MaxDifference(b, p) > options.rgb_threshold; });

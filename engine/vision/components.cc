@@ -17,7 +17,7 @@ struct RunsOfMask {
   std::vector<bool> set;  // of each run
 };
 
-// Returns the end of the run that begins at x. Runs are long, so eight equal pixels are skipped at a time.
+// Returns the end of the run that begins at x. Compares eight pixels at a time, because runs are long.
 int EndOfRun(const std::uint8_t* row, int x, int width) {
   constexpr int kBlock = sizeof(std::uint64_t);
   const std::uint8_t value = row[x];
@@ -52,8 +52,8 @@ void Paint(const Run& run, std::uint8_t value, Mask& mask) {
   std::fill_n(&mask.At(run.begin, run.row), run.end - run.begin, value);
 }
 
-// Union-find whose representative is always the smallest index, so that the numbering of the components follows the
-// scan order, independently of the order of the joins.
+// Union-find in which the smallest index represents a set. The numbering of the components therefore follows the scan
+// order, whatever the order of the joins.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -74,7 +74,7 @@ class Sets {
 };
 
 // Joins every run with the equal runs that it touches in the row above. `above` and `below` advance through the two
-// rows together, so each pair of neighbours is visited once.
+// rows together, which visits each pair of neighbours once.
 void JoinRows(const RunsOfMask& found, Connectivity connectivity, Sets& sets) {
   const std::vector<Run>& runs = found.runs;
   std::size_t above = 0;
@@ -90,7 +90,8 @@ void JoinRows(const RunsOfMask& found, Connectivity connectivity, Sets& sets) {
   }
 }
 
-// Returns the first in scan order among equals; the number of components if no pixel is set.
+// Returns the index of the largest component of 1s, of equal ones the first in scan order. Returns the number of
+// components if no pixel is set.
 std::size_t IndexOfLargest(const Components& components) {
   std::size_t largest = components.pieces.size();
   int size = 0;
@@ -136,7 +137,7 @@ Components LabelRuns(RunsOfMask found, int width, int height, Connectivity conne
   return components;
 }
 
-/// Returns the runs of a mask that contains only that component of 1s.
+/// Returns the runs of a mask in which only this component of 1s is set.
 RunsOfMask RunsOfPiece(const Components& components, std::size_t piece) {
   RunsOfMask kept;
   kept.runs.reserve(components.runs.size());
@@ -200,7 +201,7 @@ void KeepPerson(Mask& mask, int max_hole_px) {
   for (const Run& run : components.runs) {
     if (run.piece != largest && components.pieces[run.piece].set) Paint(run, 0, mask);
   }
-  // Label the remaining mask from its runs; the pixels are not read again.
+  // Label the remaining mask from its runs, without reading the pixels again.
   const Components person = LabelRuns(RunsOfPiece(components, largest), mask.width, mask.height, Connectivity::kEight);
   for (const Run& run : person.runs) {
     const Components::Piece& piece = person.pieces[run.piece];

@@ -7,10 +7,11 @@
 
 namespace etude {
 
-/// The neighbours that are connected: the four that share an edge, or also the four that share a corner.
+/// The neighbours that are connected to a pixel: the four that share an edge with it, or also the four that share a
+/// corner.
 enum class Connectivity { kFour, kEight };
 
-/// The connected components of a mask, as the runs of pixels that they consist of.
+/// The connected components of a mask, stored as runs of pixels.
 struct Components {
   /// The pixels begin ≤ x < end of one row.
   struct Run {
@@ -25,26 +26,28 @@ struct Components {
     bool touches_border = false;
   };
 
-  std::vector<Run> runs;      ///< in scan order; together every pixel of the mask
+  std::vector<Run> runs;      ///< all pixels of the mask, in scan order
   std::vector<Piece> pieces;  ///< in order of their first pixel in scan order
 };
 
-/// Labels the components of 1s by `connectivity`; the 0s are labelled by the other connectivity, so that a closed
+/// Labels the components of 1s by `connectivity`. The 0s are labelled by the other connectivity, so a closed
 /// 8-connected outline separates inside from outside.
 Components LabelComponents(const Mask& mask, Connectivity connectivity = Connectivity::kEight);
 
-/// Returns only the largest 8-connected component of 1s; among equals the first in scan order; empty if no pixel is
-/// set.
+/// Returns only the largest 8-connected component of 1s; of equal ones, the first in scan order. Returns an empty mask
+/// if no pixel is set.
 Mask LargestComponent(const Mask& mask);
 
-/// Returns the largest 8-connected component of 1s, and all others of at least `smallest` pixels whose bounding boxes
-/// are within `reach` pixels of its box.
+/// Returns the largest 8-connected component of 1s, and all others that have at least `smallest` pixels and a bounding
+/// box within `reach` pixels of the largest one's box.
 Mask LargeComponents(const Mask& mask, int smallest, int reach);
 
-/// Sets the holes (4-connected components of 0s that do not touch the border) of at most `max_hole_px` pixels.
+/// Sets all holes of at most `max_hole_px` pixels. A hole is a 4-connected component of 0s that does not touch the
+/// border.
 Mask FillHoles(const Mask& mask, int max_hole_px);
 
-/// Computes FillHoles(LargestComponent(mask), max_hole_px) in place, reading the pixels once. Set pixels must be 1.
+/// Computes FillHoles(LargestComponent(mask), max_hole_px) in place, and reads the pixels only once. Set pixels must be
+/// 1.
 void KeepPerson(Mask& mask, int max_hole_px);
 
 }  // namespace etude

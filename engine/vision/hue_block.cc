@@ -1,12 +1,12 @@
-// Compiled once for every vector instruction set of x86-64 CPUs; the best one is chosen at run time. All of them give
-// identical bits in every lane because MulAdd is never used.
+// This file is compiled once for every vector instruction set of x86-64 CPUs; the best version is chosen at run time.
+// All versions compute identical bits, because MulAdd is never used.
 #include "engine/vision/hue_block.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/vision/hue_block.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// Included after foreach_target.h, once for each target.
+// This header must be included after foreach_target.h.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,7 +22,8 @@ using Byte = hn::Rebind<std::uint8_t, Wide>;
 
 HWY_INLINE hn::Vec<Real> ToReal(hn::Vec<Half> v) { return hn::ConvertTo(Real(), hn::PromoteTo(Whole(), v)); }
 
-/// Returns 1 where the hues of half a vector differ; comparisons that rounding may have decided are added to `close`.
+/// Returns 1 in each lane (half a vector) in which the hues differ. Sets the lanes of `close` in which rounding may
+/// have decided.
 HWY_INLINE hn::Vec<Half> Compare(hn::Vec<Half> x16, hn::Vec<Half> y16, hn::Vec<Half> bx16, hn::Vec<Half> by16,
                                  float cosine2, hn::Vec<Real>& close) {
   const Real real;
@@ -32,7 +33,7 @@ HWY_INLINE hn::Vec<Half> Compare(hn::Vec<Half> x16, hn::Vec<Half> y16, hn::Vec<H
   const auto own = hn::Add(hn::Mul(x, x), hn::Mul(y3, y));
   const auto other = hn::Add(hn::Mul(bx, bx), hn::Mul(by3, by));
   const auto seen = hn::Mul(dot, dot), allowed = hn::Mul(hn::Mul(hn::Set(real, cosine2), other), own);
-  // Flag the lanes in which both sides agree up to rounding.
+  // Flag the lanes in which both sides of the comparison are equal up to rounding.
   constexpr float kRounding = 1e-6F;
   const auto near = hn::Le(hn::Abs(hn::Sub(seen, allowed)), hn::Mul(hn::Set(real, kRounding), allowed));
   close = hn::Or(close, hn::VecFromMask(real, near));
@@ -49,7 +50,7 @@ HueBlockResult CompareBlock(const HueBlock& block, float cosine2, std::uint8_t* 
   auto close = hn::Zero(Real());
   std::size_t i = 0;
   for (; i + lanes <= block.count; i += lanes) {
-    // Load the pixels and compute their chromas; grey becomes red.
+    // Load the pixels and compute their chromas; replace grey by red.
     hn::Vec<Byte> r8, g8, b8;
     hn::LoadInterleaved3(Byte(), bytes + 3 * i, r8, g8, b8);
     const auto r = hn::PromoteTo(wide, r8), g = hn::PromoteTo(wide, g8), b = hn::PromoteTo(wide, b8);

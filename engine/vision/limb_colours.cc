@@ -11,14 +11,14 @@
 namespace etude {
 namespace {
 
-/// The label of each pixel: 0 for none, then the trunk, then the limb of each stroke.
+/// The label of each pixel: 0 for none, 1 for the trunk, then one label for the limb of each stroke.
 using LimbImage = Image<std::uint8_t>;
 constexpr std::uint8_t kTrunk = 1, kFirstLimb = 2;
 constexpr std::size_t kLabels = kFirstLimb + kStrokeCount;
 
 constexpr std::uint8_t LabelOf(std::size_t stroke) { return static_cast<std::uint8_t>(kFirstLimb + stroke); }
 
-/// The stroke that begins at the border of two labels; kNoStroke for most pairs.
+/// For two labels, the stroke that begins at their border; kNoStroke for most pairs.
 constexpr std::uint8_t kNoStroke = 255;
 constexpr auto kStrokeBetween = [] {
   std::array<std::array<std::uint8_t, kLabels>, kLabels> table{};
@@ -30,7 +30,7 @@ constexpr auto kStrokeBetween = [] {
   return table;
 }();
 
-/// A box of pixels low ≤ (x, y) < high; empty if no pixel was added.
+/// A box of pixels, low ≤ (x, y) < high. It is empty before a pixel is added.
 struct PixelBox {
   glm::ivec2 low{std::numeric_limits<int>::max()}, high{0};
 
@@ -52,7 +52,7 @@ PixelBox BoxOf(const Image<Pixel>& image) {
   return box;
 }
 
-/// Returns the box enlarged by `by` on every side, clipped to the image.
+/// Returns the box, enlarged by `by` on every side and clipped to the image.
 template <typename Pixel>
 PixelBox Grown(PixelBox box, int by, const Image<Pixel>& image) {
   if (box.IsEmpty()) return box;
@@ -80,7 +80,7 @@ class Palette {
     double nearest = options_.reach * options_.reach;
     std::uint8_t label = 0;
     for (std::uint8_t i = kTrunk; i < kLabels; ++i) {
-      // The distance in the plane of chromaticities; the share of blue is 1 minus those of red and green.
+      // Compute the distance in the plane of chromaticities. The share of blue is 1 minus the shares of red and green.
       const glm::dvec2 off = seen - colours_[i];
       const double distance = glm::dot(off, off) + (off.x + off.y) * (off.x + off.y);
       if (distance >= nearest) continue;
@@ -111,7 +111,7 @@ LimbImage Classified(const ColourImage& picture, const Mask& person, const LimbC
   return limbs;
 }
 
-/// Replaces each pixel by the majority of its 3 × 3 neighbourhood, which removes noise and lines of mixed colours along
+/// Replaces each pixel by the majority of its 3 × 3 neighbourhood. This removes noise and lines of mixed colours along
 /// edges.
 LimbImage Voted(const LimbImage& limbs) {
   constexpr int kMajority = 5;
@@ -130,7 +130,7 @@ LimbImage Voted(const LimbImage& limbs) {
   return voted;
 }
 
-/// Returns for each component whether it contains a square with this side.
+/// For each component, returns true if it contains a square with this side.
 std::vector<bool> HaveSquares(const Components& found, const Mask& mask, int side) {
   std::vector<bool> have(found.pieces.size());
   const auto is_square = [&](int left, int top) {
@@ -148,7 +148,8 @@ std::vector<bool> HaveSquares(const Components& found, const Mask& mask, int sid
   return have;
 }
 
-/// Returns the components of one colour that are large and thick enough to be a limb, not the edge of another one.
+/// Returns the components of one colour that are large and thick enough to be a limb instead of the edge of another
+/// limb.
 Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box, const LimbColourOptions& options) {
   Region region;
   if (box.IsEmpty()) return region;
@@ -156,14 +157,14 @@ Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box,
   for (int y = 0; y < crop.height; ++y) {
     for (int x = 0; x < crop.width; ++x) crop.At(x, y) = limbs.At(box.low.x + x, box.low.y + y) == label;
   }
-  // Keep the components that contain a square and are not much smaller than the largest one.
+  // Keep the components that contain a square and are not much smaller than the largest component.
   const Components found = LabelComponents(crop);
   const std::vector<bool> is_thick = HaveSquares(found, crop, options.min_side_px);
   int largest = 0;
   for (std::size_t i = 0; i < is_thick.size(); ++i)
     largest = is_thick[i] ? std::max(largest, found.pieces[i].size) : largest;
   const double smallest = std::max<double>(options.min_piece_px, options.piece_share * largest);
-  // Convert their runs to the picture's coordinates and sum up.
+  // Convert their runs to the picture's coordinates and add them up.
   for (const Components::Run& in_crop : found.runs) {
     if (!is_thick[in_crop.piece] || found.pieces[in_crop.piece].size < smallest) continue;
     const PixelRun run{in_crop.row + box.low.y, in_crop.begin + box.low.x, in_crop.end + box.low.x};
@@ -183,8 +184,8 @@ void Paint(const Region& region, std::uint8_t label, LimbImage& limbs) {
   }
 }
 
-/// Adds the borders between neighbouring limbs: the midpoints between the last pixel of one limb and the first of the
-/// next, to the right and below.
+/// Adds the borders between neighbouring limbs: the midpoints between neighbouring pixels of two limbs, to the right
+/// and below.
 void AddBorders(const LimbImage& limbs, int border_px, LimbRegions& regions) {
   const auto look = [&](int x, int y, int step_x, int step_y) {
     const std::uint8_t label = limbs.At(x, y);

@@ -13,34 +13,35 @@ namespace etude {
 /// colour is grey, and no two have the same chromaticity.
 struct LimbColours {
   Rgb8 trunk;
-  std::array<Rgb8, kStrokeCount> limbs;  ///< by stroke; the last is the head's, with the neck
+  std::array<Rgb8, kStrokeCount> limbs;  ///< by stroke; the last colour covers head and neck
 };
 
 struct LimbColourOptions {
   FigureLook look;
   int margin_px = kFrayedEdgePx;
-  /// The largest distance of a pixel's chromaticity, (R, G, B) / (R + G + B), from the nearest one of the suit. It must
-  /// exceed half of the distance between the nearest two of 14 hues that share two thirds of the circle, and the shift
-  /// by tinted lamps. Colours of rooms and furniture are at least twice as far from a suit's.
+  /// The largest distance between the chromaticity of a pixel, (R, G, B) / (R + G + B), and the nearest colour of the
+  /// suit. It must exceed the shift of colours by tinted lamps, and half the distance between the nearest two of 14
+  /// hues that share two thirds of the colour circle. Colours of rooms and furniture must be at least twice as far from
+  /// a suit's.
   double reach = 0.1;
-  int darkest = 45;  ///< below this R + G + B, noise determines the chromaticity
-  /// The smallest component of a limb that other limbs cross, as a share of its largest component.
+  int darkest = 45;  ///< if R + G + B is lower, noise determines the chromaticity
+  /// A limb that other limbs cross has several components. The smallest one that counts has this share of the largest
+  /// one's pixels.
   double piece_share = 0.2;
   int min_piece_px = 20;  ///< pixels; a hand four metres away has about 80 in a picture of 640 × 480
-  /// The side of the square that every component must contain, pixels; along edges two colours mix and resemble a
-  /// third.
+  /// Every component must contain a square with this side, pixels: two colours mix along edges and resemble a third.
   int min_side_px = 4;
-  int border_px = 3;  ///< width of the border of two limbs, in which their colours mix, pixels
+  int border_px = 3;  ///< width of the border between two limbs in which their colours mix, pixels
 };
 
-/// Segments the person into limbs by chromaticity alone, which shading does not change: each pixel gets the nearest
-/// colour of the suit, then the majority of its 3 × 3 neighbourhood; small components are removed.
-/// @param person of the picture's size; pixels outside are ignored
+/// Segments the person into limbs by chromaticity alone, because shading does not change it. Each pixel gets the
+/// nearest colour of the suit, then the majority of its 3 × 3 neighbourhood; small components are removed.
+/// @param person mask of the picture's size; pixels outside the person are ignored
 LimbRegions FindColouredLimbs(const ColourImage& picture, const Mask& person, const LimbColours& suit,
                               const LimbColourOptions& options = {});
 
 /// Makes marks from a picture without annotation: a stroke along the middle of every limb that is sufficiently visible,
-/// and a disc on each end effector (`FindLimbEvidence`). A limb that is hidden, cut off or of another colour has no
+/// and a disc on each end effector (`FindLimbEvidence`). A limb that is hidden, cut off or of another colour gets no
 /// mark.
 Marks ReadLimbColours(const ColourImage& picture, const Mask& person, const LimbColours& suit,
                       const LimbColourOptions& options = {});

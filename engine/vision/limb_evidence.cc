@@ -10,18 +10,18 @@
 namespace etude {
 namespace {
 
-/// The feature of the picture from which a limb's inner joint is found.
+/// The picture feature that locates a limb's inner joint.
 enum class Landmark {
-  kBorder,     ///< the middle of its border with its parent part
-  kBorderEnd,  ///< the end of that border farthest along the limb: for a thigh, the crotch
-  kInnerEnd,   ///< the inner end of its visible part
+  kBorder,     ///< the middle of the limb's border with its parent part
+  kBorderEnd,  ///< the border's end that is farthest along the limb: for a thigh, the crotch
+  kInnerEnd,   ///< the inner end of the limb's visible part
 };
 
-/// The typical proportions of each limb *(ours)*; shares are of half the limb's width.
+/// The typical proportions of a limb *(ours)*, in units of half the limb's width.
 struct Anatomy {
-  double length;   ///< length of its bone if the picture does not foreshorten it
-  double joint;    ///< distance of its inner joint from the landmark, outwards
-  double tip = 1;  ///< distance of its outer end's point from the visible end, inwards
+  double length;   ///< length of the bone, seen from the side
+  double joint;    ///< outward distance of the inner joint from the landmark
+  double tip = 1;  ///< inward distance of the outer end's point from the visible end
   Landmark landmark = Landmark::kBorder;
 };
 using Body = std::array<Anatomy, kStrokeCount>;
@@ -31,8 +31,8 @@ constexpr Body BodyOf(Anatomy thigh, Anatomy shank, Anatomy foot, Anatomy upper_
   return {thigh, shank, foot, thigh, shank, foot, upper_arm, forearm, hand, upper_arm, forearm, hand, head};
 }
 
-/// The proportions of the person made of capsules. A joint on the trunk (hip, shoulder) is found from the limb that
-/// begins there; every other joint from the round end of the preceding limb.
+/// The proportions of the figure made of capsules. A joint on the trunk (hip, shoulder) is located from the limb that
+/// begins there, and every other joint from the round end of the previous limb.
 constexpr Body kCapsules = BodyOf({6, -0.94}, {8, 0}, {6, 0}, {6.5, -1.04}, {7, 0}, {5.5, 0}, {1, -0.35});
 constexpr Body kDressed =
     BodyOf({6, -1.55, 1, Landmark::kBorderEnd}, {8, -0.5}, {6, 0, 0.62}, {6.5, 0.97, 1, Landmark::kInnerEnd},
@@ -40,18 +40,19 @@ constexpr Body kDressed =
 
 constexpr const Body& BodyOf(FigureKind kind) { return kind == FigureKind::kDressed ? kDressed : kCapsules; }
 constexpr std::size_t kHeadStroke = kStrokeCount - 1;
-constexpr std::size_t kMinPixels = 6;   // fewer are noise
+constexpr std::size_t kMinPixels = 6;   // smaller regions are noise
 constexpr std::size_t kMinBorder = 3;   // pixel sides
-constexpr double kMinSeenShare = 0.25;  // of a limb if one of its ends was not found
+constexpr double kMinSeenShare = 0.25;  // minimum visible share of a limb of which one end was not found
 
-/// The common border of a limb and its parent part.
+/// The common border of a limb and its parent part in the picture.
 struct Border {
   glm::dvec2 middle{0};
   double half_breadth = 0;
   bool limb_covers = false;  ///< the limb is in front of its parent part
 };
 
-// Measures a border's middle and breadth, and which side covers the other: the border's ends bend towards that side.
+// Measures a border's middle and breadth, and which of its two sides covers the other: the ends of the border bend
+// towards the covering side.
 Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& limb_middle) {
   Border border;
   for (const glm::dvec2& p : points) border.middle += p / static_cast<double>(points.size());
@@ -62,7 +63,7 @@ Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& li
   glm::dvec2 to_limb(-along.y, along.x);
   if (glm::dot(limb_middle - border.middle, to_limb) < 0) to_limb = -to_limb;
   const double mean_square = scatter.AlongAxis() / static_cast<double>(points.size());
-  // Sum the bend: how far points at the ends lie on the limb's side, relative to those in the middle.
+  // Sum up the bend: how much farther on the limb's side the points at the ends lie than those in the middle.
   double bend = 0, low = 0, high = 0;
   for (const glm::dvec2& p : points) {
     const glm::dvec2 d = p - border.middle;
@@ -100,13 +101,13 @@ class EvidenceFinder {
   struct Limb {
     const Region* region;
     MiddleLine line;              ///< `along` points outwards
-    std::optional<Border> inner;  ///< with its parent part
-    std::optional<Border> outer;  ///< with its child part
+    std::optional<Border> inner;  ///< border with its parent part
+    std::optional<Border> outer;  ///< border with its child part
   };
 
   static bool HasOuterLimb(std::size_t i) { return i != kHeadStroke && i % 3 != 2; }
 
-  // Measures a limb's line and borders, and stores it if its direction can be determined.
+  // Measures the line and borders of limb `i`, and stores the limb if its direction can be determined.
   void Look(std::size_t i) {
     const Region& region = regions_.limbs[i];
     if (region.pixels < static_cast<int>(kMinPixels)) return;
@@ -124,7 +125,7 @@ class EvidenceFinder {
 
   // Orients the limb outwards; returns false if its outer end cannot be determined.
   bool TurnOutwards(std::size_t i, Limb& limb) const {
-    // Use the most reliable evidence that is available, in this order.
+    // Use the most reliable available evidence, in this order.
     glm::dvec2 outwards(0);
     const Region& inner_part = IsAttachedToTrunk(i) ? regions_.trunk : regions_.limbs[i - 1];
     const Region& trunk = regions_.trunk;
@@ -148,7 +149,7 @@ class EvidenceFinder {
       return false;
     }
     if (i == kHeadStroke && limb.inner && glm::length(outwards) > 1) {
-      // A skull is too round for a principal axis; use the direction from the neck.
+      // The head is too round for a principal axis, so use the direction from the neck.
       const double half_width = limb.line.half_width;
       limb.line = AlongFrom(*limb.region, limb.inner->middle, outwards);
       limb.line.half_width = half_width;
@@ -182,9 +183,9 @@ class EvidenceFinder {
     return end.x < reach || end.y < reach || end.x > regions_.width - reach || end.y > regions_.height - reach;
   }
 
-  // Returns the direction of an upper arm away from the neck; nullopt for other limbs or if both ends are equally far.
-  // An upper arm's borders may run along it, because it touches the flank or the folded forearm, but its shoulder is
-  // the end nearer to the neck.
+  // For an upper arm, returns its direction away from the neck; nullopt for other limbs, or if both ends are equally
+  // far from the neck. The borders of an upper arm may run along it, because it touches the flank or the folded
+  // forearm; but its shoulder is always the end nearer to the neck.
   std::optional<glm::dvec2> AwayFromNeck(std::size_t i, const Limb& limb) const {
     const bool is_upper_arm =
         StrokeMarks()[i].from == Role::kLeftShoulder || StrokeMarks()[i].from == Role::kRightShoulder;
@@ -205,19 +206,20 @@ class EvidenceFinder {
            std::abs(limb.line.Where(border->middle) - middle) > kNearEnd * (limb.line.high - limb.line.low);
   }
 
-  // Returns true if the limb touches its parent part with its side, as a hanging arm touches the flank.
+  // Returns true if the limb's side touches its parent part, as a hanging arm touches the flank.
   static bool RunsAlong(const Limb& limb) {
     constexpr double kSide = 1.5;
     return limb.line.IsLong() && limb.inner->half_breadth > kSide * limb.line.half_width;
   }
 
-  // Returns the centre of the limb's round outer end, at the distance `inset` before the limb's end.
+  // Returns the centre of the limb's round outer end, which is `inset` before the visible end.
   static glm::dvec2 RoundEnd(const MiddleLine& line, double inset) {
     return line.At(std::max(0.5 * (line.low + line.high), line.high - inset));
   }
 
-  // Returns how far the limb's round end is visible beyond the joint if a thinner limb continues from there at an angle
-  // and covers part of it: a disc with the limb's half width, minus a strip with the next limb's half width.
+  // Returns how far the limb's round end is visible beyond the joint, if the next limb is thinner, continues at an
+  // angle and covers a part of the end. The visible part is a disc with the limb's half width, without a strip of the
+  // next limb's half width.
   static double ReachBeyondJoint(const MiddleLine& limb, const MiddleLine& next) {
     if (!next.IsLong()) return limb.half_width;
     const double between = std::acos(std::clamp(glm::dot(limb.along, next.along), -1.0, 1.0));
@@ -261,7 +263,8 @@ class EvidenceFinder {
       case Landmark::kInnerEnd:
         return limb.line.At(limb.line.low + beyond);
       case Landmark::kBorder:
-        // A limb that is folded over the one before has a border along it, which does not show its end.
+        // A limb folded over the previous limb has its border along its side. Such a border does not show the limb's
+        // end.
         return RunsAlong(limb) ? limb.line.At(limb.line.low) : limb.inner->middle + beyond * limb.line.along;
     }
     return limb.inner->middle;
@@ -296,16 +299,16 @@ class EvidenceFinder {
     seen.seen_share = std::min(1.0, limb.region->pixels / whole);
     const bool is_long = limb.line.high - limb.line.low > 3 * half_width;
     if (!(inner && outer) && (seen.seen_share < kMinSeenShare || !is_long)) return std::nullopt;
-    // A joint may have been found from the neighbouring limb; it ends this stroke only if this limb has a border there.
+    // End the stroke at the joint only if this limb has a border there; the joint may come from the neighbouring limb.
     seen.line.a = inner && limb.inner ? *inner : limb.line.At(limb.line.low);
     seen.line.b = outer && (limb.outer || !HasOuterLimb(i)) ? *outer : limb.line.At(limb.line.high);
     return seen;
   }
 
-  // Returns the limb's probable half width: at least that of its neighbours, because one side may be hidden along its
-  // whole length.
+  // Returns the limb's probable half width. It is at least that of its neighbours, because one side of the limb may be
+  // hidden along its whole length.
   double LikelyHalfWidth(std::size_t i) const {
-    constexpr double kMinWidthRatio = 0.55;  // ratio of a foot to its shank, the largest step along a limb
+    constexpr double kMinWidthRatio = 0.55;  // a foot's width over its shank's; the largest ratio along a limb
     double half_width = limbs_[i]->line.half_width;
     if (HasOuterLimb(i) && limbs_[i + 1]) half_width = std::max(half_width, limbs_[i + 1]->line.half_width);
     if (!IsAttachedToTrunk(i) && limbs_[i - 1])

@@ -25,16 +25,16 @@ glm::dvec2 ScatterAxis(const Region& region) {
   return scatter.Axis();
 }
 
-// The slice of a region between two lines across its axis, one pixel apart.
+// A slice of a region, one pixel thick, between two lines across the region's axis.
 struct Section {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   bool IsEmpty() const { return low > high; }
-  double Width() const { return high - low + 1; }  // pixel centres are half a pixel inside
+  double Width() const { return high - low + 1; }  // pixel centres are half a pixel from the edges
   double Middle() const { return 0.5 * (low + high); }
 };
 
-// Cuts the region into slices across the line, and sets the line's ends.
+// Cuts the region into slices across `line`, and sets the line's ends.
 std::vector<Section> Slice(const Region& region, MiddleLine& line) {
   const glm::dvec2 across(-line.along.y, line.along.x);
   line.low = std::numeric_limits<double>::infinity();
@@ -66,7 +66,7 @@ double UsualWidth(const std::vector<Section>& sections) {
   return LowerPercentile(std::move(widths), kShare);
 }
 
-// Fits the line to the middles of the sections that are at least 85 % of the usual width.
+// Fits the line to the middles of the slices that are at least 85 % as wide as usual.
 void FitThroughMiddles(const std::vector<Section>& sections, MiddleLine& line) {
   constexpr double kWholeShare = 0.85;
   double n = 0, s1 = 0, m1 = 0, ss = 0, sm = 0;

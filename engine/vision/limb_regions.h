@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Neighbouring pixels of one row: x0 ≤ x < x1.
+/// A run of neighbouring pixels in one row: x0 ≤ x < x1.
 struct PixelRun {
   int y, x0, x1;
 };
@@ -21,8 +21,8 @@ struct Region {
   int pixels = 0;
   glm::dvec2 middle{0};  ///< mean of the pixels' centres
   bool is_cut = false;   ///< true if some of its pixels lie at the picture's edge
-  /// The contrast to the surroundings, except to limbs that are attached: the mean distance in RGB, counts, between
-  /// pixels 2 px inside and 2 px outside the left and right ends of its rows.
+  /// The contrast to the surroundings, except to attached limbs: the mean RGB distance, levels, between pixels 2 px
+  /// inside and 2 px outside the left and right ends of the rows.
   double contrast = 0;
 };
 
@@ -30,20 +30,20 @@ struct Region {
 struct LimbRegions {
   int width = 0, height = 0;
   Region trunk;
-  std::array<Region, kStrokeCount> limbs;  ///< by stroke; the last is the head with the neck
-  /// The border between a limb and its parent part: the midpoints of all pixel sides between them, by stroke.
+  std::array<Region, kStrokeCount> limbs;  ///< by stroke; the last region is head and neck
+  /// The border between each limb and its parent part, by stroke: the midpoints of all pixel edges between them.
   std::array<std::vector<glm::dvec2>, kStrokeCount> borders;
 };
 
-/// Returns true if the limb of a stroke is attached to the trunk; any other is attached to the limb of the stroke
-/// before.
+/// Returns true if the limb of a stroke is attached to the trunk. Any other limb is attached to the limb of the stroke
+/// before it.
 constexpr bool IsAttachedToTrunk(std::size_t stroke) { return stroke % 3 == 0; }
 
-/// The distance, pixels, within which a pixel still counts as on the extracted person: segmentation shifts edges by a
+/// A pixel this far outside the extracted person still counts as on the person, because segmentation shifts edges by a
 /// pixel or two.
 constexpr int kFrayedEdgePx = 3;
 
-/// Returns true if a pixel lies on the person, or at most `margin_px` beside it (in u and in v).
+/// Returns true if a pixel lies on the person, or at most `margin_px` away from the person in u and in v.
 inline bool IsNearPerson(const Mask& person, int x, int y, int margin_px) {
   if (person.At(x, y) != 0) return true;
   for (int v = std::max(0, y - margin_px); v <= std::min(person.height - 1, y + margin_px); ++v) {
@@ -58,20 +58,20 @@ inline bool IsNearPerson(const Mask& person, int x, int y, int margin_px) {
 struct MiddleLine {
   glm::dvec2 origin{0};
   glm::dvec2 along{1, 0};    ///< unit; its sign is arbitrary
-  double low = 0, high = 0;  ///< positions along it where the region begins and ends, pixels from the origin
-  double half_width = 0;     ///< 90th percentile of the half widths of its cross sections, pixels
-  bool IsLong() const;       ///< true if clearly longer than wide, so its direction is defined
+  double low = 0, high = 0;  ///< positions on the line at which the region begins and ends, pixels from the origin
+  double half_width = 0;     ///< 90th percentile of half the width of its cross sections, pixels
+  bool IsLong() const;       ///< true if clearly longer than wide, which defines its direction
   /// Returns the point of the line at the position `s`.
   glm::dvec2 At(double s) const { return origin + s * along; }
-  /// Returns the position along the line of the point on it that is nearest to `p`, pixels from the origin.
+  /// Returns the position on the line of the point nearest to `p`, pixels from the origin.
   double Where(const glm::dvec2& p) const { return glm::dot(p - origin, along); }
 };
 
-/// Finds the middle line: first the principal axis of the region's pixels; then, if the region is long enough, a
-/// straight line fitted by least squares to the middles of its cross sections. Narrow sections are left out because a
-/// clipped corner says nothing about the middle. For a capsule that is fully visible from the side the result is its
-/// axis, and the ends are those of its round ends.
-/// @param region must have pixels
+/// Finds the middle line of a region: first the principal axis of its pixels; then, if the region is long enough, a
+/// straight line fitted by least squares to the middles of its cross sections. Narrow sections are left out, because
+/// the middle of a clipped corner is not the middle of the limb. For a capsule that is fully visible from the side, the
+/// result is its axis, including the round ends.
+/// @param region must contain pixels
 MiddleLine FindMiddleLine(const Region& region);
 
 }  // namespace etude

@@ -11,18 +11,18 @@
 namespace etude {
 namespace {
 
-// Colours are counted in cells with a side of 8 levels; likelihoods are logarithms of a cell's share.
+// Colours are counted in cells with a side of 8 levels. A likelihood is the logarithm of a cell's share.
 constexpr int kCells = 32, kLevels = 256 / kCells;
-constexpr double kAnyColour = 0.05;     // share of the person's pixels with a colour not seen before
+constexpr double kAnyColour = 0.05;     // share of the person's pixels that have a new colour
 constexpr float kDecay = 0.98f;         // per picture
-constexpr double kMinWornPixels = 400;  // pixels needed to learn what is worn
+constexpr double kMinWornPixels = 400;  // pixels needed to learn the person's colours
 
-// Log-likelihoods of the room: unchanged, in another light, or changed.
+// Log-likelihoods of a pixel that shows the room: unchanged, in another light, or changed.
 constexpr float kAsItIs = -1, kInOtherLight = -6, kChanged = -13;
 constexpr float kNoise = 4, kTint = 6;               // levels
-constexpr float kUnexplained = -10;                  // below this, the room does not explain a pixel
+constexpr float kUnexplained = -10;                  // with a lower value, the room does not explain the pixel
 constexpr float kMinLight = 0.2f, kMaxLight = 1.3f;  // shares of the background's intensity
-constexpr int kSameLight = 24;                       // levels; largest change of a surface under drift of the lamp
+constexpr int kSameLight = 24;                       // levels; largest change of a surface by drift of the lamp
 
 constexpr float kMaxEvidence = 6;  // limit of one pixel's evidence
 constexpr float kFarPenalty = 3;   // evidence against a person far from the last position
@@ -31,9 +31,9 @@ constexpr int kRim = 2;            // pixels whose colours mix with the room's
 
 int CellOf(Rgb8 colour) { return (colour.r / kLevels * kCells + colour.g / kLevels) * kCells + colour.b / kLevels; }
 
-/// Returns the number of set pixels in the square of `reach` pixels in each direction around every pixel.
+/// Returns, for every pixel, the number of set pixels in the square of `reach` pixels in each direction.
 Image<int> CountsWithin(const Mask& mask, int reach) {
-  // Sliding sums along rows, then along columns.
+  // Compute sliding sums along rows, then along columns.
   Image<int> rows(mask.width, mask.height), counts(mask.width, mask.height);
   for (int y = 0; y < mask.height; ++y) {
     int sum = 0;
@@ -75,12 +75,12 @@ Image<float> Smoothed(const Image<float>& image) {
   return out;
 }
 
-/// Returns the log-likelihood of the room at a pixel.
+/// Returns the log-likelihood that a pixel shows the room.
 float RoomAt(Rgb8 room, Rgb8 pixel) {
-  // The room in unchanged light, limited to `kChanged`.
+  // First case: the room in unchanged light, limited to `kChanged`.
   const int r = pixel.r - room.r, g = pixel.g - room.g, b = pixel.b - room.b;
   float likelihood = std::max(kChanged, kAsItIs - static_cast<float>(r * r + g * g + b * b) / (2 * kNoise * kNoise));
-  // The room's colour times a factor, as in a shadow.
+  // Second case: the room's colour times a factor, as in a shadow.
   const int length2 = std::max(1, room.r * room.r + room.g * room.g + room.b * room.b);
   const int dot = pixel.r * room.r + pixel.g * room.g + pixel.b * room.b;
   const int own2 = pixel.r * pixel.r + pixel.g * pixel.g + pixel.b * pixel.b;
@@ -98,7 +98,7 @@ ColourLikelihood::ColourLikelihood(const ColourImage& background)
     : background_(background), room_(background), worn_(kCells * kCells * kCells, 0.0f) {}
 
 /// Estimates the gain of each channel by least squares over the pixels that probably show the same surface, and applies
-/// it to the background.
+/// the gains to the background.
 void ColourLikelihood::LightRoomAs(const ColourImage& picture) {
   std::array<double, 3> both{}, own{};
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -138,7 +138,7 @@ Mask ColourLikelihood::Detect(const ColourImage& picture) {
     room.pixels[i] = RoomAt(room_.pixels[i], picture.pixels[i]);
     strange_.pixels[i] &= room.pixels[i] <= kUnexplained;
   }
-  // Before colours are learnt, use hues alone; afterwards the smoothed evidence.
+  // Before colours are learnt, return the result by hues; afterwards use the smoothed evidence.
   if (likelihoods_.empty()) return mask;
   const Image<float> evidence = Smoothed(EvidenceOf(picture, room));
   for (std::size_t i = 0; i < mask.pixels.size(); ++i) mask.pixels[i] = evidence.pixels[i] > 0;
@@ -167,7 +167,7 @@ void ColourLikelihood::Learn(const ColourImage& picture, const Mask& person) {
   if (worn_sum_ >= kMinWornPixels) TellColours();
 }
 
-/// Smooths the histogram by the weights 1/4, 1/2, 1/4 along each channel, and computes the log-likelihoods.
+/// Smooths the histogram with the weights 1/4, 1/2, 1/4 along each channel, and computes the log-likelihoods.
 void ColourLikelihood::TellColours() {
   std::vector<float> shares = worn_;
   for (const int step : {1, kCells, kCells * kCells}) {
@@ -241,7 +241,7 @@ Mask PersonFinder::Detect(const ColourImage& picture) {
   return DetectChange(background_, picture, options_.segmenter, options_.change);
 }
 
-// Compares by SIMD; the remaining pixels, and blocks in which rounding may have decided, are compared in double
+// Compares hues by SIMD. The remaining pixels, and blocks in which rounding may have decided, are compared in double
 // precision.
 void PersonFinder::CompareHues(const ColourImage& picture, Mask& mask) const {
   for (std::size_t first = 0; first < mask.pixels.size(); first += kPixelsAtOnce) {
@@ -259,7 +259,7 @@ void PersonFinder::CompareHues(const ColourImage& picture, Mask& mask) const {
   }
 }
 
-// Compares each pixel with its running mean and variance, marks those that changed, and updates both.
+// Compares each pixel with its running mean and variance, marks the changed pixels, and updates mean and variance.
 void PersonFinder::Follow(const ColourImage& picture, Mask& mask) {
   const ChangeOptions& o = options_.change;
   const auto least = static_cast<float>(o.min_deviation * o.min_deviation);
@@ -281,7 +281,7 @@ void PersonFinder::Follow(const ColourImage& picture, Mask& mask) {
       const float off = colour[c] - mean[c];
       is_change |= off * off > most * variance[c];
     }
-    // Update, ten times slower where it changed.
+    // Update mean and variance, ten times slower for a changed pixel.
     const auto rate = static_cast<float>(is_change ? 0.1 * o.learning_rate : o.learning_rate);
     for (std::size_t c = 0; c < 3; ++c) {
       const float off = colour[c] - mean[c];

@@ -10,18 +10,19 @@
 namespace [[gnu::visibility("default")]] etude {
 
 /// Classifies one camera's pictures pixel by pixel *(ours)*, by the likelihood ratio of the person's colours and the
-/// room, which may be unchanged, in shadow or in more light. The person's colours are learnt from picture to picture
-/// as a histogram with exponential forgetting; the first pictures are judged by hues alone. The log-likelihood ratio
-/// is smoothed over neighbours and lowered far from the person's last position. Drift of the lamp is corrected first.
+/// room's, which may be unchanged, in shadow or in more light. The person's colours are learnt from picture to picture
+/// as a histogram with exponential forgetting; the first pictures are classified by hues alone. The log-likelihood
+/// ratio is smoothed over neighbours, and lowered far from the person's last position. Drift of the lamp is corrected
+/// first.
 class ColourLikelihood {
  public:
-  /// @param background the empty room
+  /// @param background a picture of the empty room
   explicit ColourLikelihood(const ColourImage& background);
 
-  /// Finds the pixels that more likely show the person. The picture must have the background's size.
+  /// Finds the pixels that more likely show the person than the room. The picture must have the background's size.
   Mask Detect(const ColourImage& picture);
-  /// Learns the colours of the `person` found in the picture last passed to `Detect`: only pixels that no light of the
-  /// room explains, away from the rim, so that shadows are not learnt.
+  /// Learns the colours of the `person` found in the picture last passed to `Detect`. Pixels near the rim, and pixels
+  /// that the room explains in some light, are not learnt, because they may be shadow.
   void Learn(const ColourImage& picture, const Mask& person);
 
  private:
@@ -31,22 +32,22 @@ class ColourLikelihood {
 
   const ColourImage background_;
   ColourImage room_;         ///< the background in the light of the last picture
-  Mask strange_;             ///< pixels of the last picture that no light of the room explains
+  Mask strange_;             ///< pixels of the last picture that the room in no light explains
   std::vector<float> worn_;  ///< count of each colour cell on the person
   double worn_sum_ = 0;
   std::vector<float> likelihoods_;  ///< log-likelihood of each cell, given the person
-  Mask near_;  ///< possible positions of the person in the next picture; empty before anybody was found
+  Mask near_;  ///< possible positions of the person in the next picture; empty before a person was found
 };
 
-/// Finds the person among the changed pixels: the components that `options` selects, with their small holes filled.
+/// Finds the person among the changed pixels: selects components by `options`, and fills their small holes.
 Mask PersonAmong(Mask changed, const PersonOptions& options);
 
-/// Segments the person in one camera's pictures, one after the other. The result equals that of `ExtractPerson` in
-/// every pixel, with everything that depends only on the background computed once; it also supports `kRunning` and
-/// `kLikelihood`, which have a state.
+/// Segments the person in one camera's pictures, one after the other. Results equal those of `ExtractPerson` in every
+/// pixel, but everything that depends only on the background is computed once. This class also supports `kRunning` and
+/// `kLikelihood`, which keep a state.
 class PersonFinder {
  public:
-  /// `background` is the empty room; `kRunning` uses only its size.
+  /// `background` is a picture of the empty room; `kRunning` uses only its size.
   PersonFinder(const ColourImage& background, const PersonOptions& options);
 
   /// Finds the person in the next picture, which must have the background's size.
@@ -62,7 +63,7 @@ class PersonFinder {
   PersonOptions options_;
   ColourImage background_;
   std::vector<std::int16_t> x_, y_;  ///< kHue: the background's chromas
-  double cosine2_ = 0;               ///< of the threshold
+  double cosine2_ = 0;               ///< the threshold's squared cosine
   /// kRunning: mean and variance of every pixel's three channels; empty before the first picture.
   std::vector<float> mean_, variance_;
   std::optional<ColourLikelihood> colours_;  ///< kLikelihood

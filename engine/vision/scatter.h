@@ -14,12 +14,12 @@ struct Scatter {
     xy += offset.x * offset.y;
     yy += offset.y * offset.y;
   }
-  /// Returns the unit direction in which the pixels vary most.
+  /// Returns the unit vector of the principal axis, along which the pixels vary most.
   glm::dvec2 Axis() const {
     const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
     return {std::cos(angle), std::sin(angle)};
   }
-  /// Returns the sum of squares along it.
+  /// Returns the sum of squares along the principal axis.
   double AlongAxis() const { return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy); }
 };
 

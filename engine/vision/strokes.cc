@@ -46,7 +46,7 @@ glm::dvec2 Mean(const Pixels& pixels) {
   return sum / static_cast<double>(pixels.size());
 }
 
-// Returns the direction in which the pixels vary most.
+// Returns the principal axis of the pixels, along which they vary most.
 glm::dvec2 PrincipalAxis(const Pixels& pixels, const glm::dvec2& mean) {
   Scatter scatter;
   for (const glm::dvec2& p : pixels) scatter.Add(p - mean);
@@ -78,7 +78,7 @@ std::optional<glm::dvec2> ReadDisc(const Pixels& pixels) {
   constexpr double kWhole = 0.95;
   if (static_cast<double>(pixels.size()) >= kWhole * kPi * kDiscRadius * kDiscRadius) return mean;
 
-  // The mean of a partly covered disc would be biased to the visible side; search for all possible centres instead.
+  // The mean of a partly covered disc would be biased to its visible side; instead, search for all possible centres.
   constexpr double kGridStep = 0.25;
   constexpr double kRasterSlack = 0.25;
   const double radius = kDiscRadius + kRasterSlack;
@@ -98,7 +98,7 @@ std::optional<glm::dvec2> ReadDisc(const Pixels& pixels) {
 
 constexpr std::size_t kColourCount = 2 * kStrokeCount + kEffectorCount;
 
-// All colours of the palette: for each stroke its first and second half, then the discs.
+// The palette contains, for each stroke, the colours of its first and second half, then the colours of the discs.
 constexpr std::array<Rgb8, kColourCount> kPalette = [] {
   std::array<Rgb8, kColourCount> palette{};
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
@@ -109,7 +109,7 @@ constexpr std::array<Rgb8, kColourCount> kPalette = [] {
   return palette;
 }();
 
-// Most of an annotation picture is black, so eight pixels are skipped at a time.
+// Test eight pixels at a time, because most of an annotation picture is black.
 constexpr int kBlock = 8;
 
 bool IsBlackBlock(const Rgb8* pixels) {

@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// The mark of one limb in an annotation picture (paper B, section 4.2: one colour for each limb): a stroke from `from`
-/// to `to`, in two shades (ours) that distinguish its ends.
+/// The mark of one limb in an annotation picture (paper B, section 4.2: one colour for each limb). It is a stroke from
+/// `from` to `to`; two shades (ours) distinguish its halves.
 struct StrokeMark {
   Role from;
   Role to;
@@ -30,9 +30,10 @@ constexpr std::size_t kStrokeCount = 13;
 constexpr std::size_t kEffectorCount = 5;
 
 /// Returns the strokes of the limbs that paper B needs (section 3.2): legs and arms from the trunk outwards, and the
-/// neck (the hip and shoulder lines follow from the joints). All colours of the palette differ, and none is black.
+/// neck. (The lines of hips and shoulders follow from the joints.) All colours of the palette are different, and none
+/// is black.
 std::span<const StrokeMark, kStrokeCount> StrokeMarks();
-/// Returns the discs: left foot (the root), right foot, left hand, right hand, head.
+/// Returns the discs of left foot (the root), right foot, left hand, right hand and head.
 std::span<const EffectorMark, kEffectorCount> EffectorMarks();
 
 /// The width of strokes and the radius of discs, pixels. Marks are drawn on black with hard edges, strokes first, discs
@@ -47,8 +48,8 @@ struct Marks {
 };
 
 /// Reads the marks of one picture. A stroke is the principal axis of its visible pixels, and its shades determine its
-/// direction; it is missing if one shade is completely covered. A disc is its centre, even if partly covered: the mean
-/// of all centres from which a disc of that radius covers every visible pixel.
+/// direction; it is missing if one shade is completely covered. A disc is represented by its centre: the mean of all
+/// centres from which a disc of that radius covers every visible pixel. This also holds for partly covered discs.
 Marks ReadMarks(const ColourImage& annotation);
 
 }  // namespace etude

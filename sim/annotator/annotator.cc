@@ -16,7 +16,7 @@ constexpr double kHeadDeviation = 0.035, kShoulderDeviation = 0.079, kElbowDevia
                  kFingerDeviation = 0.026, kHipDeviation = 0.107, kKneeDeviation = 0.087, kAnkleDeviation = 0.089,
                  kToeDeviation = 0.068;
 
-// Hip centre and spine are never marked.
+// The standard deviations σ behind RelativeDeviations, by role. Hip centre and spine are never marked.
 constexpr std::array<double, kRoleCount> kDeviations = {
     0,
     0,
@@ -59,7 +59,7 @@ glm::dvec2 Normal2(RandomStream& random) {
 
 constexpr double kReferenceErrorPx = 2;  // the error for which probabilities and shares are given
 
-// The indices of the first of the three strokes of a left and of a right limb.
+// A pair of limbs: the index of the first of three strokes of the left limb, and of the right limb.
 struct Pair {
   std::size_t left, right;
 };
@@ -86,7 +86,7 @@ double HalfWidthOf(const PictureEvidence& seen, std::size_t first) {
   return widest;
 }
 
-// Returns 1 if the two limbs overlap or only one is seen, and 0 if they are at least two widths apart.
+// Returns a value from 1 (the two limbs overlap, or only one is visible) to 0 (at least two widths apart).
 double Overlap(const PictureEvidence& seen, const Pair& pair) {
   const auto left = MiddleOf(seen, pair.left), right = MiddleOf(seen, pair.right);
   if (!left || !right) return 1;
@@ -103,7 +103,7 @@ void Exchange(const Pair& pair, PictureEvidence& seen) {
   }
 }
 
-/// The errors of the marks in one picture.
+/// Computes the errors of the marks in one picture.
 class PictureErrors {
  public:
   PictureErrors(const PersonErrors& errors, const std::array<glm::dvec2, kRoleCount>& bias, const PictureDice& dice,
@@ -126,7 +126,7 @@ class PictureErrors {
     return dice_.miss[stroke] < Strength() * MissProbability(*seen_.limbs[stroke]);
   }
 
-  /// Returns the stroke between the marked ends, shortened at random.
+  /// Returns the drawn stroke: the line between the marked ends, shortened by random amounts.
   PixelSegment Stroke(std::size_t i) const {
     const PixelSegment& line = seen_.limbs[i]->line;
     const glm::dvec2 a = line.a + ErrorAt(StrokeMarks()[i].from), b = line.b + ErrorAt(StrokeMarks()[i].to);
@@ -138,8 +138,8 @@ class PictureErrors {
  private:
   double Strength() const { return errors_.error_px / kReferenceErrorPx; }
 
-  // A joint's bias is along the limb beyond it, or else along the limb before it. A joint is as unclear as its less
-  // clear limb.
+  // Finds each joint's unclearness and the direction of its bias. The bias is along the limb that begins at the joint,
+  // otherwise along the limb that ends there. Of the two limbs' unclearness, the larger counts.
   void MeasureLimbs() {
     along_.fill({0, 1});
     for (std::size_t i = kStrokeCount; i-- > 0;) {
@@ -215,7 +215,7 @@ void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
     if (swapped_frames_[i] > 0) {
       --swapped_frames_[i];
     } else if (dice.swap_begins[i] < begins) {
-      // The length of an exchange is geometric: 1, 2, … frames with mean kSwapFrames.
+      // Draw the length of an exchange from a geometric distribution: 1, 2, … frames with mean kSwapFrames.
       swapped_frames_[i] = 1 + static_cast<int>(std::log1p(-dice.swap_lasts[i]) / std::log1p(-1 / kSwapFrames));
     }
     if (swapped_frames_[i] > 0) Exchange(kPairs[i], seen);
@@ -224,12 +224,12 @@ void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
 
 Marks Annotator::Mark(int frame, const AnnotatedPicture& picture) {
   const PictureDice& dice = dice_.DrawNumbers(frame);
-  // Look at the picture, and confuse left and right at times.
+  // Find the evidence in the picture; sometimes exchange left and right.
   PictureEvidence seen = SeePicture(picture, eye_);
   SwapSides(dice, seen);
   const PictureErrors errors(errors_, dice_.bias(), dice, seen);
   Marks marks;
-  // Draw a stroke for every limb that is seen and not overlooked.
+  // Draw a stroke for every limb that is visible and not overlooked.
   std::array<bool, kStrokeCount> overlooked{};
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
     if (!seen.limbs[i]) continue;

@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-// The pixels of `picture` within `reach` of the bounding box of a and b.
+// The pixels of `picture` at most `reach` outside the bounding box of a and b.
 struct Box {
   int x0, x1, y0, y1;  // half open
 };
@@ -26,7 +26,7 @@ void DrawStroke(const PixelSegment& segment, const StrokeMark& mark, ColourImage
   const double length2 = glm::dot(along, along);
   constexpr double kPen = kStrokeWidth / 2;
   const Box box = BoxAround(segment.a, segment.b, kPen, picture);
-  // Colour every pixel whose centre is within the pen's radius of the segment.
+  // Colour every pixel whose centre is at most the pen's radius away from the segment.
   for (int y = box.y0; y < box.y1; ++y) {
     for (int x = box.x0; x < box.x1; ++x) {
       const glm::dvec2 centre(x + 0.5, y + 0.5);

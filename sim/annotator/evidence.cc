@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kNoBorder = -1;
 
-// The stroke that begins at the border of two parts.
+// For two parts, the stroke that begins at their border.
 using BorderTable = std::array<std::array<int, kPartCount>, kPartCount>;
 constexpr BorderTable kBorderOf = [] {
   BorderTable table{};
@@ -101,9 +101,9 @@ class RegionFinder {
     if (stroke != kNoBorder) found_.borders[static_cast<std::size_t>(stroke)].push_back(at);
   }
 
-  // Adds the contrast at the end `x` of a run; the outside is at x + `step`.
+  // Adds the contrast at the end `x` of a run. The pixel at x + `step` is outside the run.
   void AddContrast(const PixelRun& run, std::uint8_t part, int x, int step) {
-    constexpr int kApart = 2;  // avoids pixels that mix both sides
+    constexpr int kApart = 2;  // keeps away from pixels that mix both sides
     const int outside = x + kApart * step, inside = std::clamp(x - kApart * step, run.x0, run.x1 - 1);
     if (outside < 0 || outside >= labels_.width) return;
     const std::uint32_t other = labels_.At(outside, run.y);

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// The part along which a stroke runs, and the part to which it is attached; the joint between the two is the stroke's
+/// The part along which a stroke runs, and the part to which that part is attached. Their common joint is the stroke's
 /// `from`. The table is in the order of `StrokeMarks`.
 struct LimbParts {
   Part limb;
@@ -37,22 +37,22 @@ constexpr std::array<LimbParts, kStrokeCount> kLimbParts = {{
 struct Regions {
   int width = 0, height = 0;
   std::array<Region, kPartCount> parts;
-  /// The borders between a limb and the part to which it is attached: the midpoints of all pixel sides between them, by
-  /// stroke.
+  /// By stroke, the border between the limb and the part to which it is attached: the midpoints of all pixel edges
+  /// between them.
   std::array<std::vector<glm::dvec2>, kStrokeCount> borders;
 
   const Region& operator[](Part part) const { return parts[static_cast<std::size_t>(part)]; }
 };
 
-/// Finds the visible parts of the performer on `person` or at most `margin_px` beside it (in u and in v); the annotator
-/// does not see what the segmenter lost. All pictures have the same size.
+/// Finds the visible parts of the performer on `person`, or at most `margin_px` outside it in u and in v. Parts that
+/// the segmenter lost are not visible to the annotator. All pictures must have the same size.
 Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const Mask& person, int margin_px);
 
-/// A picture as the annotator sees it; all three images have the same size.
+/// A picture as the annotator sees it. All three images have the same size.
 struct AnnotatedPicture {
-  const LabelImage& labels;    ///< the part at each pixel: the annotator's ability to distinguish limbs
+  const LabelImage& labels;    ///< the part at each pixel, because annotators can distinguish limbs
   const ColourImage& colours;  ///< used only for the contrast of limbs
-  const Mask& person;          ///< the segmented person; everything else is not seen
+  const Mask& person;          ///< the segmented person; the annotator does not see the rest
 };
 
 /// The options of the annotator's view of a picture.
@@ -61,8 +61,8 @@ struct EvidenceOptions {
   int margin_px = kFrayedEdgePx;
 };
 
-/// Returns what the annotator can infer from one picture and from anatomy (`FindLimbEvidence`); it uses nothing else.
-/// docs/annotator.md lists the resulting errors of joint centres, by joint.
+/// Returns the annotator's conclusions from one picture and from anatomy (`FindLimbEvidence`); no other data are used.
+/// docs/annotator.md lists the resulting errors of each joint centre.
 PictureEvidence SeePicture(const AnnotatedPicture& picture, const EvidenceOptions& options = {});
 
 }  // namespace etude

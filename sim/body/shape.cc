@@ -13,10 +13,10 @@ using enum Role;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Radii as shares of the lengths named, chosen so that a body of 1.70 m looks like a dressed adult.
+// Radii as shares of lengths of the body. With these shares, a body of 1.70 m looks like a dressed adult.
 constexpr double kUpperArmPerLength = 0.155;
 constexpr double kForearmPerLength = 0.145;
-constexpr double kHandPerForearm = 0.13;  // many files end the hand at the wrist, so its own length cannot be used
+constexpr double kHandPerForearm = 0.13;  // many files end the hand at the wrist, so its length is not used
 constexpr double kThighPerLength = 0.165;
 constexpr double kShankPerLength = 0.12;
 constexpr double kFootPerShank = 0.068;
@@ -57,7 +57,7 @@ struct OwnParts {
 };
 
 OwnParts OwnPartsOf(Role role) {
-  // An inner joint lies in the parts before and beyond it; a tip lies in one part.
+  // A joint between two limbs lies in both limbs; a tip lies in one part.
   switch (role) {
     case kHipCentre:
     case kSpine:
@@ -136,7 +136,7 @@ void AddHead(const BodyPose& pose, std::vector<Capsule>& body) {
   body.push_back({Part::kHead, middle - half, middle + half, kHeadPerTrunk * trunk});
 }
 
-/// Returns the smaller root of t² + 2bt + c = 0 if it is not negative, otherwise infinity.
+/// Returns the smaller root of t² + 2bt + c = 0, or infinity if the smaller root is negative or there is none.
 double EntryRoot(double b, double c) {
   const double discriminant = b * b - c;
   if (discriminant < 0) return kInfinity;
@@ -157,7 +157,7 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
   return glm::dot(off, off) <= capsule.radius * capsule.radius;
 }
 
-/// Returns true if the ray misses the bounding sphere of the capsule by more than any rounding error; most rays do.
+/// Returns true if the ray misses the capsule's bounding sphere by more than any rounding error. Most rays do.
 bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   constexpr double kAir = 1e-6;  // metres
   const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
@@ -166,7 +166,7 @@ bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3
   return outside > 0 && (along > 0 || along * along < outside);
 }
 
-/// Returns the distance at which the ray enters the cylinder between the half-spheres.
+/// Returns the distance at which the ray enters the cylinder between the two half-spheres.
 double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   const glm::dvec3 axis = capsule.b - capsule.a;
   const double length = glm::length(axis);
@@ -176,7 +176,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   const glm::dvec3 across = direction - glm::dot(direction, unit) * unit;
   const glm::dvec3 from_across = from - glm::dot(from, unit) * unit;
   const double scale = glm::dot(across, across);
-  constexpr double kParallel = 1e-18;  // squared sine: a parallel ray hits a half-sphere first
+  constexpr double kParallel = 1e-18;  // squared sine; a parallel ray hits a half-sphere first
   if (scale < kParallel) return kInfinity;
   const double t = EntryRoot(glm::dot(from_across, across) / scale,
                              (glm::dot(from_across, from_across) - capsule.radius * capsule.radius) / scale);

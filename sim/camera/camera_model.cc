@@ -25,7 +25,7 @@ AutomaticToning MakeToning(const CameraEffects& effects, const CameraIdentity& i
   return {effects, exposure, white_balance};
 }
 
-/// Mixes two pictures: full + share · (demosaiced − full).
+/// Mixes two pictures in place: full + share · (demosaiced − full).
 void Mix(const LightImage& demosaiced, float share, LightImage& full) {
   for (std::size_t i = 0; i < full.pixels.size(); ++i) {
     const Light& to = demosaiced.pixels[i];
@@ -91,12 +91,12 @@ CameraModel::CameraModel(const Camera& camera, const CameraEffects& effects, dou
       shutter_(MakeShutter(effects, rate_hz, identity_)),
       toning_(MakeToning(effects, identity_)),
       noise_(WebcamNoise(effects.noise, effects.gain_db)) {
-  // Without effects on light, noise is applied to 8-bit pictures directly.
+  // Without effects on light, apply noise directly to 8-bit pictures.
   if (!needs_light_) {
     if (!noise_.IsNone()) code_noise_.emplace(noise_);
     return;
   }
-  // Prepare what all pictures have in common.
+  // Prepare the data that all pictures share.
   light_ = LightImage(width_, height_);
   if (effects_.defocus_px > 0) defocus_.emplace(effects_.defocus_px);
   if (effects_.vignette > 0 || effects_.dust > 0) transmission_.emplace(width_, height_, 1.0f);
@@ -129,7 +129,7 @@ void CameraModel::AddLight(const Shutter::Band& band, const Scene& scene, const 
       AddDecodedRow(view.colour.pixels.data(), pixels, 1.0f / static_cast<float>(times.size()), out);
     }
   }
-  // Warp them into the lens's picture.
+  // Warp the rows into the lens's picture.
   if (!lens_.is_none()) lens_.Warp(pinhole_light_, band.rows, light_);
 }
 
@@ -148,7 +148,7 @@ void CameraModel::AddBand(const Shutter::Band& band, const Scene& scene, Targets
 }
 
 void CameraModel::DevelopLight(double seconds, RandomStream& random, ColourImage& out) {
-  // Blur, then read the light with the sensor: a mosaic, full colours, or a mix of both.
+  // Blur. Then let the sensor read the light: a mosaic, full colours, or a mix of both.
   if (defocus_) defocus_->Apply(light_);
   const Sensor sensor{transmission_ ? &*transmission_ : nullptr, toning_.At(seconds), noise_};
   const LightImage* developed = &light_;
@@ -169,7 +169,7 @@ void CameraModel::DevelopLight(double seconds, RandomStream& random, ColourImage
 }
 
 View CameraModel::Develop(std::size_t frame, const Scene& scene, Targets targets, const std::string& noise_purpose) {
-  // Render the frame in bands; a single band without effects on light needs no copy.
+  // Render the frame in bands. A single band without effects on light needs no copy.
   View view;
   const std::vector<Shutter::Band> bands = shutter_.BandsOf(frame, height_);
   const bool is_plain = bands.size() == 1 && !needs_light_;
@@ -181,7 +181,7 @@ View CameraModel::Develop(std::size_t frame, const Scene& scene, Targets targets
     if (targets == Targets::kAll) view.depth = DepthImage(width_, height_);
     for (const Shutter::Band& band : bands) AddBand(band, scene, targets, view);
   }
-  // Apply tones and noise.
+  // Apply exposure, white balance and noise.
   RandomStream random = StreamOf(identity_, noise_purpose);
   if (needs_light_) {
     DevelopLight(static_cast<double>(frame) / rate_hz_, random, view.colour);

@@ -14,12 +14,12 @@
 
 namespace etude {
 
-/// The times at which a camera takes its pictures. Times are in frames of the reference clock, like the truth: an ideal
-/// camera takes frame k at time k.
+/// The times at which a camera takes its pictures. Times are in frames of the reference clock, which is also the clock
+/// of the truth: an ideal camera takes frame k at time k.
 class Shutter {
  public:
-  /// @param is_reference true for the camera whose clock is correct. The others' offset and drift have the effect's
-  /// magnitude and a random sign.
+  /// @param is_reference true for the camera with the correct clock. The offsets and drifts of other cameras have the
+  /// magnitudes in `effects` and random signs.
   Shutter(const CameraEffects& effects, double rate_hz, bool is_reference, RandomStream& random);
 
   /// Returns the time at which the middle row of the camera's own frame k is exposed: k (1 + drift) + offset.
@@ -30,13 +30,13 @@ class Shutter {
     RowRange rows;
     double time = 0;
   };
-  /// Returns the bands of a frame. A rolling shutter reads the rows from the top; it is approximated by kBands bands,
-  /// each at the time of its middle. Without a rolling shutter there is one band.
+  /// Returns the bands of a frame. A rolling shutter reads the rows from the top. It is approximated by kBands bands,
+  /// each exposed at the time of its middle row. Without a rolling shutter there is one band.
   std::vector<Band> BandsOf(std::size_t frame, int height) const;
   static constexpr int kBands = 8;
 
-  /// Returns the times whose pictures are averaged for a band: kSubframes times evenly spaced over the exposure; one
-  /// without motion blur.
+  /// Returns the times whose pictures are averaged for a band: kSubframes times, evenly spaced over the exposure; one
+  /// time without motion blur.
   std::vector<double> SubframesOf(const Band& band) const;
   static constexpr int kSubframes = 9;
 
@@ -47,30 +47,31 @@ class Shutter {
   double open_ = 0;      ///< exposure time, frames
 };
 
-/// A camera's identity within its world; it is the key of the camera's random numbers.
+/// A camera's identity within its world. It is the key of the camera's random numbers.
 struct CameraIdentity {
   WorldKey world;
-  std::string name;          ///< "capture/camera-0": begins the purposes of its random streams
-  bool is_reference = true;  ///< true if its clock is that of the truth
+  std::string name;          ///< such as "capture/camera-0"; prefix of the purposes of its random streams
+  bool is_reference = true;  ///< true if its clock is the clock of the truth
 };
 
-/// A camera of a world: it takes pictures and applies the effects in the order in which they act on the light
+/// A camera of a world. It takes pictures and applies the effects in the order in which they act on the light
 /// (README.md). It is not thread-safe, because it reuses its buffers.
 class CameraModel {
  public:
-  /// Renders the rows `rows` of the ideal pinhole's picture (`pinhole()`) at a time in frames of the reference clock;
-  /// the view's height is the number of rows.
+  /// Renders the rows `rows` of the ideal pinhole camera's picture (`pinhole()`) at a time in frames of the reference
+  /// clock. The view's height is the number of rows.
   using Scene = std::function<View(double frame, const RowRange& rows, Targets targets)>;
 
-  /// @param camera includes its distortion (LensDistortion); all other effects are in `effects`
+  /// @param camera with its lens distortion (LensDistortion); all other effects are in `effects`
   CameraModel(const Camera& camera, const CameraEffects& effects, double rate_hz, CameraIdentity identity);
 
-  /// Returns the camera for which scenes are rendered: without distortion, and with a margin for it.
+  /// Returns the camera for which scenes are rendered: it has no distortion, and its picture has a margin for the
+  /// distortion.
   const Camera& pinhole() const { return lens_.pinhole(); }
   const Shutter& shutter() const { return shutter_; }
 
-  /// Takes the camera's own frame k. Labels and depth, if requested, are those at each pixel's centre in the middle of
-  /// the exposure, without blur, noise and dust.
+  /// Takes the camera's own frame k. Labels and depth, if requested, belong to each pixel's centre in the middle of the
+  /// exposure, without blur, noise and dust.
   View Shoot(std::size_t frame, const Scene& scene, Targets targets);
 
   /// Takes a picture of the empty stage at time 0, with its own random numbers.

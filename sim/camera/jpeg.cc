@@ -20,7 +20,7 @@ JSAMPROW RowOf(const ColourImage& picture, JDIMENSION y) {
   return const_cast<JSAMPROW>(reinterpret_cast<const JSAMPLE*>(row));  // libjpeg does not write to its input
 }
 
-// libjpeg reports a damaged file only through a callback that must not return; ours leaves by longjmp.
+// libjpeg reports a damaged file only through a callback that must not return; our callback leaves by longjmp.
 struct JpegError {
   jpeg_error_mgr errors;  // must be first: libjpeg knows only this part
   std::jmp_buf way_out;
@@ -33,13 +33,13 @@ void JumpOut(j_common_ptr job) {
   std::longjmp(jpeg_error->way_out, 1);
 }
 
-// Negative levels are warnings of damage; levels from 0 are traces.
+// Negative levels are warnings of damage; other levels are traces.
 void JumpOnWarning(j_common_ptr job, int level) {
   if (level < 0) JumpOut(job);
 }
 
-// Decodes the size, and the pixels too if `picture` is given. Returns false if the file is damaged; `jpeg_error` has
-// the message. No object here has a destructor, so the jump leaks nothing.
+// Decodes the size, and also the pixels if `picture` is given. Returns false if the file is damaged; `jpeg_error` then
+// holds the message. No object here has a destructor, so the jump leaks nothing.
 bool DecodeUntrusted(std::string_view jpeg, JpegError& jpeg_error, jpeg_decompress_struct& job, ColourImage* picture) {
   job.err = jpeg_std_error(&jpeg_error.errors);
   jpeg_error.errors.error_exit = JumpOut;

@@ -9,14 +9,14 @@
 
 namespace etude {
 
-// The only file that uses libjpeg(-turbo). Its integer transforms give the same bytes on every processor, with or
-// without vector instructions.
+// Only this file uses libjpeg(-turbo). Its integer transforms give the same bytes on every processor, with or without
+// vector instructions.
 
-/// Returns the bytes of a baseline JPEG file, colours at half the resolution (4:2:0), with the standard tables.
+/// Returns the bytes of a baseline JPEG file with the standard tables; colours have half the resolution (4:2:0).
 /// @param quality 1…100
 std::string EncodeJpeg(const ColourImage& picture, int quality);
 
-/// Decodes a file that EncodeJpeg made; the memory of `picture` is reused.
+/// Decodes a file that EncodeJpeg made, into `picture`, whose memory is reused.
 void DecodeJpeg(const std::string& jpeg, ColourImage& picture);
 
 /// Reads a JPEG file from any source. Fails for pictures of more than `max_pixels`, before memory is allocated, and for

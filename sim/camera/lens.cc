@@ -25,10 +25,10 @@ void StoreLanes(const Lanes& colours, Light* light) {
 
 constexpr int kMaxUnrolled = 6;
 
-/// Rows of floats around a centre: rows[reach + i] is i rows away.
+/// Rows of floats around a centre row: rows[reach + i] is i rows below it.
 using Rows = const float* const*;
 
-/// Computes out[i] = Σ weights[k] · (row −k [i] + row k [i]), k = 0 … kReach, in one pass.
+/// Computes out[i] = Σ weights[k] · (row −k [i] + row k [i]) over k = 0 … kReach in one pass.
 template <int kReach>
 void WeighUnrolled(Rows rows, const float* weights, std::size_t count, float* __restrict out) {
   std::array<float, kReach + 1> w;
@@ -43,7 +43,7 @@ void WeighUnrolled(Rows rows, const float* weights, std::size_t count, float* __
   }
 }
 
-/// Computes the same for any reach in several passes; the sums are added in the same order.
+/// Computes the sums of WeighUnrolled for any reach in several passes, in the same order of additions.
 void WeighInPasses(Rows rows, int reach, const float* weights, std::size_t count, float* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = weights[0] * (rows[reach][i] + rows[reach][i]);
   for (int k = 1; k <= reach; ++k) {
@@ -98,7 +98,7 @@ LensWarp::LensWarp(const Camera& camera)
       high = glm::max(high, points.back());
     }
   }
-  // Enlarge the pinhole's picture to that box, plus one pixel on every side for interpolation.
+  // Enlarge the pinhole's picture to that box, and by one more pixel on every side for interpolation.
   const glm::dvec2 margin = glm::ceil(-low) + 1.0, beyond = glm::ceil(high - glm::dvec2(width_, height_)) + 1.0;
   pinhole_.intrinsics.width += static_cast<int>(margin.x + beyond.x);
   pinhole_.intrinsics.height += static_cast<int>(margin.y + beyond.y);
@@ -106,7 +106,7 @@ LensWarp::LensWarp(const Camera& camera)
   pinhole_.intrinsics.cy += margin.y;
   assert(pinhole_.intrinsics.width <= kMaxPictureSide && pinhole_.intrinsics.height <= kMaxPictureSide);
 
-  // Store for every pixel its four source pixels, its nearest one, and the rows that each row needs.
+  // Store, for every pixel, its four source pixels and its nearest source pixel, and for every row the rows it needs.
   for (int y = 0; y < height_; ++y) {
     RowRange& rows = source_of_row_.emplace_back(RowRange{pinhole_.intrinsics.height, 0});
     for (int x = 0; x < width_; ++x) {
@@ -180,7 +180,7 @@ View LensWarp::Warp(const View& pinhole) const {
     std::copy_n(&picture.At(0, rows.first), part.pixels.size(), part.pixels.begin());
     return part;
   };
-  // Convert colour to light, warp it, and convert back; labels and depth are looked up directly.
+  // Convert colour to light, warp it, and convert it back. Labels and depth are looked up directly.
   View view;
   if (!pinhole.colour.pixels.empty()) {
     const ColourImage colour = rows_of(pinhole.colour);
@@ -209,7 +209,7 @@ Defocus::Defocus(double sigma_px) {
     exact.push_back(std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
     sum += (i == 0 ? 1 : 2) * exact.back();
   }
-  // The centre is added twice, so its weight is halved.
+  // Halve the weight of the centre, because the centre is added twice.
   exact[0] /= 2;
   for (const double weight : exact) weights_.push_back(static_cast<float>(weight / sum));
 }
@@ -228,7 +228,7 @@ void Defocus::BlurAcross(const Light* row, std::size_t width, Light* out) {
 void Defocus::Apply(LightImage& light) {
   const int reach = static_cast<int>(weights_.size()) - 1, height = light.height, kept = 2 * reach + 1;
   const std::size_t width = static_cast<std::size_t>(light.width);
-  // A ring of horizontally blurred rows, as many as one output row needs.
+  // Keep a ring of horizontally blurred rows, as many as one output row needs.
   across_.resize(static_cast<std::size_t>(kept) * width);
   const auto across = [&](int y) { return across_.data() + static_cast<std::size_t>(y % kept) * width; };
   int done = 0;

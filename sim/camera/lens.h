@@ -12,20 +12,21 @@
 
 namespace etude {
 
-/// Returns the lens distortion for these effects and intrinsics: k1 = radial / r², where r is the distance of the
-/// picture's farthest corner from the axis at depth 1; |p| = tangential / 3r, in a random direction (one draw).
+/// Returns the lens distortion for these effects and intrinsics. k1 = radial / r², where r is the distance of the
+/// picture's farthest corner from the axis at depth 1. |p| = tangential / 3r, in a random direction (one draw).
 Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& intrinsics, RandomStream& random);
 
-/// Warps pictures of a pinhole into pictures of a lens with distortion. The renderer draws straight lines only, so it
-/// draws a pinhole's picture of the same scale with a margin; every pixel of the lens is looked up in it by
-/// `UndistortPixel`.
+/// Warps pictures of a pinhole camera into pictures of a lens with distortion. The renderer draws straight lines only,
+/// so it draws the picture of a pinhole camera with the same scale and a margin. Every pixel of the lens is then looked
+/// up in that picture by `UndistortPixel`.
 class LensWarp {
  public:
-  /// Every pixel of the camera must have a source: for usual cameras |radial| of a barrel must be below 0.14.
+  /// Every pixel of the camera must have a source in the pinhole's picture; for usual cameras, |radial| of a barrel
+  /// must be below 0.14.
   explicit LensWarp(const Camera& camera);
 
-  /// Returns the camera for which to render: without distortion, and enlarged as far as the corners need. It is the
-  /// camera itself if there is no distortion.
+  /// Returns the camera for which to render: without distortion, and enlarged as far as the corners need. Without
+  /// distortion this is the camera itself.
   const Camera& pinhole() const { return pinhole_; }
   bool is_none() const { return sources_.empty(); }
 
@@ -39,11 +40,12 @@ class LensWarp {
   void Warp(const LabelImage& source, const RowRange& rows, LabelImage& out) const;
   void Warp(const DepthImage& source, const RowRange& rows, DepthImage& out) const;
 
-  /// Returns a whole picture of the pinhole as the lens shows it; colour is interpolated in linear light.
+  /// Returns the lens's picture of a whole picture of the pinhole. Colour is interpolated in linear light.
   View Warp(const View& pinhole) const;
 
  private:
-  /// The source of a pixel: its upper left neighbour, and the distance from there.
+  /// The source of a pixel: a pixel's upper left neighbour in the pinhole's picture, and the offset from that
+  /// neighbour.
   struct Source {
     std::int32_t x, y;
     float right, down;
@@ -53,14 +55,14 @@ class LensWarp {
 
   int width_, height_;
   Camera pinhole_;
-  std::vector<Source> sources_;          ///< empty without distortion
-  std::vector<std::int32_t> nearest_;    ///< likewise: index of each pixel's nearest source pixel
-  std::vector<RowRange> source_of_row_;  ///< likewise
+  std::vector<Source> sources_;          ///< one per pixel; empty without distortion
+  std::vector<std::int32_t> nearest_;    ///< index of each pixel's nearest source pixel; empty without distortion
+  std::vector<RowRange> source_of_row_;  ///< one per row; empty without distortion
 };
 
-/// Blurs with a Gaussian of standard deviation `sigma_px`, truncated at three deviations; outside the picture the
-/// nearest pixel is repeated. A defocused lens spreads a point to a disc, but aberrations and the sensor's pixels
-/// smooth the disc. MTF(f) = exp(−2π²σ²f²), with f in cycles per pixel. The blur does not depend on depth.
+/// Blurs with a Gaussian of standard deviation `sigma_px`, truncated at three deviations. Outside the picture the
+/// nearest pixel is repeated. (A defocused lens spreads a point to a disc, but aberrations and the sensor's pixels
+/// smooth the disc.) MTF(f) = exp(−2π²σ²f²), with f in cycles per pixel. The blur does not depend on depth.
 class Defocus {
  public:
   explicit Defocus(double sigma_px);
@@ -70,7 +72,7 @@ class Defocus {
  private:
   void BlurAcross(const Light* row, std::size_t width, Light* out);
 
-  std::vector<float> weights_;  ///< of the centre, and of distances 1, 2, …
+  std::vector<float> weights_;  ///< weight of the centre, and of distances 1, 2, …
   std::vector<Light> padded_row_, across_;
   std::vector<const float*> rows_;
 };
@@ -79,7 +81,7 @@ class Defocus {
 using Transmission = Image<float>;
 
 /// Darkens the corners by cos(θ) to the power 4 · strength, where θ is the angle between the pixel's ray and the axis.
-/// A strength of 1 is the geometric effect of any lens; mounts and filters add to it.
+/// A strength of 1 is the geometric effect of any lens; mounts and filters can increase it.
 void AddVignette(const Camera& camera, double strength, Transmission& transmission);
 
 /// A speck of dust in front of the sensor. Its shadow is soft, because light arrives from the whole lens.
@@ -88,11 +90,11 @@ struct Speck {
   double radius = 0;    ///< pixels; at this radius half of the shadow is left
 };
 
-/// Draws ten specks with radii of 2 to 6 pixels, uniformly over a picture of that size.
+/// Draws ten specks with radii of 2 to 6 pixels, uniformly over a picture of this size.
 std::vector<Speck> DrawSpecks(int width, int height, RandomStream& random);
 
 /// Darkens `transmission` by dust: at distance d from its centre, a speck absorbs the share strength / (1 + (d /
-/// radius)⁴) of the light. Several shadows multiply.
+/// radius)⁴) of the light. Where shadows overlap, their transmissions are multiplied.
 void AddDust(const std::vector<Speck>& specks, double strength, Transmission& transmission);
 
 }  // namespace etude

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Linear light at one pixel; 1 is the brightest value that a picture can show. It has four numbers, so a pixel fits
-/// one vector on the oldest supported machine.
+/// Linear light at one pixel; 1 is the brightest value that a picture can show. With four numbers, a pixel fits one
+/// vector register on the oldest supported processor.
 struct alignas(16) Light {
   float r = 0, g = 0, b = 0, unused = 0;
 };
@@ -17,15 +17,14 @@ using LightImage = Image<Light>;
 /// Returns the linear light of each of the 256 values of an sRGB picture.
 const std::array<float, 256>& LightOfCodes();
 
-/// Converts linear light to sRGB codes by a table of 2^14 steps. Before rounding, it is within 0.11 codes of the exact
-/// curve (the maximum is in the dark, where the curve is steepest). It maps each value of LightOfCodes() to its own
-/// code.
+/// Converts linear light to sRGB codes by a table of 2^14 steps. Before rounding, the error is at most 0.11 codes (in
+/// the dark, where the curve is steepest). Each value of LightOfCodes() is converted to its own code.
 class CodeTable {
  public:
   static const CodeTable& Get();
   std::uint8_t operator()(float light) const { return At(StepOf(light)); }
 
-  /// Returns the index in the table. This first part of the conversion can be done for many values at once.
+  /// Returns the index in the table. This first part of the conversion can be vectorised.
   static std::int32_t StepOf(float light) {
     const float above = light > 0 ? light : 0;
     const float inside = above < 1 ? above : 1;
@@ -40,7 +39,7 @@ class CodeTable {
   std::array<std::uint8_t, kSteps> codes_;
 };
 
-/// Convert a row of `pixels` pixels: from sRGB codes to linear light, and back.
+/// Converts a row of `pixels` pixels from sRGB codes to linear light. EncodeRow converts it back.
 void DecodeRow(const Rgb8* codes, int pixels, Light* out);
 void EncodeRow(const Light* light, int pixels, Rgb8* out);
 /// Adds share · light of a row to `out`.

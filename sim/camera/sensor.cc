@@ -16,8 +16,8 @@ constexpr int kTableSize = 1 << kTableBits;
 constexpr std::size_t kDrawsPerWord = 64 / kTableBits;
 using NormalTable = std::array<float, kTableSize>;
 
-// Returns the x below which a standard normal number falls with this probability (0 < p < 1/2) by Newton's method.
-// Started at 0, it descends the convex half of the distribution without overshooting.
+// Returns the quantile of the standard normal distribution for a probability 0 < p < 1/2, by Newton's method. From the
+// start value 0, the iteration descends the convex half of the distribution without overshooting.
 double LowerQuantile(double probability) {
   double x = 0;
   for (int i = 0; i < 40; ++i) {
@@ -29,7 +29,7 @@ double LowerQuantile(double probability) {
 }
 
 // Returns the medians of 1024 equally likely intervals of the standard normal distribution in ascending order, scaled
-// by 0.06 % to variance 1.
+// up by 0.06 % to variance 1.
 const NormalTable& Normals() {
   static const NormalTable kNormals = [] {
     std::array<double, kTableSize / 2> lower;
@@ -49,14 +49,14 @@ const NormalTable& Normals() {
   return kNormals;
 }
 
-/// Copies a row with one mirrored pixel at either end: [−1] is [1].
+/// Copies a row and adds one mirrored pixel at either end: [−1] is [1].
 void Pad(const float* row, int width, float* padded) {
   padded[0] = row[1];
   for (int x = 0; x < width; ++x) padded[x + 1] = row[x];
   padded[width + 1] = row[width - 2];
 }
 
-/// The row's own colour (red or blue), green, and the colour of the neighbouring rows.
+/// Three colours at a pixel: the row's own colour (red or blue), green, and the colour of the neighbouring rows.
 struct Colours {
   float own, green, other;
 };
@@ -79,7 +79,7 @@ Light InOrder(const Colours& c) {
 
 template <bool kRedRow>
 void DemosaicRow(const float* above, const float* here, const float* below, int width, Light* out) {
-  // Red rows begin with their own colour, blue rows with green.
+  // The first pixel of a red row has the row's own colour, the first pixel of a blue row is green.
   constexpr int kOwn = kRedRow ? 0 : 1;
   for (int x = kOwn; x < width; x += 2) out[x] = InOrder<kRedRow>(AtOwn(above + x, here + x, below + x));
   for (int x = 1 - kOwn; x < width; x += 2) out[x] = InOrder<kRedRow>(AtGreen(above + x, here + x, below + x));
@@ -148,7 +148,7 @@ CodeNoise::CodeNoise(const SensorNoise& noise) : outcomes_(std::size_t{256} * kT
     const float light = LightOfCodes()[static_cast<std::size_t>(code)];
     std::uint8_t* outcome = outcomes_.data() + static_cast<std::size_t>(code) * kTableSize;
     const auto at = [&](float normal) { return code_of(Disturbed(noise, light, normal)); };
-    // Outcomes increase with the normal number, so whole runs of equal values are filled at once.
+    // Outcomes increase with the normal number, so fill whole runs of equal values at once.
     const NormalTable& table = Normals();
     for (auto from = table.begin(); from != table.end();) {
       const std::uint8_t value = at(*from);
@@ -172,7 +172,7 @@ void CodeNoise::Apply(RandomStream& random, ColourImage& picture) const {
 }
 
 void Demosaic(const Mosaic& mosaic, LightImage& out) {
-  // Keep three padded rows in a ring.
+  // Keep three padded rows of the mosaic in a ring.
   const int width = mosaic.width, height = mosaic.height;
   const std::size_t stride = static_cast<std::size_t>(width) + 2;
   std::vector<float> rows(3 * stride);
@@ -197,7 +197,7 @@ void Sensor::ReadColours(RandomStream& random, LightImage& light) const {
   std::vector<float> normals(4 * width);  // four per pixel like the light; the fourth is unused
   const float gains[] = {toning.red, toning.green, toning.blue, 1};
   for (int y = 0; y < light.height; ++y) {
-    // Light that reaches the sensor.
+    // Compute the light that reaches the sensor.
     float* values = &light.At(0, y).r;
     if (transmission == nullptr) {
       for (std::size_t i = 0; i < 4 * width; ++i) values[i] *= toning.exposure;
@@ -207,7 +207,7 @@ void Sensor::ReadColours(RandomStream& random, LightImage& light) const {
         for (std::size_t c = 0; c < 4; ++c) values[4 * x + c] *= toning.exposure * passes[x];
       }
     }
-    // Noise.
+    // Add noise.
     if (!noise.IsNone()) {
       const std::uint16_t* indices = numbers.NextIndices(3 * width);
       for (std::size_t x = 0; x < width; ++x) {
@@ -215,7 +215,7 @@ void Sensor::ReadColours(RandomStream& random, LightImage& light) const {
       }
       Disturb(noise, normals.data(), 4 * width, values);
     }
-    // Gains of the white balance.
+    // Apply the gains of the white balance.
     for (std::size_t x = 0; x < width; ++x) {
       for (std::size_t c = 0; c < 4; ++c) values[4 * x + c] *= gains[c];
     }
@@ -237,14 +237,14 @@ void Sensor::ReadMosaic(const LightImage& light, RandomStream& random, Mosaic& o
       values[x + 1] = red_row ? row[x + 1].g : row[x + 1].b;
     }
     if (width % 2 == 1) values[width - 1] = red_row ? row[width - 1].r : row[width - 1].g;
-    // Light that reaches the sensor.
+    // Compute the light that reaches the sensor.
     if (transmission == nullptr) {
       for (std::size_t x = 0; x < width; ++x) values[x] *= toning.exposure;
     } else {
       const float* passes = &transmission->At(0, y);
       for (std::size_t x = 0; x < width; ++x) values[x] *= toning.exposure * passes[x];
     }
-    // Noise.
+    // Add noise.
     if (!noise.IsNone()) {
       const std::uint16_t* indices = numbers.NextIndices(3 * width);
       for (std::size_t x = 0; x < width; ++x) {
@@ -252,7 +252,7 @@ void Sensor::ReadMosaic(const LightImage& light, RandomStream& random, Mosaic& o
       }
       Disturb(noise, normals.data(), width, values);
     }
-    // Gains of the white balance.
+    // Apply the gains of the white balance.
     const float gains[] = {red_row ? toning.red : toning.green, red_row ? toning.green : toning.blue};
     if (gains[0] == 1 && gains[1] == 1) continue;
     for (std::size_t x = 0; x < width; ++x) values[x] *= gains[x & 1];

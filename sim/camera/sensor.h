@@ -19,8 +19,8 @@ struct Toning {
   friend bool operator==(const Toning&, const Toning&) = default;
 };
 
-/// An automatic exposure and white balance with errors: each oscillates slowly about its setting, with a period of 4 to
-/// 10 seconds, independently of the other.
+/// An automatic exposure and an automatic white balance with errors. Each oscillates slowly about its setting, with its
+/// own period of 4 to 10 seconds.
 class AutomaticToning {
  public:
   AutomaticToning(const CameraEffects& effects, RandomStream& exposure, RandomStream& white_balance);
@@ -42,7 +42,7 @@ class AutomaticToning {
 ///
 ///     variance = read² + photon² · v
 ///
-/// It is independent between pixels and colours.
+/// The noise is independent between pixels and colours.
 struct SensorNoise {
   float read = 0;
   float photon = 0;
@@ -51,17 +51,17 @@ struct SensorNoise {
 
 /// Returns the noise of an indoor webcam whose pixels hold 3000 electrons, with a read noise of 3 electrons: about 3
 /// codes of an 8-bit picture in the dark, 2.4 at mid-grey, 2 in the light (ours). `strength` multiplies the standard
-/// deviations. A gain of `gain_db` fills a pixel with proportionally fewer electrons.
+/// deviations. With a gain of `gain_db`, proportionally fewer electrons fill a pixel.
 SensorNoise WebcamNoise(double strength, double gain_db);
 
-/// Draws standard normal numbers, six per 64 random bits, from a table of 1024 equally likely quantiles (so none is
-/// beyond 3.3 deviations). Each row of a picture uses ⌈count / 6⌉ words.
+/// Draws standard normal numbers from a table of 1024 equally likely quantiles (at most 3.3 deviations from the mean),
+/// six numbers per 64 random bits. Each row of a picture uses ⌈count / 6⌉ words.
 class NormalRows {
  public:
   explicit NormalRows(RandomStream& random) : random_(random) {}
   /// Returns `count` numbers, valid until the next call.
   const float* Next(std::size_t count);
-  /// Returns the numbers as indices of the table.
+  /// Returns the next `count` numbers as indices of the table.
   const std::uint16_t* NextIndices(std::size_t count);
   /// Returns the table of numbers.
   static const float* Table();
@@ -73,15 +73,15 @@ class NormalRows {
   std::vector<float> normals_;
 };
 
-/// Returns the noisy value of light v for a standard normal number, clipped at a full pixel.
+/// Returns the noisy value of light v, clipped at a full pixel. `normal` is a standard normal number.
 inline float Disturbed(const SensorNoise& noise, float light, float normal) {
   const float deviation = std::sqrt(noise.read * noise.read + noise.photon * noise.photon * (light > 0 ? light : 0));
   const float seen = light + deviation * normal;
   return seen < 1 ? seen : 1;
 }
 
-/// Noise for pictures without any other effect. For every code, one table holds the 1024 outcomes of decoding it to
-/// light, adding noise and encoding the sum. The bytes equal those of computing each pixel, at a lower cost.
+/// Adds noise to pictures that have no other effect. For every code, a table holds the 1024 outcomes of decoding the
+/// code to light, adding noise and encoding the sum. The bytes equal those of computing each pixel, at a lower cost.
 class CodeNoise {
  public:
   explicit CodeNoise(const SensorNoise& noise);
@@ -92,7 +92,7 @@ class CodeNoise {
   std::vector<std::uint8_t> outcomes_;  ///< [code][index in the table of normals]
 };
 
-/// The picture of a chip under a Bayer filter: each pixel has one colour, red where row and column are even, blue where
+/// The reading of a chip under a Bayer filter: each pixel has one colour, red where row and column are even, blue where
 /// both are odd, green elsewhere.
 using Mosaic = Image<float>;
 
@@ -100,21 +100,22 @@ using Mosaic = Image<float>;
 constexpr int BayerColour(int x, int y) { return (x & 1) + (y & 1); }
 
 /// Interpolates the two missing colours of each pixel as the mean of the nearest two or four pixels that have them.
-/// This bilinear demosaicing is the usual baseline. The mosaic is mirrored at its edges; it has at least 2 × 2 pixels.
-/// @param out has the mosaic's size
+/// This bilinear demosaicing is the usual baseline. The mosaic must have at least 2 × 2 pixels; it is mirrored at its
+/// edges.
+/// @param out must have the mosaic's size
 void Demosaic(const Mosaic& mosaic, LightImage& out);
 
-/// The sensor's model: light behind the lens × transmission × exposure, plus noise, times the gains of the white
+/// A model of the sensor: light behind the lens × transmission × exposure, plus noise, times the gains of the white
 /// balance.
 struct Sensor {
-  const Transmission* transmission = nullptr;  ///< of the light's size; null: all light passes
+  const Transmission* transmission = nullptr;  ///< must have the light's size; null: all light passes
   Toning toning{};
   SensorNoise noise{};
 
-  /// Reads the light with one chip per colour. Each row draws numbers for three colours a pixel.
+  /// Reads the light with one chip per colour. For each pixel of a row, three random numbers are drawn.
   void ReadColours(RandomStream& random, LightImage& light) const;
-  /// Reads the light with one chip under a Bayer filter. It draws the same numbers as ReadColours; each pixel
-  /// uses the one of its colour.
+  /// Reads the light with one chip under a Bayer filter. The same random numbers as in ReadColours are drawn; each
+  /// pixel uses the number of its colour.
   void ReadMosaic(const LightImage& light, RandomStream& random, Mosaic& out) const;
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 using enum Role;
 
-// Colours, sRGB.
+// Colours in sRGB.
 constexpr Rgb8 kFur{222, 155, 72};
 constexpr Rgb8 kLightFur{250, 224, 178};
 constexpr Rgb8 kDark{58, 36, 28};
@@ -15,9 +15,9 @@ constexpr Rgb8 kBlush{240, 138, 112};
 constexpr Rgb8 kShine{255, 255, 255};
 constexpr Rgb8 kRibbon{32, 150, 170};
 
-// All lengths are in centimetres. The skeleton is an adult's, and the head has a toy's proportions.
+// All lengths are in centimetres. The skeleton has an adult's proportions, and the head a toy's.
 
-/// The trunk reaches from below the seat to the throat, which the head hides. A low seat makes an adult's long legs
+/// The trunk reaches from below the seat to the throat, which the head covers. A low seat makes an adult's long legs
 /// look short.
 const Tube kTrunk{.name = "trunk",
                   .chain = {kHipCentre, kSpine, kShoulderCentre},
@@ -134,16 +134,19 @@ Character BearCharacter() {
   const BodyPose rest = StandingPose();
   CharacterBuilder bear("bear", rest);
 
+  // Body and ears.
   const int fur = bear.AddMaterial("fur", kFur);
   for (const Tube& tube : {kTrunk, kHeadShape}) bear.Add(fur, MakePiece(tube, rest));
   for (const Tube& tube : {kArm, kLeg}) bear.AddOnBothSides(fur, MakePiece(tube, rest));
   for (const Blob& blob : {kFoot, kEar}) bear.AddOnBothSides(fur, MakePiece(blob, rest));
 
+  // Light fur on belly, muzzle, tail, inner ears, palms and soles.
   const int light = bear.AddMaterial("light fur", kLightFur);
   bear.Add(light, MakePiece(kTummy, kTrunk, rest));
   for (const Blob& blob : {kMuzzle, kTail}) bear.Add(light, MakePiece(blob, rest));
   for (const Blob& blob : {kInnerEar, kPalm, kSole}) bear.AddOnBothSides(light, MakePiece(blob, rest));
 
+  // Face.
   const int dark = bear.AddMaterial("dark", kDark);
   bear.Add(dark, MakePiece(kNose, rest));
   bear.Add(dark, MakePiece(kLip, rest));
@@ -153,6 +156,7 @@ Character BearCharacter() {
   bear.AddOnBothSides(bear.AddMaterial("blush", kBlush), MakePiece(kCheek, rest));
   bear.AddOnBothSides(bear.AddMaterial("shine", kShine), MakePiece(kGlint, rest));
 
+  // Bow tie.
   const int ribbon = bear.AddMaterial("ribbon", kRibbon);
   bear.AddOnBothSides(ribbon, MakePiece(kBow, rest));
   bear.Add(ribbon, MakePiece(kKnot, rest));

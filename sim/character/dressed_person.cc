@@ -15,12 +15,12 @@ namespace {
 
 using enum Role;
 
-/// The pieces of a dressed person on the body at rest, grouped by their paint.
+/// The pieces of a dressed person for the body at rest, grouped by their paint.
 struct DressedPieces {
   std::vector<Piece> skin, hair, eyes, top, bottom, shoes;
 };
 
-// The widths of a build's parts relative to those of the medium build.
+// The widths of a build's parts, relative to the medium build.
 struct Girth {
   double trunk, belly, limbs, head;
 };
@@ -41,7 +41,7 @@ Girth GirthOf(Build build) {
   return {1, 1, 1, 1};
 }
 
-// All lengths are in centimetres on the standing body.
+// All lengths are in centimetres, on the standing body.
 using Rings = std::vector<Tube::Ring>;
 
 Rings Scaled(Rings rings, double by, double margin_cm = 0) {
@@ -52,7 +52,7 @@ Rings Scaled(Rings rings, double by, double margin_cm = 0) {
   return rings;
 }
 
-// Returns the rings up to `end_cm`, with a last ring interpolated there.
+// Returns the rings up to `end_cm`; the last ring is interpolated at `end_cm`.
 Rings CutOff(const Rings& rings, double end_cm) {
   Rings cut;
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -102,7 +102,7 @@ Tube LegTube(Rings rings, double first_cap, double last_cap) {
 
 void AddHead(const Girth& girth, bool long_hair, const BodyPose& rest, DressedPieces& pieces) {
   const double g = girth.head;
-  // Skull, neck, nose and eyes.
+  // Make skull, neck, nose and eyes.
   const Tube skull{.name = "skull",
                    .chain = {kHead},
                    .rings = Scaled({{-10, 4, 4.6, 2.4},
@@ -136,7 +136,7 @@ void AddHead(const Girth& girth, bool long_hair, const BodyPose& rest, DressedPi
                                       .half_cm = glm::dvec3(1.1, 0.8, 0.8) * g,
                                       .around = 8},
                                  rest));
-  // A cap of hair that leaves the face free: the lower its rings, the farther back they are.
+  // Make a cap of hair that leaves the face free: the lower a ring, the farther back it is.
   pieces.hair.push_back(MakePiece(Tube{.name = "hair",
                                        .chain = {kHead},
                                        .rings = Scaled({{-3, 6.6, 5.4, -4.6},
@@ -149,7 +149,7 @@ void AddHead(const Girth& girth, bool long_hair, const BodyPose& rest, DressedPi
                                        .last_cap_cm = 3,
                                        .around = 16},
                                   rest));
-  // Long hair: a flat tube behind the neck.
+  // Make long hair: a flat tube behind the neck.
   if (!long_hair) return;
   pieces.hair.push_back(MakePiece(Tube{.name = "long hair",
                                        .chain = {kHead},
@@ -166,7 +166,7 @@ void AddTrunk(const Girth& girth, const BodyPose& rest, DressedPieces& pieces) {
               {21, 14.8, 11.2, 0.4}, {31, 16.4, 11.8, 0.6}, {38, 17, 11.4, 0.2},
               {44, 15.6, 9.8, -0.2}, {48.5, 11, 7.4, -0.6}, {51, 7, 6, -0.8}};
   for (Tube::Ring& ring : rings) {
-    // The belly is widest below the middle; the shoulders' width follows their joints.
+    // The belly is widest below the middle; the width at the shoulders follows their joints.
     const double low = std::clamp((36 - ring.along_cm) / 24, 0.0, 1.0);
     ring.side_cm *= std::lerp(g, b, low);
     ring.front_cm *= std::lerp(g, b, low);
@@ -180,7 +180,7 @@ void AddTrunk(const Girth& girth, const BodyPose& rest, DressedPieces& pieces) {
                                       .last_cap_cm = 1.5,
                                       .around = 20},
                                  rest));
-  // Collars and shoulders.
+  // Make collars and shoulders.
   AddBoth(pieces.top, MakePiece(Tube{.name = "collar",
                                      .chain = {kShoulderCentre, kLeftShoulder},
                                      .rings = Scaled({{2, 5.4, 5.6}, {8, 5.8, 6}, {13, 5.6, 5.8}, {17, 5, 5.2}}, g),
@@ -209,19 +209,19 @@ void AddArms(const Girth& girth, double sleeve_cm, const BodyPose& rest, Dressed
                          .last_cap_cm = 3.5,
                          .around = 10},
                     rest));
-  // A sleeve of less than 4 cm is left out; the arm is then bare up to the shoulder.
+  // Leave out sleeves below 4 cm; the arm is then bare up to the shoulder.
   if (sleeve_cm < 4) return;
   const double loose = sleeve_cm < 40 ? 1.4 : 0.9;
   AddBoth(pieces.top, MakePiece(ArmTube(Scaled(CutOff(kArmRings, std::min(sleeve_cm, 55.0)), g, loose), 1, 0.2), rest));
 }
 
-/// Makes a skirt from the waist down around both legs; each side follows its leg.
+/// Makes a skirt around both legs, from the waist down. Each side follows its leg.
 Piece MakeSkirt(const Girth& girth, double length_cm, const BodyPose& rest) {
   Piece skirt;
   constexpr int kAround = 28, kRings = 7;
   const double waist = 15.4 * girth.belly, hem = waist + 5 + 0.16 * length_cm;
   const glm::dvec3 centre = rest[kHipCentre];
-  // A vertex follows the hips at the waist and a mix of both legs below.
+  // Add a vertex. It follows the hips at the waist, and a mix of both legs below.
   const auto add = [&](double down_cm, double side_cm, double front_cm, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     Piece::Vertex vertex;
@@ -235,7 +235,7 @@ Piece MakeSkirt(const Girth& girth, double length_cm, const BodyPose& rest) {
     }
     skirt.vertices.push_back(vertex);
   };
-  // Rings from the waist to the hem, between two poles.
+  // Make rings from the waist to the hem, between two poles.
   add(-7, 0, 0, 0);
   for (int ring = 0; ring < kRings; ++ring) {
     const double t = static_cast<double>(ring) / (kRings - 1), down = std::lerp(-6.0, length_cm, t);
@@ -270,7 +270,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
            .last_cap_cm = 1,
            .around = 16},
       rest));
-  // Shoes.
+  // Make the shoes.
   AddBoth(pieces.shoes, MakePiece(Blob{.name = "shoe",
                                        .joint = kLeftAnkle,
                                        .centre_cm = {1.3, -4, 6},
@@ -279,7 +279,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
                                        .sole_cm = 0,
                                        .around = 12},
                                   rest));
-  // Skirt or trousers, and the skin that they leave bare.
+  // Make a skirt or trousers, and the skin that they leave bare.
   const double leg_cm = outfit.is_skirt ? 0 : std::min(outfit.leg_cm, 83.0);
   if (leg_cm < 70) AddBoth(pieces.skin, MakePiece(LegTube(Scaled(kLegRings, g), 2, 1), rest));
   if (outfit.is_skirt) {
@@ -288,7 +288,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
   }
   const double loose = leg_cm < 50 ? 1.6 : 0.9;
   AddBoth(pieces.bottom, MakePiece(LegTube(Scaled(CutOff(kLegRings, leg_cm), g, loose), 3, 0.2), rest));
-  // A bare ankle is visible between hem and shoe.
+  // Add a bare ankle between hem and shoe.
   if (leg_cm >= 70) {
     AddBoth(pieces.skin, MakePiece(Blob{.name = "ankle",
                                         .joint = kLeftAnkle,
@@ -299,7 +299,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
   }
 }
 
-/// Makes all pieces. Sleeves and trousers are separate tubes over arms and legs that end at their hems.
+/// Makes all pieces. Sleeves and trousers are separate tubes over arms and legs, which end at the hems.
 DressedPieces MakeDressedPieces(const Outfit& outfit, const BodyPose& rest) {
   const Girth girth = GirthOf(outfit.build);
   DressedPieces pieces;
@@ -331,14 +331,14 @@ DressedPerson::DressedPerson(const Outfit& outfit) {
   all.push_back({"bottom", outfit.bottom, std::move(made.bottom)});
   all.push_back({"shoes", outfit.shoes, std::move(made.shoes)});
 
-  // Bind them to the skeleton, one mesh per paint.
+  // Bind the pieces to the skeleton, one mesh per paint.
   CharacterBuilder builder("dressed person", rest);
   for (const PaintedPieces& painted : all) {
     const int material = builder.AddMaterial(painted.name, painted.paint.first);
     for (const Piece& piece : painted.pieces) builder.Add(material, piece);
   }
   character_ = std::move(builder).Take();
-  // Prepare what does not depend on the pose.
+  // Prepare the data that do not depend on the pose.
   still_ = StillSurfaces(character_, PartsOfJoints(character_.skeleton));
   for (std::size_t i = 0; i < all.size(); ++i) {
     Surface& surface = still_[i];

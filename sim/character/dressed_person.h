@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// The build of a person: the body's shape around the joints, whose positions come from the clip.
+/// The build of a person: the shape around the joints. The positions of the joints come from the clip.
 enum class Build { kMedium, kSlim, kStout, kChild, kTall };
 
 /// The build, the colours and the clothes of one person.
@@ -18,26 +18,26 @@ struct Outfit {
   SurfacePaint skin, hair, top, bottom, shoes;
   double sleeve_cm = 24;  ///< length along the arm (30 + 25 to the wrist)
   double leg_cm = 78;     ///< length of the trousers along the leg (42 + 42 to the ankle)
-  bool is_skirt = false;  ///< instead of trousers
+  bool is_skirt = false;  ///< a skirt instead of trousers
   double skirt_cm = 40;   ///< from the hips down
   bool has_long_hair = false;
-  /// A suit from head to toe instead of all these: every part of the body in a plain colour.
+  /// If set, a suit from head to toe replaces all of these: every part of the body has one plain colour.
   std::optional<PartColours> suit = {};
 };
 
-/// A dressed person who can be drawn in any pose. Skin and clothes follow the joints; they are painted in the
-/// coordinates of the standing body, so patterns move with them.
+/// A dressed person who can be drawn in any pose. Skin and clothes follow the joints. Their patterns are defined on the
+/// standing body, and therefore move with the skin and the clothes.
 class DressedPerson {
  public:
   explicit DressedPerson(const Outfit& outfit);
 
-  /// Returns the figure in a pose, scaled to the body's proportions as PosedFigure does it. Its shadow is that of its
+  /// Returns the figure in a pose, scaled to the body's proportions (see PosedFigure). Its shadow is cast by its
   /// capsules.
   Figure At(const BodyPose& pose) const;
 
  private:
   Character character_;
-  std::vector<Surface> still_;  ///< one per mesh: everything that does not depend on the pose
+  std::vector<Surface> still_;  ///< one per mesh, with all data that do not depend on the pose
 };
 
 }  // namespace etude

@@ -9,7 +9,7 @@ namespace {
 
 using enum Role;
 
-// Colours, sRGB: warm hues like the captured performer's, unlike the room's.
+// Colours in sRGB: warm hues like the captured performer's, but unlike the room's.
 constexpr Rgb8 kWood{208, 192, 170};
 constexpr Rgb8 kAccent{206, 92, 52};
 
@@ -33,7 +33,7 @@ const Tube kChest{.name = "chest",
                   .first_cap_cm = 2,
                   .last_cap_cm = 2,
                   .around = 16};
-/// The neck leans with the head about its base in the chest.
+/// The neck follows the head, which rotates about the base of the neck in the chest.
 const Tube kNeck{.name = "neck",
                  .chain = {kHead},
                  .rings = {{-22, 4.9, 4.9, -1}, {-12, 4.6, 4.6, -0.6}, {-6, 4.5, 4.5}},
@@ -57,7 +57,7 @@ const Blob kNosePiece{.name = "nose",
                  .half_cm = {1.2, 2.6, 1.6},
                  .tilt_deg = {-14, 0, 0},
                  .around = 8};
-/// Higher in front, so that the direction of the head is visible from afar.
+/// The headband is higher in front, which makes the direction of the head visible from afar.
 const Tube kBand{.name = "headband",
                  .chain = {kHead},
                  .rings = {{5, 8.25, 10.1, -0.1}, {8, 7.85, 9.7, -0.4}},
@@ -65,8 +65,8 @@ const Tube kBand{.name = "headband",
                  .last_cap_cm = 0.3,
                  .around = 16};
 
-/// Turned pieces: each is rigid, moves with the joint at its start, and is thick in the middle and thin at its ends.
-/// Only the collar is blended at its end, because shoulders rise with the arms.
+/// The limbs, made as if turned on a lathe: each is rigid, moves with the joint at its start, and is thick in the
+/// middle and thin at its ends. Only the collar is blended at its end, because shoulders rise with the arms.
 const std::array kLimbs = {
     Tube{.name = "collar",
          .chain = {kShoulderCentre, kLeftShoulder},

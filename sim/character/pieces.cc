@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kMetresPerCm = 0.01;
 
-/// Connects rings of `around` vertices each to a closed surface. The vertices are: first pole, rings, last pole. Seen
-/// from the last pole, the rings run counter-clockwise.
+/// Connects rings of `around` vertices each to a closed surface. The vertices must be in this order: first pole, rings,
+/// last pole. Seen from the last pole, rings must run counter-clockwise.
 void CloseRings(Piece& piece, int around) {
   const auto n = static_cast<std::uint32_t>(around);
   const auto last_pole = static_cast<std::uint32_t>(piece.vertices.size() - 1);
@@ -47,7 +47,7 @@ class TubeShape {
     }
   }
 
-  /// Returns the ring interpolated at `along_cm`, clamped to the tube.
+  /// Returns the ring interpolated at `along_cm`, which is clamped to the tube.
   Tube::Ring RingAt(double along_cm) const {
     std::size_t i = 0;
     while (i + 2 < tube_.rings.size() && tube_.rings[i + 1].along_cm < along_cm) ++i;
@@ -57,13 +57,14 @@ class TubeShape {
             std::lerp(a.front_cm, b.front_cm, t), std::lerp(a.ahead_cm, b.ahead_cm, t)};
   }
 
-  /// Returns the vertex of a ring at `angle` (0 = left, π/2 = front), `lift` metres above the skin, with its weights.
+  /// Returns the vertex of a ring at `angle` (0 = left, π/2 = front), `lift` metres above the skin, with its joint
+  /// weights.
   Piece::Vertex VertexAt(const Tube::Ring& ring, double angle, double lift = 0) const {
     const double along = ring.along_cm * kMetresPerCm;
     const auto [centre, direction] = PathAt(along);
     const glm::dvec3 forward(0, 0, 1);
     const glm::dvec3 front = glm::normalize(forward - glm::dot(forward, direction) * direction);
-    // Left must be the same for ascending and descending chains.
+    // Left must be the same direction for ascending and descending chains.
     const glm::dvec3 side = glm::cross(direction, front) * (direction.y < 0 ? -1.0 : 1.0);
     const double c = std::cos(angle), s = std::sin(angle);
     glm::dvec3 position =
@@ -103,8 +104,8 @@ class TubeShape {
   std::vector<double> starts_;
 };
 
-/// Makes half an ellipsoid at the end of a tube: shrinking rings from the tube outwards, then the pole. `out` is −1
-/// before the first ring and 1 behind the last.
+/// Makes half an ellipsoid at the end of a tube: rings that shrink from the tube outwards, then the pole. `out` is −1
+/// at the tube's first ring and 1 at its last ring.
 std::vector<Tube::Ring> Cap(const Tube::Ring& end, double length_cm, double out) {
   constexpr int kRings = 3;
   std::vector<Tube::Ring> cap;
@@ -147,7 +148,7 @@ Piece MirrorImage(const Piece& piece) {
 
 Piece MakePiece(const Blob& blob, const BodyPose& rest) {
   Piece piece;
-  // A vertex of the tilted ellipsoid at a latitude and longitude; the sole is cut flat.
+  // Add a vertex of the tilted ellipsoid at a latitude and longitude. The sole is cut flat.
   const glm::dmat3 tilt =
       RotationZ(Radians(blob.tilt_deg.z)) * RotationY(Radians(blob.tilt_deg.y)) * RotationX(Radians(blob.tilt_deg.x));
   const glm::dvec3 centre = rest[blob.joint] + blob.centre_cm * kMetresPerCm;
@@ -158,11 +159,11 @@ Piece MakePiece(const Blob& blob, const BodyPose& rest) {
     position.y = std::max(position.y, blob.sole_cm * kMetresPerCm);
     piece.vertices.push_back({.position = position, .joints = {blob.joint, blob.joint}});
   };
-  // Poles and rings.
+  // Make poles and rings.
   const int steps = blob.around / 2;
   add(-kPi / 2, 0);
   for (int ring = 1; ring < steps; ++ring) {
-    // The angle decreases, so that the ring runs counter-clockwise seen from the upper pole.
+    // Decrease the angle: the ring must run counter-clockwise as seen from the upper pole.
     for (int i = 0; i < blob.around; ++i) add(kPi * ring / steps - kPi / 2, -CornerAngle(i, blob.around));
   }
   add(kPi / 2, 0);
@@ -192,7 +193,7 @@ Piece MakePiece(const Tube& tube, const BodyPose& rest) {
 
 Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest) {
   constexpr int kRings = 5, kAround = 20;
-  // A vertex of the sheet at a radius (1 = edge) and angle around its centre.
+  // Add a vertex of the sheet at a radius (1 = edge) and an angle around the sheet's centre.
   const TubeShape shape(tube, rest);
   Piece piece;
   const auto add = [&](double radius, double angle, double lift_cm) {
@@ -200,10 +201,10 @@ Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest) {
     const double round = kPi / 2 - Radians(patch.half_angle_deg) * radius * std::cos(angle);
     piece.vertices.push_back(shape.VertexAt(ring, round, lift_cm * kMetresPerCm));
   };
-  // Rings from the centre to the edge.
+  // Make rings from the centre to the edge.
   add(0, 0, patch.lift_cm);
   for (int ring = 1; ring <= kRings; ++ring) {
-    // Inner rings are level; the edge goes down through the tube's skin.
+    // Inner rings are level; the edge goes down into the tube.
     const bool edge = ring == kRings;
     const double radius = edge ? 1 : 0.97 * ring / (kRings - 1);
     for (int i = 0; i < kAround; ++i) {
@@ -211,7 +212,7 @@ Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest) {
     }
   }
   add(0, 0, -2 * patch.lift_cm);  // the centre of the back, hidden in the tube
-  // Connect the rings on the front, and the edge with the back.
+  // Connect the rings on the front; connect the edge with the back.
   const auto back = static_cast<std::uint32_t>(piece.vertices.size() - 1);
   const auto at = [&](int ring, int i) { return static_cast<std::uint32_t>(1 + (ring - 1) * kAround + i % kAround); };
   for (int i = 0; i < kAround; ++i) {
@@ -229,7 +230,7 @@ Piece MakePiece(const Rope& rope, const BodyPose& rest) {
   constexpr int kAround = 6;
   Piece piece;
   const auto& points = rope.points_cm;
-  // One ring of corners per point, between two poles.
+  // Make one ring of corners per point, between two poles.
   const auto add = [&](const glm::dvec3& from_joint_cm) {
     piece.vertices.push_back(
         {.position = rest[rope.joint] + from_joint_cm * kMetresPerCm, .joints = {rope.joint, rope.joint}});
@@ -259,7 +260,7 @@ CharacterBuilder::CharacterBuilder(std::string name, const BodyPose& rest) : res
 int CharacterBuilder::AddMaterial(std::string name, Rgb8 colour) {
   const int material = static_cast<int>(character_.materials.size());
   SkinnedMesh mesh{.name = name, .material = material, .bindings = {}, .vertices = {}, .triangles = {}};
-  // Bindings have the roles' indices; at rest all joints have the world's axes.
+  // Bindings have the indices of the roles; at rest, all joints have the world's axes.
   for (const Role role : AllRoles()) {
     glm::dmat4 inverse_bind(1);
     inverse_bind[3] = glm::dvec4(-rest_[role], 1);

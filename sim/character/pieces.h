@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// A piece of a character: a surface on the body at rest (metres) and the joints that move it.
+/// A piece of a character: a surface on the body at rest (metres), and the joints that move it.
 struct Piece {
   struct Vertex {
     glm::dvec3 position{0};
@@ -27,21 +27,21 @@ struct Piece {
 /// Returns the mirror image of a piece for the body's other side.
 Piece MirrorImage(const Piece& piece);
 
-/// An ellipsoid that moves with one joint. Lengths are in centimetres; the axes are those of the body at rest: left,
-/// up, forward.
+/// An ellipsoid that moves with one joint. Lengths are in centimetres; axes belong to the body at rest: left, up,
+/// forward.
 struct Blob {
   std::string name;
   Role joint;
   glm::dvec3 centre_cm;    ///< relative to the joint
   glm::dvec3 half_cm;      ///< half sizes along the three axes, before the tilt
   glm::dvec3 tilt_deg{0};  ///< about left, then up, then forward
-  /// The minimum height above the floor, for a foot's flat sole.
+  /// The minimum height of vertices above the floor: it gives a foot a flat sole.
   double sole_cm = -std::numeric_limits<double>::infinity();
   int around = 16;  ///< number of corners of the equator; half as many rings from pole to pole
 };
 Piece MakePiece(const Blob& blob, const BodyPose& rest);
 
-/// A tube along a chain of joints with round ends; lengths in centimetres. Every section moves with the joint at its
+/// A tube with round ends along a chain of joints; lengths in centimetres. Every section moves with the joint at its
 /// start; around the joints between sections, the skin is blended.
 struct Tube {
   struct Ring {
@@ -51,7 +51,7 @@ struct Tube {
     double ahead_cm = 0;  ///< forward offset from the chain
   };
   std::string name;
-  std::vector<Role> chain;  ///< a single joint means straight up from there
+  std::vector<Role> chain;  ///< a single joint: the tube goes straight up from it
   std::vector<Ring> rings;  ///< in order
   double blend_cm = 0;      ///< half the length over which the skin is blended between two joints
   double first_cap_cm = 0;  ///< lengths of the round ends beyond the first and last ring
@@ -60,7 +60,7 @@ struct Tube {
 };
 Piece MakePiece(const Tube& tube, const BodyPose& rest);
 
-/// A thin oval sheet on the front of a tube. Its edge lies inside the tube, and it moves with the tube's skin.
+/// A thin oval sheet on the front of a tube. Its edge lies inside the tube, and the sheet moves with the tube's skin.
 struct Patch {
   std::string name;
   double along_cm;        ///< centre, along the tube
@@ -70,7 +70,7 @@ struct Patch {
 };
 Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest);
 
-/// A thin rope through points that moves with one joint; centimetres from the joint.
+/// A thin rope along points, which moves with one joint; centimetres from the joint.
 struct Rope {
   std::string name;
   Role joint;
@@ -79,17 +79,17 @@ struct Rope {
 };
 Piece MakePiece(const Rope& rope, const BodyPose& rest);
 
-/// Combines pieces to a character bound to BodySkeleton(rest): one mesh per material, with normals smoothed within each
-/// piece.
+/// Combines pieces into a character bound to BodySkeleton(rest): one mesh per material. Normals are smoothed within
+/// each piece.
 class CharacterBuilder {
  public:
   CharacterBuilder(std::string name, const BodyPose& rest);
 
   /// Adds a material with a colour in sRGB; returns its index for `Add`.
   int AddMaterial(std::string name, Rgb8 colour);
-  /// Adds a piece of the material with that index.
+  /// Adds a piece; `material` is an index from AddMaterial.
   void Add(int material, const Piece& piece);
-  /// Adds a piece and its mirror image on the other side.
+  /// Adds a piece, and its mirror image on the other side.
   void AddOnBothSides(int material, const Piece& piece);
 
   Character Take() && { return std::move(character_); }

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-// The part that each role's joint moves, in the roles' order: the limb that begins at the joint.
+// The part that the joint of each role moves, in the roles' order: the limb that begins at the joint.
 constexpr std::array<Part, kRoleCount> kPartOfRole = {
     Part::kTrunk,       Part::kTrunk,      Part::kTrunk,      Part::kHead,          Part::kLeftUpperArm,
     Part::kLeftForearm, Part::kLeftHand,   Part::kLeftHand,   Part::kRightUpperArm, Part::kRightForearm,
@@ -33,7 +33,7 @@ std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
 }
 
 // Returns the scale of the part at a role's joint relative to the standing body: width, length, depth. Limbs keep their
-// shape; hips and chest have the width of their joints, independent of the spine's length.
+// shape. The width of hips and chest follows the distance of their joints, independently of the spine's length.
 glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   static const BodyPose standing = StandingPose();
   const auto ratio = [&](Role a, Role b) {
@@ -51,7 +51,7 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   for (const Role end : AllRoles()) {
     if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
   }
-  // Files differ in where the head joint lies, so only the square root of that ratio counts as size.
+  // The position of the head joint differs between files, so only the square root of that ratio counts as size.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }
 
@@ -75,11 +75,12 @@ std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map) {
   MaybeParts known(skeleton.joints.size());
   const auto part_of = [&known](int joint) -> std::optional<Part>& { return known[static_cast<std::size_t>(joint)]; };
   for (const Role role : AllRoles()) {
-    // If several roles share a joint, the first one is the role that the joint moves. The head joint may be a tip, so
-    // heads are found below.
+    // If several roles share a joint, the joint moves the part of the first of these roles. The head joint may be a
+    // tip, so heads are found below.
     if (role != Role::kHead && !part_of(map[role].joint)) part_of(map[role].joint) = kPartOfRole[Index(role)];
   }
-  // Mark everything from the head down to the neck; the neck ends at the ancestor that carries the shoulders.
+  // Assign to the head all joints from the head down to the neck, which ends at the ancestor that carries the
+  // shoulders.
   std::vector<bool> carries_shoulder(known.size());
   for (int joint = map[Role::kLeftShoulder].joint; joint >= 0; joint = skeleton.joints[joint].parent) {
     carries_shoulder[static_cast<std::size_t>(joint)] = true;
@@ -95,7 +96,7 @@ std::vector<Part> PartsOfTriangles(const std::vector<Part>& parts_of_joints, con
   std::vector<Part> parts;
   parts.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
-    // Sum the weights of every part over the triangle's corners.
+    // Sum up the weights of every part over the triangle's corners.
     std::array<double, std::tuple_size_v<PartColours>> share{};
     for (const std::uint32_t corner : triangle) {
       const SkinnedMesh::Vertex& vertex = mesh.vertices[corner];

@@ -21,7 +21,7 @@ struct LegJoints {
   glm::dvec3 hip, knee, ankle, toe;
 };
 
-/// The largest share of a straight leg's length that a leg may reach, so that knees never lock or snap.
+/// The largest share of a leg's length that hip and ankle may be apart; below 1, knees neither lock nor snap.
 constexpr double kReach = 0.998;
 
 double LegLength(const BodyDimensions& body) { return body.thigh + body.shank; }
@@ -35,7 +35,7 @@ struct FootGoal {
 
 double Outward(Side side) { return side == Side::kLeft ? 1 : -1; }
 
-/// Returns the foot on its spot, with the heel raised about the toe tip.
+/// Returns the target of a standing foot: on its spot, with the heel raised about the toe tip.
 FootGoal StandingGoal(const Controls& controls, const BodyDimensions& body, Side side) {
   const double out = Outward(side);
   const double heel = controls.Of(side, kFootHeel);
@@ -49,7 +49,7 @@ FootGoal StandingGoal(const Controls& controls, const BodyDimensions& body, Side
   return {toe - to_toe, to_toe, heading * glm::dvec3(0, 0, 1)};
 }
 
-/// Returns the foot at the end of a free leg, by forward kinematics of its angles.
+/// Returns the position of a free leg's foot, by forward kinematics of the leg's angles.
 FootGoal FreeGoal(const Controls& controls, const BodyDimensions& body, Side side, const glm::dmat3& pelvis,
                   const glm::dvec3& hip) {
   const double out = Outward(side);
@@ -62,10 +62,11 @@ FootGoal FreeGoal(const Controls& controls, const BodyDimensions& body, Side sid
           foot * glm::dvec3(0, body.toe_height - body.ankle_height, body.foot_reach), thigh[2]};
 }
 
-/// Solves two-bone inverse kinematics: moves the ankle into reach, and returns the knee on the side of `knee_forward`.
+/// Solves two-bone inverse kinematics: moves the ankle within reach, and returns the knee on the side of
+/// `knee_forward`.
 glm::dvec3 SolveKnee(const BodyDimensions& body, const glm::dvec3& hip, glm::dvec3& ankle,
                      const glm::dvec3& knee_forward) {
-  // Clamp the distance from hip to ankle to what the leg can reach.
+  // Clamp the distance from hip to ankle to the leg's reach.
   const double shortest = std::abs(body.thigh - body.shank) + 0.05;
   const glm::dvec3 line = ankle - hip;
   const double length = glm::length(line);
@@ -85,14 +86,14 @@ glm::dvec3 SolveKnee(const BodyDimensions& body, const glm::dvec3& hip, glm::dve
 
 double Freedom(const Controls& controls, Side side) { return std::clamp(controls.Of(side, kLegFree), 0.0, 1.0); }
 
-/// Places the leg below `hip`; the lengths in `controls` are already scaled to this body. A standing foot is on its
-/// spot wherever the hips are; a free leg follows its angles in the pelvis' frame; between the two, the ankle is
-/// interpolated. If the spot is out of reach, the leg stretches towards it.
+/// Places the leg below `hip`. Lengths in `controls` must already be scaled to this body. A standing foot is on its
+/// spot wherever the hips are; a free leg follows its angles in the frame of the pelvis; between these cases, the ankle
+/// is interpolated. If the spot is out of reach, the leg stretches towards it.
 LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side side, const glm::dmat3& pelvis,
                    const glm::dvec3& hip) {
   const double free = Freedom(controls, side);
   const FootGoal standing = StandingGoal(controls, body, side), swinging = FreeGoal(controls, body, side, pelvis, hip);
-  // The foot rises before it moves sideways, so that it does not brush along the floor.
+  // Let the foot rise before it moves sideways; it must not brush along the floor.
   const double travelled = free * free;
   glm::dvec3 ankle = glm::mix(standing.ankle, swinging.ankle, glm::dvec3(travelled, free, travelled));
   glm::dvec3 to_toe = glm::mix(standing.to_toe, swinging.to_toe, travelled);
@@ -105,14 +106,14 @@ LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side si
   return {hip, knee, ankle, ankle + to_toe};
 }
 
-/// Returns the greatest height of the hip at which the nearly straight standing leg still reaches its spot. The limit
-/// rises as the leg becomes free. Only x and z of `hip` are used.
+/// Returns the greatest hip height at which the nearly straight standing leg still reaches its spot. The limit rises as
+/// the leg becomes free. Only x and z of `hip` are used.
 double HighestHip(const Controls& controls, const BodyDimensions& body, Side side, const glm::dvec3& hip) {
   const glm::dvec3 ankle = StandingGoal(controls, body, side).ankle;
   const double sideways = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
   const double reach = kReach * LegLength(body);
   const double height = std::sqrt(std::max(0.0, reach * reach - sideways * sideways));
-  // One metre is longer than any leg, so a free leg does not limit the hips.
+  // Add up to one metre, more than any leg's length: a free leg must not limit the hips.
   return ankle.y + height + Freedom(controls, side);
 }
 
@@ -133,9 +134,9 @@ LegRoles LegOf(Side side) {
   return {kRightHip, kRightKnee, kRightAnkle, kRightFoot};
 }
 
-/// Places the trunk and the neck upward from the hip centre; returns the chest's orientation.
+/// Places trunk and neck upward from the hip centre; returns the chest's orientation.
 glm::dmat3 PlaceTrunk(const Controls& controls, const BodyDimensions& body, const glm::dmat3& pelvis, BodyPose& pose) {
-  // The lower spine takes a part of every bend, because a back bends as an arc and not at a hinge.
+  // Apply a part of every bend to the lower spine, because a back bends along an arc.
   constexpr double kLowerShare = 0.55;
   const auto bent = [&](double share) {
     return pelvis *
@@ -145,7 +146,7 @@ glm::dmat3 PlaceTrunk(const Controls& controls, const BodyDimensions& body, cons
   pose[kSpine] = pose[kHipCentre] + bent(kLowerShare) * glm::dvec3(0, body.spine, 0);
   pose[kShoulderCentre] = pose[kSpine] + chest * glm::dvec3(0, body.chest, 0);
 
-  // Dancers look at the audience, so the neck compensates most of the body's turn.
+  // Dancers look at the audience: let the neck compensate most of the body's turn.
   constexpr double kGazeShare = 0.7;
   const double gaze = -kGazeShare * (controls[kHipsTurn] + controls[kTrunkTurn]);
   const glm::dmat3 neck = chest * TurnSideBend(controls[kNeckTurn] + gaze, controls[kNeckSide], controls[kNeckBend]);
@@ -160,14 +161,14 @@ void PlaceArm(const Controls& controls, const BodyDimensions& body, Side side, c
                            RotationY(out * controls.Of(side, kArmTwist));
   const glm::dvec3 down(0, -1, 0);
 
-  // The shoulder blade follows a raised arm: above 60 degrees the shoulder itself rises.
+  // Let the shoulder blade follow a raised arm: above 60 degrees the shoulder rises.
   constexpr double kFullRise = Radians(24);
   const double raise = AngleBetween(upper * down, down);
   const double rise = kFullRise * Smoothstep(Radians(60), Radians(175), raise);
   const glm::dvec3 shoulder =
       RotationZ(out * rise) * glm::dvec3(out * body.shoulder_half_width, -body.shoulder_fall, 0);
 
-  // Chain upper arm, forearm and hand from the shoulder.
+  // Chain upper arm, forearm and hand from the shoulder outwards.
   const ArmRoles roles = ArmOf(side);
   const glm::dmat3 forearm = upper * RotationX(-controls.Of(side, kElbow));
   const glm::dmat3 hand = forearm * RotationX(-controls.Of(side, kWrist));
@@ -181,13 +182,14 @@ glm::dvec3 HipOffset(const BodyDimensions& body, Side side, const glm::dmat3& pe
   return pelvis * glm::dvec3(side == Side::kLeft ? body.hip_half_width : -body.hip_half_width, 0, 0);
 }
 
-/// Returns a smooth minimum of both; it differs from the exact minimum only where they are within some millimetres.
+/// Returns a smooth minimum of both values. It differs from the exact minimum only if the values are within some
+/// millimetres of each other.
 double SmoothMin(double a, double b) {
   constexpr double kEase = 0.004;
   return 0.5 * (a + b - std::hypot(a - b, kEase));
 }
 
-/// Places the hips where the choreography puts them, lowered until the standing legs reach their spots.
+/// Places the hips where the controls put them, but lowers them until the standing legs reach their spots.
 glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const glm::dmat3& pelvis) {
   const glm::dvec3 wanted(controls[kHipsSide], body.HipHeight() - controls[kHipsDrop] + controls[kJump],
                           controls[kHipsAhead]);
@@ -198,7 +200,7 @@ glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const
   return {wanted.x, SmoothMin(wanted.y, SmoothMin(limit(Side::kLeft), limit(Side::kRight))), wanted.z};
 }
 
-/// Returns the controls with lengths scaled in proportion to the body's legs.
+/// Returns the controls; their lengths are scaled by the ratio of this body's leg length to the canonical one's.
 Controls InProportion(const Controls& controls, const BodyDimensions& body) {
   constexpr std::array kMiddle = {kHipsSide, kHipsAhead, kHipsDrop, kJump};
   constexpr std::array kOfASide = {kFootSide, kFootAhead, kFootLift};

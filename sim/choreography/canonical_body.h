@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// The proportions of the body that performs the built-in moves, metres: an adult of 1.70 m with the segment lengths of
-/// Drillis and Contini (1966).
+/// The proportions of the body that performs the built-in moves, metres. It is an adult of 1.70 m with the segment
+/// lengths of Drillis and Contini (1966).
 struct CanonicalBody {
   static constexpr double kHipHalfWidth = 0.09;
   static constexpr double kThigh = 0.4165;
@@ -24,14 +24,14 @@ struct CanonicalBody {
   static constexpr double kUpperArm = 0.30;
   static constexpr double kForearm = 0.25;
   static constexpr double kHand = 0.18;
-  /// Height of the hip centre above the floor on straight legs.
+  /// The height of the hip centre above the floor, with straight legs.
   static constexpr double kHipHeight = kThigh + kShank + kAnkleHeight;
   /// The home spots of the feet: half the distance between them, and the outward angle of the toes, radians.
   static constexpr double kHomeHalfWidth = 0.12;
   static constexpr double kHomeToeOut = 0.2;
 };
 
-/// The sizes of one body, metres, equal on both sides. The defaults are those of the canonical body.
+/// The sizes of a body, metres, equal on both sides. The defaults belong to the canonical body.
 struct BodyDimensions {
   double hip_half_width = CanonicalBody::kHipHalfWidth;
   double thigh = CanonicalBody::kThigh;
@@ -49,26 +49,26 @@ struct BodyDimensions {
   double hand = CanonicalBody::kHand;
   double home_half_width = CanonicalBody::kHomeHalfWidth;
 
-  /// Returns the height of the hip centre above the floor on straight legs, metres.
+  /// Returns the height of the hip centre above the floor, with straight legs, metres.
   double HipHeight() const { return thigh + shank + ankle_height; }
 };
 
-/// Computes the twenty joints of a body on a floor at y = 0 that faces +Z; the home spots of the feet are left and
-/// right of the origin. Legs that are not free reach for their spot by two-bone inverse kinematics, so a standing foot
+/// Computes the twenty joints of a body that faces +Z on a floor at y = 0. The home spots of the feet are left and
+/// right of the origin. Legs that are not free reach for their spots by two-bone inverse kinematics, so a standing foot
 /// cannot slide; the hips sink until the standing legs reach their spots. The limb lengths are those of `body` in every
-/// pose. Angles are used unchanged; lengths (of hips, feet and jumps) are scaled in proportion to the legs, so a child
+/// pose. Angles in `controls` are used unchanged. Lengths (of hips, feet and jumps) are scaled with the legs: a child
 /// takes a child's steps.
 BodyPose PoseOf(const Controls& controls, const BodyDimensions& body = {});
 
-/// Returns the ready stance near which every move starts and ends: feet on their home spots, knees soft, arms hanging
+/// Returns the ready stance, near which every move starts and ends: feet on their home spots, knees soft, arms hanging
 /// loosely. Controls that a choreography file does not name have the values of this stance.
 Controls ReadyStance();
 
-/// Returns the canonical body at rest with straight legs and hanging arms: the pose for calibrating, fitting and
-/// comparing bodies.
+/// Returns the canonical body at rest with straight legs and hanging arms. Bodies are calibrated, fitted and compared
+/// in this pose.
 BodyPose StandingPose();
 
-/// Hip height of the body that performs a scenario's clips, metres: `StandingPose` is scaled to it.
+/// The hip height of the body that performs a scenario's clips, metres. `StandingPose` is scaled to this height.
 inline constexpr double kScenarioHipHeight = 0.90;
 
 }  // namespace etude

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// The controls of the middle of the body. A positive bend is forward; a positive side or turn is to the person's own
+/// The controls of trunk, hips and head. A positive bend is forward; a positive side or turn is to the person's own
 /// left.
 enum class MiddleControl {
   kHipsSide,   ///< metres to the left of the point midway between the feet's home spots
@@ -27,8 +27,8 @@ enum class MiddleControl {
 };
 constexpr std::size_t kMiddleControlCount = 12;
 
-/// The controls of one arm and leg. Positive is forward or outward from the body on both sides, so the mirror image of
-/// a pose exchanges the sides and changes no sign.
+/// The controls of one arm and one leg. On both sides, positive is forward or outward from the body. To mirror a pose,
+/// exchange the sides; no sign changes.
 enum class SideControl {
   kArmForward,  ///< raises the arm in the sagittal plane; 0 = hanging
   kArmSide,     ///< away from the sagittal plane, applied first: (0, 90) is a T pose, and so is (90, 90)
@@ -50,8 +50,9 @@ enum class SideControl {
 constexpr std::size_t kSideControlCount = 16;
 constexpr std::size_t kControlCount = kMiddleControlCount + 2 * kSideControlCount;
 
-/// A body's configuration in a choreographer's terms. Key poses are written in these controls; poses are interpolated,
-/// scaled and mirrored in them. Angles in radians, lengths in metres; `PoseOf` converts them to joints.
+/// A body's configuration in a choreographer's terms. Key poses are written in these controls, and poses are
+/// interpolated, scaled and mirrored in them. Angles are in radians, lengths in metres. `PoseOf` converts controls to
+/// joints.
 struct Controls {
   std::array<double, kControlCount> values{};
 
@@ -71,8 +72,8 @@ struct ControlName {
   std::string_view key;    ///< key within the group's mapping; empty if the group itself is a number
   double per_unit;         ///< radians per degree, or metres per centimetre
 };
-/// Returns the names of all controls in the order of the enums. `kLegFree` has no name: a file frees a leg by giving
-/// its angles.
+/// Returns the names of all controls in the order of the enums. `kLegFree` has no name: a file that gives angles of a
+/// leg makes the leg free.
 std::span<const ControlName, kMiddleControlCount> MiddleControlNames();
 std::span<const ControlName, kSideControlCount> SideControlNames();
 
@@ -82,8 +83,8 @@ Controls Mirrored(const Controls& controls);
 Controls Sum(const Controls& a, const Controls& b);
 /// Returns (1 − share) · from + share · to.
 Controls Mix(const Controls& from, const Controls& to, double share);
-/// Returns controls whose distance from `centre` is scaled by `factor`. kLegFree is not scaled, so a smaller kick still
-/// leaves the floor.
+/// Returns `controls` with their distance from `centre` scaled by `factor`. kLegFree is not scaled: a smaller kick must
+/// still leave the floor.
 Controls Exaggerated(const Controls& controls, const Controls& centre, double factor);
 
 }  // namespace etude

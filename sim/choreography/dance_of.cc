@@ -19,17 +19,18 @@
 namespace etude {
 namespace {
 
-/// The word for a feature's values up to `up_to` degrees (Posture: on its own scale).
+/// A word for the values of a feature up to `up_to` degrees (Posture: on its own scale).
 struct Word {
   double up_to;
   std::string_view word;
 };
 constexpr double kAny = 1e9;
 
-/// The words for one feature, and the part of the body that it describes. An empty word is left out of the hint.
+/// The words for one feature, and the part of the body that the feature describes. Features with an empty word are left
+/// out of the hint.
 struct Vocabulary {
-  std::string_view feature;  ///< without R or L
-  std::string_view part;     ///< of the body, without its side
+  std::string_view feature;  ///< without the prefix R or L
+  std::string_view part;     ///< the part of the body, without its side
   std::vector<Word> words;
 };
 const std::vector<Vocabulary>& Vocabularies() {
@@ -53,7 +54,7 @@ std::optional<double> DegreesOf(const KeyPose& pose, const std::string& feature)
   return found != pose.targets.end() ? std::optional(found->degrees) : std::nullopt;
 }
 
-/// Describes the two sides of one part; "both …s" if their words are equal.
+/// Describes the two sides of one part; as "both …s" if their words are equal.
 void SayLimb(const KeyPose& pose, const Vocabulary& vocabulary, std::vector<std::string>& said) {
   const auto word_of = [&](const char* side) {
     const auto degrees = DegreesOf(pose, side + std::string(vocabulary.feature));
@@ -112,7 +113,7 @@ std::vector<double> BeatsOf(const Song& song) {
 constexpr double kMinBeatSeconds = 0.2, kMaxBeatSeconds = 3;
 constexpr std::size_t kMinBeats = 8, kMaxBeats = 10000;
 
-/// Returns the number that is a line's first word.
+/// Returns the number in a line's first word; nullopt if that is not a number.
 std::optional<double> NumberAtFront(std::string_view line) {
   return ParseFinite(line.substr(0, line.find_first_of(" \t\r,;")));
 }
@@ -157,8 +158,8 @@ Result<Dance> DanceOf(const Song& song) {
               .acts = {},
               .beats_s = BeatsOf(song)};
   std::map<std::string, int> indices;
-  std::vector<int> moves;  // the move of each repetition
-  // Collect each move once, in the order of its first turn.
+  std::vector<int> moves;  // the index of the move of each repetition
+  // Collect each move once, in the order of first appearance.
   for (const SongPart& part : song.parts) {
     if (!indices.contains(part.move)) {
       indices[part.move] = static_cast<int>(dance.moves.size());
@@ -167,7 +168,7 @@ Result<Dance> DanceOf(const Song& song) {
     }
     moves.insert(moves.end(), part.times, indices[part.move]);
   }
-  // Every repetition begins at its tag and ends where the next one begins.
+  // Every repetition begins at its tag and ends at the next tag.
   const SongPart& last = song.parts.back();
   const double end_s = (last.start_beat + last.beats) * 60 / song.tempo_bpm;
   for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -190,7 +191,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     const std::string_view line = Trimmed(TakeLine(text));
     ++number;
     if (line.empty() || line.front() == '#') continue;
-    // Read its time, and check it against the beat before.
+    // Read its time, and compare it with the previous beat.
     const auto moment = NumberAtFront(line);
     if (!moment) return Fail({file, number, 1}, "a beat is a number of seconds, found {}", Quote(line.substr(0, 40)));
     if (*moment < 0) return Fail({file, number, 1}, "a beat at {} s; allowed: 0 or later", *moment);
@@ -209,7 +210,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
 double TempoOf(const std::vector<double>& beats_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < beats_s.size(); ++i) steps.push_back(beats_s[i] - beats_s[i - 1]);
-  // The tempo is rounded to 0.01, so that a file's last digits do not make it too fast for a move.
+  // Round the tempo to 0.01: a file's last digits must not make it too fast for a move.
   return std::round(6000 / UpperMedian(std::move(steps))) / 100;
 }
 
@@ -225,7 +226,7 @@ Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {
 }
 
 TaughtMove TaughtOf(const Move& move) {
-  constexpr double kExtraSeconds = 0.5;  // seconds allowed beyond one performance at the taught tempo
+  constexpr double kExtraSeconds = 0.5;  // time allowed beyond one performance at the taught tempo
   TaughtMove taught{.name = move.name,
                     .span_s = 60.0 * move.beats / move.tempo_bpm + kExtraSeconds,
                     .examples = {StreamOf(move.motion)}};

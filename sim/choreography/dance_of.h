@@ -11,20 +11,20 @@
 
 namespace etude {
 
-/// Makes the dance of a song in the form that a coach needs: with the acts, the hints, and slow demonstrations of the
-/// moves at half of their own tempo. The moves are in the order of their first turn.
+/// Makes the dance of a song in the form that a coach needs: with acts, hints, and slow demonstrations of the moves at
+/// half of their own tempo. The moves are in the order of first appearance.
 Result<Dance> DanceOf(const Song& song);
 
-/// Returns the moves of a song at its tempo, in the order of their first turn.
+/// Returns the moves of a song at the song's tempo, in the order of first appearance.
 Result<std::vector<Move>> MovesOf(const Song& song);
 
-/// Describes a move's key poses in words, with left and right as the person's own: "left arm up, right elbow bent". If
-/// both sides have the same description, it is said once: "both arms up".
+/// Describes a move's key poses in words. Left and right are the person's own: "left arm up, right elbow bent". If both
+/// sides have the same description, they are combined: "both arms up".
 std::string HintOf(const Move& move);
 
-/// Reads the times of the beats of a piece of music, seconds from its beginning. Each line begins with a number, as
-/// beat trackers and Audacity's label tracks write it; the rest of the line is ignored. Empty lines and lines that
-/// begin with '#' are skipped. Fails, with file and line, if a line does not begin with a number, the beats do not
+/// Reads the times of the beats of a piece of music, seconds from its beginning. Each line begins with a number, as in
+/// the output of beat trackers and in Audacity's label tracks; the rest of the line is ignored. Empty lines and lines
+/// that begin with '#' are skipped. Fails, with file and line, if a line does not begin with a number, the beats do not
 /// ascend, two neighbours are less than 0.2 s or more than 3 s apart, or there are fewer than 8 or more than 10,000
 /// beats.
 Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& file);
@@ -32,11 +32,11 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
 /// Returns the tempo of at least two beats: 60 s divided by their median interval, in beats a minute, rounded to 0.01.
 double TempoOf(const std::vector<double>& beats_s);
 
-/// Aligns the dance of a song with given beats: every music tag moves to the time at which its beat sounds,
-/// interpolated between beats. Fails if the dance takes more beats than there are.
+/// Aligns the dance of a song with given beats: every music tag moves to the time of its beat, interpolated between
+/// beats. Fails if the dance needs more beats than there are.
 Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s);
 
-/// Returns a move in the form in which recognisers are taught it: its key poses, and its motion as an example.
+/// Returns a move in the form in which recognisers are taught: its key poses, and its motion as an example.
 TaughtMove TaughtOf(const Move& move);
 
 }  // namespace etude

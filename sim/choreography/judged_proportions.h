@@ -4,8 +4,8 @@
 
 namespace etude {
 
-/// Returns the proportions of the body that performs all clips when transitions are judged: its hips stand at 0.90 m
-/// (docs/reference/metrics.md).
+/// Returns the proportions of the body that performs all clips in the evaluation of transitions: its hips stand at 0.90
+/// m (docs/reference/metrics.md).
 BodyProportions JudgedProportions();
 
 }  // namespace etude

@@ -16,7 +16,7 @@
 namespace etude {
 namespace {
 
-/// The allowed range of a control: wider than any body's, but narrow enough to catch a typing error.
+/// The allowed range of a control: wider than for any body, but narrow enough to catch a typing error.
 constexpr Range kControlRange = {-200, 200};
 
 /// Reads the controls of one group of a pose ("left_arm") and passes each value to `set`.
@@ -77,7 +77,7 @@ Result<void> CheckList(const Node& list, std::string_view name) {
   return {};
 }
 
-/// Reads the pose's beat; it must be in [0, beats).
+/// Reads the beat of a pose; it must be in [0, beats).
 double ReadBeat(Fields& pose, double beats) {
   const auto beat = pose.OptionalNumber("beat", {0, beats});
   if (!beat && pose.ok()) pose.Complain(pose.node().place, "a pose needs a 'beat'");
@@ -112,9 +112,9 @@ KeyPose::Target ReadTarget(Fields& pose, const Node& node, std::string_view feat
   return target;
 }
 
-/// Reads the list `poses` of a choreography file. Each pose states how the body differs from the ready stance
-/// (controls.h names the groups; "arms", "legs", … set both sides) at a `beat` in [0, beats). `hold_beats` keeps the
-/// pose, and `ease` sets the timing towards it. Beats must ascend. At most 256 poses.
+/// Reads the list `poses` of a choreography file. Each pose states, at a `beat` in [0, beats), how the body differs
+/// from the ready stance (controls.h names the groups; "arms", "legs", … set both sides). `hold_beats` keeps the pose,
+/// and `ease` sets the timing towards the pose. Beats must ascend. At most 256 poses are allowed.
 Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
   RETURN_IF_ERROR(CheckList(poses, "poses"));
   std::vector<PoseKey> keys;
@@ -125,22 +125,22 @@ Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
     const double hold = pose.Number("hold_beats", 0, {0, beats});
     const Ease ease = ReadEase(pose);
     const Controls controls = ReadControls(pose);
-    // Check that it comes after the pose before and is held within the loop.
+    // Check that the pose comes after the previous pose and is held within the loop.
     if (!keys.empty() && beat <= keys.back().beat) {
       pose.Complain(item.place, fmt::format("beat {} does not come after the pose before it, which lasts to beat {}",
                                             beat, keys.back().beat));
     }
     if (beat + hold >= beats) pose.Complain(item.place, fmt::format("the pose is held beyond beat {}", beats));
     RETURN_IF_ERROR(pose.Finish());
-    // A held pose has two keys: at the start and at the end of its hold.
+    // Write two keys for a held pose: at the start and at the end of its hold.
     keys.push_back({beat, controls, ease});
     if (hold > 0) keys.push_back({beat + hold, controls});
   }
   return keys;
 }
 
-/// Reads the list `key_poses`: `{beat, tolerance_deg, <feature>: degrees, …}`. A feature may have its own tolerance:
-/// `RH: {degrees: 90, tolerance_deg: 10}`.
+/// Reads the list `key_poses`, with entries of the form `{beat, tolerance_deg, <feature>: degrees, …}`. A feature may
+/// have its own tolerance: `RH: {degrees: 90, tolerance_deg: 10}`.
 Result<std::vector<KeyPose>> ReadKeyPoses(const Node& key_poses, double beats) {
   RETURN_IF_ERROR(CheckList(key_poses, "key_poses"));
   std::vector<KeyPose> read;
@@ -161,7 +161,7 @@ Result<std::vector<KeyPose>> ReadKeyPoses(const Node& key_poses, double beats) {
 
 constexpr Range kTempoRange = {40, 240};
 
-/// Appends the mirror image of the first half as the second half.
+/// Appends the mirror image of the first half of the move as its second half.
 void AppendMirrorImage(std::vector<PoseKey>& keys, double half) {
   const std::size_t count = keys.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -213,14 +213,14 @@ Result<Move> ParseCurves(std::string_view yaml, const std::string& file) {
   const MoveCurves::Style style = {.overlap_beats = fields.Number("overlap_beats", 0.1, {0, 0.5}),
                                    .bounce = 0.01 * fields.Number("bounce_cm", 0, {0, 20}),
                                    .loops = move.loops};
-  // An error about a missing list gives the document's place.
+  // Report a missing list at the document's place.
   Node missing;
   missing.place = document.place;
   const Node* poses = fields.Raw("poses");
   const Node* key_poses = is_act ? nullptr : fields.Raw("key_poses");
   RETURN_IF_ERROR(fields.Finish());
 
-  // Read the poses, mirror them if asked, and read the key poses.
+  // Read the poses, mirror them if the file demands it, and read the key poses.
   const double authored_beats = mirrored ? 0.5 * move.beats : move.beats;
   ASSIGN_OR_RETURN(auto keys, ReadPoses(poses ? *poses : missing, authored_beats));
   if (mirrored) AppendMirrorImage(keys, authored_beats);
@@ -249,7 +249,7 @@ Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place) {
 BodyMotion MotionOf(const Move& move) {
   const double seconds = move.beats * 60.0 / move.tempo_bpm;
   const auto steps = static_cast<int>(std::lround(seconds * kJudgedRateHz));
-  // A loop's last frame is followed by its first one; other motions include their last pose.
+  // After the last frame of a loop comes its first frame; other motions include their last pose.
   const int frames = move.loops ? steps : steps + 1;
   BodyMotion motion;
   motion.poses.reserve(static_cast<std::size_t>(frames));

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// A pose that a recogniser looks for: it is reached when all of these angles are within tolerance at once.
+/// A pose that a recogniser searches. It is reached when all of these angles are within tolerance at once.
 struct KeyPose {
   struct Target {
     std::string feature;  ///< one of paper A's ten features: "RH", "LHE", … (engine/fuzzy)
@@ -28,7 +28,7 @@ struct Move {
   double slowest_bpm = 120;  ///< range of song tempos that suit the move (`tempo_range_bpm`); default: its own tempo
   double fastest_bpm = 120;
   double beats = 8;   ///< length of one performance
-  bool loops = true;  ///< true if the end joins the start; true of every move, and of acts that can repeat
+  bool loops = true;  ///< true if the end joins the start: all moves, and acts that can repeat
   std::vector<KeyPose> key_poses;
   std::vector<PoseKey> poses;  ///< as authored, including a mirrored half; empty in a slow demonstration
   MoveCurves curves;           ///< the same performance as curves of controls, over `beats` beats
@@ -39,19 +39,19 @@ struct Move {
 std::vector<std::string> BuiltinMoveNames();
 /// Returns the names of the coach's acts (choreography/acts), sorted.
 std::vector<std::string> BuiltinActNames();
-/// Loads the built-in move or act of that name, or a move's slow demonstration, "slow_clap" (slow_demonstration.h). The
-/// error lists the known names.
+/// Loads the built-in move or act with this name, or a move's slow demonstration, such as "slow_clap"
+/// (slow_demonstration.h). The error for an unknown name lists the known names.
 Result<Move> LoadBuiltinMove(const std::string& name);
-/// Loads the move or act of that name without its `motion`, which is the slowest part to compute. It does not know slow
-/// demonstrations.
+/// Loads the move or act with this name without its `motion`, which is the slowest part to compute. Names of slow
+/// demonstrations are not allowed.
 Result<Move> LoadBuiltinCurves(const std::string& name);
-/// Returns the move at another tempo. The beats of its poses stay the same; the duration of a flight in seconds stays
-/// the same, too, because gravity sets it. Fails at `place` if a flight no longer fits between the beats. `move` must
-/// have poses.
+/// Returns the move at another tempo. The beats of its poses stay the same. Flights keep their duration in seconds,
+/// because gravity determines it. Fails at `place` if a flight no longer fits between the beats. `move` must have
+/// poses.
 Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place);
 /// Returns the move at another tempo without its `motion`.
 Result<Move> CurvesAtTempo(const Move& move, double tempo_bpm, const Place& place);
-/// Samples one performance at 30 Hz; the result is what `Move::motion` holds.
+/// Samples one performance at 30 Hz, as in `Move::motion`.
 BodyMotion MotionOf(const Move& move);
 /// Reads one move or act from the text of a choreography file.
 Result<Move> ParseMove(std::string_view yaml, const std::string& file);

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-/// Returns the slope at a key by Fritsch and Butland's formula, from the interval before and after it (widths h, secant
-/// slopes d).
+/// Returns the slope at a key by Fritsch and Butland's formula, from the intervals before and after the key (widths h,
+/// secant slopes d).
 double MonotoneSlope(double h_before, double d_before, double h_after, double d_after) {
   if (d_before * d_after <= 0) return 0;
   const double w_before = 2 * h_after + h_before, w_after = h_after + 2 * h_before;
@@ -23,13 +23,13 @@ double SmallerOfSameSign(double a, double b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-/// Returns true if the motion starts and ends at rest.
+/// Returns true if the motion of this timing starts and ends at rest.
 bool IsBetweenRests(Ease ease) { return ease == Ease::kSnap || ease == Ease::kStep; }
 
-/// Returns the parameter of the segment's quintic after a share of its time. If the curve does not rest at both ends,
-/// the first two derivatives at the ends must be those of the identity.
+/// Returns the curve's parameter after a share of a segment's time. Unless the curve rests at both ends, the first two
+/// derivatives at the ends must equal those of the identity.
 double Eased(Ease ease, double share) {
-  // The bulge and its first two derivatives are zero at both ends. The sums below increase everywhere while kStrength
+  // At both ends, the bulge and its first two derivatives are zero. The sums below increase everywhere while kStrength
   // is below 18.6.
   constexpr double kStrength = 8;
   const double hump = share * (1 - share), bulge = kStrength * hump * hump * hump;
@@ -71,7 +71,7 @@ PeriodicCurve::PeriodicCurve(std::vector<Key> keys, double period) : period_(per
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
-    // The second derivatives here of the cubic Hermite segments before and after this key.
+    // Compute the second derivatives at this key of the two neighbouring cubic Hermite segments.
     const double ending = (2 * knots_[before].slope + 4 * knots_[i].slope - 6 * secant(before)) / width(before);
     const double starting = (6 * secant(i) - 4 * knots_[i].slope - 2 * knots_[after].slope) / width(i);
     knots_[i].bend = rests(i) ? 0 : SmallerOfSameSign(ending, starting);
@@ -91,7 +91,7 @@ double PeriodicCurve::At(double time) const {
   const Knot& from = *(after - 1);
   const Knot& to = *after;
 
-  // Evaluate the quintic Hermite segment: the Taylor parabola at its start plus a correction that fits its end.
+  // Evaluate the quintic Hermite segment: the Taylor parabola at its start, plus a correction that fits its end.
   const double h = to.at - from.at, s = Eased(to.ease, (at - from.at) / h);
   const double slope = from.slope * h, bend = from.bend * h * h;
   const double gap = to.value - from.value - slope - 0.5 * bend;
@@ -109,7 +109,7 @@ using Keys = std::vector<PeriodicCurve::Key>;
 
 constexpr double kStandardGravity = 9.80665;  // m/s²
 
-/// The controls that say where a standing foot is on the floor.
+/// The controls that determine the place of a standing foot on the floor.
 constexpr SideControl kSpot[] = {SideControl::kFootSide, SideControl::kFootAhead, SideControl::kFootTurn};
 
 bool IsOneOf(std::size_t control, std::span<const SideControl> of) {
@@ -127,7 +127,7 @@ bool Steps(const Controls& from, const Controls& to, Side side) {
   return std::ranges::any_of(kSpot, [&](SideControl spot) { return from.Of(side, spot) != to.Of(side, spot); });
 }
 
-/// Returns the keys of the foot's height: the authored ones, and one lifted key half way through every step.
+/// Returns the keys of the foot's height: the authored keys, and one lifted key half way through every step.
 Keys LiftKeys(const std::vector<PoseKey>& poses, double beats, Side side) {
   constexpr double kStepHeight = 0.05;
   Keys keys;
@@ -144,8 +144,8 @@ Keys LiftKeys(const std::vector<PoseKey>& poses, double beats, Side side) {
 
 double JumpOf(const PoseKey& pose) { return pose.controls[MiddleControl::kJump]; }
 
-/// The times of a jump, in beats from its top. The body is in the air for `flight` before and after it; the knees push
-/// off from `effort` before it and absorb the landing until `effort` after it.
+/// The durations of a jump, in beats. The body is in the air for `flight` before and after the top. The knees push off
+/// from `effort` before the top, and absorb the landing until `effort` after it.
 struct JumpTimes {
   double flight, effort;
 };
@@ -181,7 +181,7 @@ Keys JumpKeys(const std::vector<PoseKey>& poses, double beat_seconds) {
   return keys;
 }
 
-/// The share of the overlap by which each control is delayed: hips lead, hands and head follow, feet are on time.
+/// The delay of each control, as a share of the overlap: hips lead, hands and head follow, feet are on time.
 constexpr std::array<double, kControlCount> kDelay = [] {
   std::array<double, kControlCount> delay{};
   const auto late = [&](SideControl control, double share) {
@@ -216,8 +216,7 @@ std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::s
     const double value = pose.controls.values[control];
     Ease ease = pose.ease;
     if (is_spot) ease = Ease::kStep;
-    // Give the lift and the landing time: the leg becomes free before its angles raise it, and stands only after they
-    // have lowered it.
+    // Let the leg become free before its angles raise it, and stand only after its angles have lowered it.
     if (is_leg_free) ease = value > 0 ? Ease::kLinger : Ease::kRush;
     keys.push_back({pose.beat, value, ease});
   }
@@ -242,8 +241,8 @@ MoveCurves::MoveCurves(const std::vector<PoseKey>& authored, double beats, Style
     : style_(style), last_beat_(authored.back().beat) {
   std::vector<PoseKey> keys = authored;
   if (!style.loops) {
-    // A closed curve that rests in the last pose and again in the first one stops in both. Its way back is never
-    // sampled.
+    // Add one more key in the last pose and one in the first pose: the closed curve then stops in both. Its way back is
+    // never sampled.
     keys.push_back({last_beat_ + 1, keys.back().controls});
     keys.push_back({last_beat_ + 2, keys.front().controls});
     beats = last_beat_ + 3;

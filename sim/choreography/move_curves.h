@@ -13,30 +13,30 @@ namespace etude {
 /// The timing of the motion from one key to the next.
 enum class Ease {
   kSmooth,  ///< evenly, passing through the key
-  kLinger,  ///< most of the way early, then slower and slower: hovers before it arrives
+  kLinger,  ///< most of the way early, then ever slower: hovers before it arrives
   kRush,    ///< starts slowly and arrives fast: a blow, a clap
   kSnap,    ///< waits, covers the way in the second half of the time, and stops abruptly
   kStep,    ///< waits, moves, waits: a foot between leaving the floor and landing
 };
 
 /// A smooth closed curve through given values. It is twice continuously differentiable, also across the ends of the
-/// loop. It is flat at every extreme of the given values (no visible overshoot) and exactly constant between equal
-/// neighbours, so a standing foot does not move.
+/// loop. It is flat at every extreme of the given values, without visible overshoot. Between equal neighbours it is
+/// exactly constant, so a standing foot does not move.
 ///
-/// An ease changes the timing between two keys and not the path: the curve passes the same values and keeps both
-/// derivatives at the keys. Keys before and after a snap or a step are at rest.
+/// An ease changes the timing between two keys but not the path: the curve passes through the same values and keeps
+/// both derivatives at the keys. Keys before and after a snap or a step are at rest.
 ///
 /// The segments are quintic Hermite polynomials. Slopes are the weighted harmonic means of Fritsch and Butland (1984).
-/// The second derivative at a key is the smaller in magnitude of those of the two neighbouring cubics, or 0 if they
-/// differ in sign (ours).
+/// At a key, the second derivatives of the two neighbouring cubics are compared: the one with the smaller magnitude is
+/// taken, or 0 if they differ in sign (ours).
 class PeriodicCurve {
  public:
   struct Key {
     double at;
     double value;
-    Ease ease = Ease::kSmooth;  ///< timing from the key before to this one
-    /// The derivatives at this key if physics determines them (a flight); otherwise they are computed from the
-    /// neighbours.
+    Ease ease = Ease::kSmooth;  ///< timing of the motion to this key from the one before
+    /// The derivatives at this key, if physics determines them (a flight). Otherwise they are computed from the
+    /// neighbouring keys.
     struct Derivatives {
       double slope, bend;
     };
@@ -62,19 +62,21 @@ class PeriodicCurve {
 struct PoseKey {
   double beat = 0;
   Controls controls;
-  Ease ease = Ease::kSmooth;  ///< timing from the pose before to this one
+  Ease ease = Ease::kSmooth;  ///< timing of the motion to this pose from the one before
 };
 
 /// Returns the keys of one control's curve through the poses of a loop of `beats` beats, each `beat_seconds` long. Two
-/// things are computed instead of authored, because authored values would not be accurate enough:
-/// - A foot whose spot differs between two poses makes a step: it is lifted, moves, and is down again before the pose.
+/// things are computed, because authored values would not be accurate enough:
+/// - If the spot of a foot differs between two poses, the foot makes a step: it is lifted, moves, and is down again
+///   before the second pose.
 /// - A pose with a jump is the top of a flight under gravity. Its height determines the times of take-off and landing;
-///   poses within the jump do not affect the height of the body. Before take-off and after landing the hips dip, as the
-///   knees push off and absorb the landing.
+///   poses within the jump do not affect the height of the body. Before take-off and after landing the hips dip,
+///   because the knees push off and absorb the landing.
 std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::size_t control, double beats,
                                        double beat_seconds);
 
-/// Fails at `place` if a jump, including push-off and landing, does not lie within the loop and after the jump before.
+/// Fails at `place` if a jump, including push-off and landing, does not lie within the loop or overlaps the previous
+/// jump.
 Result<void> CheckJumps(const std::vector<PoseKey>& poses, double beats, double beat_seconds, const Place& place);
 
 /// A move as smooth curves of its controls over the beats of one performance. Performers vary these curves before
@@ -82,14 +84,14 @@ Result<void> CheckJumps(const std::vector<PoseKey>& poses, double beats, double 
 class MoveCurves {
  public:
   struct Style {
-    /// Follow-through: the delay of a limb's end behind its root, in beats.
+    /// Follow-through: the end of a limb moves this many beats later than its root.
     double overlap_beats = 0;
     /// The depth by which the hips sink on every beat, metres.
     double bounce = 0;
     /// The length of a beat in seconds; it determines how many beats a flight lasts.
     double beat_seconds = 0.5;
-    /// If true, the last pose leads back to the first. If false, the body rests in the first pose before it, and in the
-    /// last pose after it.
+    /// If true, the last pose leads back to the first. If false, the body rests in the first pose before the move, and
+    /// in the last pose after it.
     bool loops = true;
   };
 
@@ -98,8 +100,8 @@ class MoveCurves {
   /// may cross the end of the loop.
   MoveCurves(const std::vector<PoseKey>& keys, double beats, Style style);
 
-  /// Makes the smooth loop through bodies at equal steps over `beats` beats, for a performance without poses. There
-  /// must be at least one body. The curve is exactly constant between equal neighbours.
+  /// Makes the smooth loop through bodies at equal steps over `beats` beats, for a performance without authored poses.
+  /// There must be at least one body. The curve is exactly constant between equal neighbours.
   static MoveCurves Through(std::span<const Controls> bodies, double beats);
 
   const Style& style() const { return style_; }

@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// Right-handed rotations about the axes; the columns are the rotated axes.
+/// Right-handed rotations about the axes, radians. The columns are the rotated axes.
 inline glm::dmat3 RotationX(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {{1, 0, 0}, {0, c, s}, {0, -s, c}};
@@ -19,8 +19,8 @@ inline glm::dmat3 RotationZ(double angle) {
   return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
-/// Returns the rotation of an upright part of the body: it is turned to its left, then bent to its left side and
-/// forward in the turned frame.
+/// Returns the rotation of an upright part of the body: the part turns to its left, then bends to its left side, then
+/// forward; the bends are in the turned frame.
 inline glm::dmat3 TurnSideBend(double turn, double side, double bend) {
   return RotationY(turn) * RotationZ(-side) * RotationX(bend);
 }

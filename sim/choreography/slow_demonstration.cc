@@ -11,21 +11,24 @@ namespace {
 
 constexpr double kHoldBeats = 1;
 
-/// The timing of a demonstration: maps a beat of the demonstration to a beat of the move, with a stop at each key pose.
+/// The timing of a demonstration: it maps beats of the demonstration to beats of the move, with a stop at each key
+/// pose.
 class Pauses {
  public:
-  /// `stops` ascend strictly within (0, beats).
+  /// `stops` must ascend strictly within (0, beats).
   Pauses(std::vector<double> stops, double beats) : stops_(std::move(stops)), beats_(beats) {
     double before = 0;
     for (std::size_t i = 0; i <= stops_.size(); ++i) {
       const double next = i < stops_.size() ? stops_[i] : beats;
-      // Two ramps must fit between neighbouring stops. The mean speed in a ramp is ½, so it covers half its length.
+      // Two ramps must fit between neighbouring stops. The mean speed in a ramp is ½, so each ramp covers half of its
+      // length.
       ramp_ = std::min(ramp_, next - before);
       before = next;
     }
   }
 
-  /// Returns the beats by which every stop lengthens the demonstration: the hold, and the loss in its two ramps.
+  /// Returns the number of beats by which every stop lengthens the demonstration: the hold, and the time lost in two
+  /// ramps.
   double PerStop() const { return kHoldBeats + ramp_; }
   double Beats() const { return beats_ + PerStop() * static_cast<double>(stops_.size()); }
   /// Returns the beat at which the hold of a stop begins.
@@ -33,7 +36,7 @@ class Pauses {
     return stops_[stop] + PerStop() * static_cast<double>(stop) + 0.5 * ramp_;
   }
 
-  /// Returns the beat of the move at a beat of the demonstration, which may lie in a stop.
+  /// Returns the beat of the move at a beat of the demonstration. During a stop, it is constant.
   double MoveBeat(double beat) const {
     for (std::size_t i = stops_.size(); i-- > 0;) {
       const double since = beat - HoldStart(i);
@@ -45,8 +48,7 @@ class Pauses {
   }
 
  private:
-  /// Returns the distance covered in `time` after standing still: the speed rises to 1 along a smoothstep of length
-  /// `ramp_`.
+  /// Returns the distance covered in `time` from rest: the speed rises to 1 along a smoothstep of length `ramp_`.
   double Gathering(double time) const {
     if (time >= ramp_) return time - 0.5 * ramp_;
     const double t = time / ramp_;
@@ -70,7 +72,7 @@ Result<Move> SlowDemonstration(const Move& move) {
   stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
   const Pauses pauses(stops, move.beats);
 
-  // Set its name, tempo and key poses.
+  // Set the demonstration's name, tempo and key poses.
   Move demonstration = move;
   demonstration.name = std::string(kSlowDemonstrationPrefix) + move.name;
   demonstration.tempo_bpm = 0.5 * move.tempo_bpm;
@@ -81,7 +83,7 @@ Result<Move> SlowDemonstration(const Move& move) {
     key_pose.beat = pauses.HoldStart(static_cast<std::size_t>(stop));
   }
 
-  // Sample the move densely: a hold becomes equal neighbours, between which curves are exactly constant.
+  // Sample the move densely: a hold becomes a run of equal values, between which curves are exactly constant.
   constexpr double kPerBeat = 16;
   const auto steps = static_cast<int>(std::ceil(kPerBeat * demonstration.beats));
   std::vector<Controls> bodies;

@@ -7,13 +7,13 @@
 
 namespace etude {
 
-/// The prefix of a demonstration's name before the name of its move: "slow_clap".
+/// The prefix of a demonstration's name, as in "slow_clap".
 constexpr std::string_view kSlowDemonstrationPrefix = "slow_";
 
 /// Makes the coach's slow demonstration of a move: at half its tempo, with a hold of one (slow) beat at every key pose.
-/// The motion slows down before each hold and speeds up after it, so that a learner sees what is expected. A jump
-/// freezes in the air like a paused film. `beats` counts slow beats; the key poses are the move's, at the start of
-/// their holds. Fails if the move has no key poses (an act), or one at beat 0, where nothing leads into it.
+/// The motion slows down before each hold and speeds up after it, which shows a learner the key poses. A jump freezes
+/// in the air like a paused film. `beats` counts slow beats. The key poses are those of the move, at the starts of
+/// their holds. Fails if the move has no key poses (an act), or one at beat 0, where no motion leads into it.
 Result<Move> SlowDemonstration(const Move& move);
 
 }  // namespace etude

@@ -23,15 +23,15 @@ Controls Waiting(double beat) {
   return waiting;
 }
 
-/// Returns the time of a clock that is stopped until -`lead`, accelerates, and runs with the music from 0 on.
+/// Returns the time of a clock that stands still until -`lead`, accelerates, and runs with the music from 0 on.
 double StartingClock(double time, double lead) {
   if (time >= 0) return time;
   const double t = std::max(time, -lead) + lead;
   return 0.5 * (t * t / lead - lead);
 }
 
-/// Returns a turn's own time, beats. It runs with the music within the turn, speeds up in the blend before it, and
-/// stops in the blend after it, so that no unfinished gesture begins.
+/// Returns a turn's own time, beats. The time runs with the music within the turn, accelerates in the blend before it,
+/// and stops in the blend after it. Therefore no gesture begins that cannot end.
 double ClockOf(const Turn& turn, double beat) {
   const double since = beat - turn.start_beat;
   if (since > turn.beats) return turn.beats - StartingClock(turn.beats - since, kBlendBeatsAfter);
@@ -43,18 +43,18 @@ Controls TurnAt(const Turn& turn, double beat) {
   return turn.move ? turn.move->curves.At(turn.pace * clock) : Waiting(clock);
 }
 
-/// Returns true if the control changes where a foot is. A raised heel leaves the toes in place.
+/// Returns true if the control changes the place of a foot. A raised heel leaves the toes in place.
 bool MovesAFoot(SideControl control) { return control >= SideControl::kLegFree && control != SideControl::kFootHeel; }
 
 constexpr std::size_t kMinMoves = 8, kMaxMoves = 12;
 constexpr double kMaxSeconds = 600;
-/// The beats for which the dancer waits before the first part and stands after the last one.
+/// The dancer waits for this number of beats before the first part, and stands for the same number after the last part.
 constexpr double kLeadBeats = 4;
 constexpr double kHalfTimePace = 0.5;
 
 double PaceOf(const SongPart& part) { return part.half_time ? kHalfTimePace : 1; }
 
-/// Returns the curves of the part's move at the music's tempo; fails if the tempo does not suit the move.
+/// Returns the curves of the part's move at the music's tempo. Fails if the tempo does not suit the move.
 Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) {
   if (FindByName(BuiltinMoveFiles(), part.move, StemOf) == nullptr) {
     return Fail(place, "{}", UnknownName("move", part.move, BuiltinMoveNames()));
@@ -79,14 +79,14 @@ Result<SongPart> ReadPart(const Node& item) {
   return part;
 }
 
-/// Reads the parts and places them one after the other, from beat `kLeadBeats` of the music on. `moves` receives the
-/// move of each.
+/// Reads the parts and places them one after the other, from beat `kLeadBeats` of the music on. `moves` receives each
+/// part's move.
 Result<std::vector<SongPart>> ReadParts(const Node& parts, double tempo_bpm, std::vector<Move>& moves) {
   std::vector<SongPart> read;
   std::set<std::string> names;
   double beat = kLeadBeats;
   for (const Node& item : parts.items) {
-    // Read the part, and place it after the part before.
+    // Read the part, and place it after the previous part.
     ASSIGN_OR_RETURN(auto part, ReadPart(item));
     ASSIGN_OR_RETURN(auto move, MoveOf(part, tempo_bpm, item.Find("move")->place));
     part.start_beat = beat;
@@ -146,7 +146,7 @@ std::vector<MusicTag> TagsOf(const Song& song) {
   return tags;
 }
 
-/// Reads the song of a file without its tags and motion; `moves` receives the move of each part.
+/// Reads a song without its tags and motion; `moves` receives the move of each part.
 Result<Song> ParseOutline(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm,
                           std::vector<Move>& moves) {
   ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
@@ -180,7 +180,7 @@ Result<const EmbeddedText*> FindSongFile(const std::string& name) {
 
 Controls SequenceAt(std::span<const Turn> turns, double beat) {
   assert(!turns.empty());
-  // Find the turn that contains the beat; outside the blends, it alone is danced.
+  // Find the turn that contains the beat. Outside the blends, only this turn is danced.
   const auto after = std::ranges::upper_bound(turns.begin() + 1, turns.end(), beat, {}, &Turn::start_beat);
   const Turn& now = *(after - 1);
   const Controls dancing = TurnAt(now, beat);

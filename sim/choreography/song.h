@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// A section of the music in which one dancer repeats one move, or waits.
+/// A section of the music in which one dancer repeats one move or waits.
 struct Turn {
   double start_beat = 0;
   double beats = 2;            ///< at least as long as both blends together
@@ -22,18 +22,18 @@ struct Turn {
   double pace = 1;             ///< beats of the move per beat of the music
 };
 
-/// The blend from one turn to the next begins `kBlendBeatsBefore` beats before the change and ends `kBlendBeatsAfter`
+/// The blend between two turns begins `kBlendBeatsBefore` beats before the change and ends `kBlendBeatsAfter` beats
 /// after it. It begins early because dancers think ahead and a move's first key pose may come early.
 constexpr double kBlendBeatsBefore = 1, kBlendBeatsAfter = 0.5;
 
 /// Returns the body at a beat of the music. In the blend between two turns both are danced, the first beyond its last
-/// beat and the second before its first, and the second one's weight grows. Feet are not blended: at beat 0 of a turn
-/// they change from the turn before to this one at once. Every move has its feet at home at its beat 0, so a standing
-/// foot does not move.
-/// `turns` (at least one) follow each other without gaps; the body is at rest before the first and after the last.
+/// beat and the second before its first beat; the weight of the second grows. Feet are not blended: they change from
+/// one turn to the next exactly at beat 0 of the second. In every move the feet are at home at beat 0, so a standing
+/// foot does not move. `turns` (at least one) must follow each other without gaps; the body is at rest before the first
+/// and after the last.
 Controls SequenceAt(std::span<const Turn> turns, double beat);
 
-/// One move's part of a song: the move is danced `times` times in a row.
+/// One part of a song, in which one move is danced `times` times in a row.
 struct SongPart {
   std::string move;
   int times = 2;
@@ -52,7 +52,7 @@ struct Song {
   std::vector<MusicTag> tags;  ///< the frame nearest to the start of every repetition, in order
   BodyMotion motion;           ///< 30 Hz, from ready stance to ready stance, with moves that flow into each other
 
-  /// Returns the number of frames of `motion`, also before it is computed.
+  /// Returns the number of frames of `motion`. It is known even if `motion` has not been computed.
   std::size_t CountFrames() const;
 };
 
@@ -60,9 +60,10 @@ struct Song {
 Result<Song> ParseSong(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm = {});
 /// Returns the names of the built-in songs, sorted.
 std::vector<std::string> BuiltinSongNames();
-/// Loads the built-in song of that name. The error lists the known names. `tempo_bpm` overrides the file's tempo.
+/// Loads the built-in song with this name. The error for an unknown name lists the known names. `tempo_bpm` overrides
+/// the file's tempo.
 Result<Song> LoadBuiltinSong(const std::string& name, std::optional<double> tempo_bpm = {});
-/// Loads the built-in song without its tags and its motion, which is the slowest part to compute.
+/// Loads the built-in song without its tags and without its motion, which is the slowest part to compute.
 Result<Song> LoadBuiltinSongOutline(const std::string& name);
 
 }  // namespace etude

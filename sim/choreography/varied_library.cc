@@ -17,7 +17,7 @@ using enum Role;
 /// The parts of the body whose rotations are scaled together.
 enum class Part { kTrunk, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
 constexpr std::size_t kPartCount = 5;
-/// The rows of hips and shoulders carry the other parts and are not scaled.
+/// The roles of hips and shoulders carry the other parts and are not scaled.
 constexpr Part kNoPart{kPartCount};
 
 Part PartOf(Role child) {
@@ -61,7 +61,7 @@ struct Oscillation {
   }
 };
 
-/// Directions of the limbs, indexed by their child joint, in the frame of a body that faces +Z.
+/// The directions of the limbs, indexed by their child joint, in the frame of a body that faces +Z.
 using Directions = std::array<glm::dvec3, kRoleCount>;
 
 Directions DirectionsOf(const BodyPose& pose) {
@@ -90,7 +90,8 @@ MeanPose ComputeMean(const BodyMotion& motion) {
   return mean;
 }
 
-/// Returns `direction` rotated away from `centre`, to `factor` times its angle from it, at most π.
+/// Returns `direction`, rotated in the plane with `centre` until its angle to `centre` is `factor` times as large, at
+/// most π.
 glm::dvec3 ScaleTurn(const glm::dvec3& direction, const glm::dvec3& centre, double factor) {
   const double along = glm::dot(direction, centre);
   const glm::dvec3 across = direction - along * centre;
@@ -101,7 +102,8 @@ glm::dvec3 ScaleTurn(const glm::dvec3& direction, const glm::dvec3& centre, doub
   return std::cos(angle) * centre + std::sin(angle) * (across / sine);
 }
 
-/// Returns the pose between two frames of a motion by linear interpolation of joints; `Vary` restores the limb lengths.
+/// Returns the pose at a fractional frame of a motion, by linear interpolation of joints. `Vary` restores the limb
+/// lengths.
 BodyPose PoseAt(const BodyMotion& motion, double frame) {
   const auto before = static_cast<std::size_t>(frame);
   const std::size_t after = std::min(before + 1, motion.poses.size() - 1);
@@ -123,8 +125,7 @@ struct Style {
   }
 };
 
-/// Returns `pose`, a frame of a motion with the given mean, performed in a style; the limb lengths are those of
-/// `lengths`.
+/// Returns `pose` performed in a style. `mean` is the mean pose of its motion; the limb lengths come from `lengths`.
 BodyPose Vary(const BodyPose& pose, const BodyPose& lengths, const MeanPose& mean, const Style& style, double seconds) {
   const Directions directions = DirectionsOf(pose);
   const FloorMove to_world{.yaw = Heading(pose)};

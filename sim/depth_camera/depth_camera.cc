@@ -12,14 +12,14 @@
 namespace etude {
 namespace {
 
-/// Returns true if two depths of neighbouring pixels (metres) belong to different surfaces: they differ by more than 3
-/// % of the nearer one, or exactly one of them is missing (infinite).
+/// Returns true if the depths of two neighbouring pixels (metres) belong to different surfaces: they differ by more
+/// than 3 % of the nearer depth, or exactly one of them is missing (infinite).
 bool IsDepthEdge(double a, double b) {
   if (std::isinf(a) || std::isinf(b)) return std::isinf(a) != std::isinf(b);
   return std::abs(a - b) > 0.03 * (a < b ? a : b);
 }
 
-/// A row of pixels in the projector's view.
+/// One row of pixels, projected into the projector's columns.
 class Row {
  public:
   Row(const DepthImage& depth, const Camera& camera, double baseline_m, int y)
@@ -35,8 +35,8 @@ class Row {
     for (int x = 0; x < depth.width; ++x) SetExtent(x);
   }
 
-  /// Returns true if a nearer pixel's surface blocks the projector's light on its way to the centre of pixel x. Such a
-  /// pixel lies to the right by the difference of disparities.
+  /// Returns true if the surface of a nearer pixel blocks the projector's light on its way to the centre of pixel x.
+  /// Such a pixel lies to the right of x, by the difference of the disparities.
   bool IsUnlit(int x) const {
     const Pixel& here = pixels_[static_cast<std::size_t>(x)];
     const double column = here.ProjectorColumn();
@@ -52,11 +52,11 @@ class Row {
   struct Pixel {
     double camera_column = 0, disparity = 0;
     double first = 0;         ///< left border of the pixel in the camera's picture
-    double from = 0, to = 0;  ///< range of the projector's columns that it covers
+    double from = 0, to = 0;  ///< range of the projector's columns that the pixel covers
     double ProjectorColumn() const { return camera_column - disparity; }
   };
 
-  // A pixel extends half way to its neighbour on the same surface, and by half a pixel at an edge.
+  // Computes a pixel's extent: half way to each neighbour on the same surface, and half a pixel at an edge.
   void SetExtent(int x) {
     Pixel& pixel = pixels_[static_cast<std::size_t>(x)];
     const auto border = [&](int side) {
@@ -79,11 +79,11 @@ class Row {
 };
 
 constexpr double kRightAngle = std::numbers::pi / 2;
-// LateralDeviationPx is evaluated up to this angle, the limit of its measurements.
+// The largest angle to which LateralDeviationPx is applied: the limit of the published measurements.
 constexpr double kMeasuredAngle = 80 * std::numbers::pi / 180;
 
-/// Computes for each pixel the angle between the normal of its surface and its line of sight, radians; 0 for a pixel
-/// without a normal.
+/// Computes for each pixel the angle between the normal of its surface and its line of sight, radians; 0 without a
+/// normal.
 Image<double> AnglesOfSight(const DepthImage& depth, const Camera& camera) {
   const NormalImage normals = NormalsOf(depth, camera);
   const Intrinsics& in = camera.intrinsics;
@@ -125,7 +125,8 @@ class Exposure {
   }
 
  private:
-  // Only edges shift: away from edges a pixel keeps its own depth, and its noise is the axial one.
+  // Returns the depth after lateral noise. Only edges shift; away from edges a pixel keeps its own depth and gets axial
+  // noise only.
   double Displaced(int x, int y, double right, double down) const {
     const double own = echo_.At(x, y);
     const double angle = std::min(angles_.At(x, y), kMeasuredAngle);
@@ -137,8 +138,8 @@ class Exposure {
     return IsDepthEdge(own, other) ? other : own;
   }
 
-  // With disparity steps of s, depth has steps of s z² / (f b), and rounding adds the variance step² / 12. The
-  // published law includes this variance, so it is subtracted.
+  // Adds axial noise to a depth. Disparity steps of s make depth steps of s z² / (f b), whose rounding adds the
+  // variance step² / 12. The published law includes this variance, so it is subtracted here.
   double WithNoise(double z, double normal) const {
     if (std::isinf(z)) return z;
     const double step = HasSteps() ? Step() * z * z / Focus() : 0;
@@ -157,7 +158,7 @@ class Exposure {
 
   const DepthCameraOptions& options_;
   const Image<double> angles_;
-  DepthImage echo_;  ///< the truth where light returns, kNotMeasured elsewhere
+  DepthImage echo_;  ///< the true depth where light returns, kNotMeasured elsewhere
   const double pixels_per_sensor_pixel_;
 };
 

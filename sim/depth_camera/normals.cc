@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-/// The points that pixels show, in the camera's frame.
+/// The surface points that pixels show, in the camera's frame.
 class Points {
  public:
   Points(const DepthImage& depth, const Camera& camera) : points_(depth.width, depth.height) {
@@ -27,8 +27,8 @@ class Points {
     return points_.At(x, y);
   }
 
-  /// Returns the step from this pixel to the next one in that direction, or from the one before: the one with the
-  /// smaller change of depth.
+  /// Returns the vector between this pixel's point and a neighbour's, for the next pixel in the direction (right, down)
+  /// or the previous one: the vector with the smaller change of depth. Returns nullopt without a neighbour.
   std::optional<glm::dvec3> StepAt(int x, int y, int right, int down) const {
     const auto here = At(x, y), next = At(x + right, y + down), before = At(x - right, y - down);
     if (!here || (!next && !before)) return std::nullopt;
@@ -37,7 +37,7 @@ class Points {
   }
 
  private:
-  Image<glm::dvec3> points_;  ///< zero where nothing is seen
+  Image<glm::dvec3> points_;  ///< zero where no surface is visible
 };
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace etude {
 using NormalImage = Image<glm::vec3>;
 
 /// Computes the normals of the surfaces in `depth`, as seen by `camera` (lens included), from the points of
-/// neighbouring pixels. On each axis it uses the neighbour of more similar depth, so that the edges of objects do not
-/// distort their surfaces. For a plane the normals are exact up to the rounding of depths; a pixel between two edges
+/// neighbouring pixels. On each axis, the neighbour with the more similar depth is used, because normals must not mix
+/// two surfaces at an edge. For a plane the normals are exact up to the rounding of depths. A pixel between two edges
 /// has no normal.
 NormalImage NormalsOf(const DepthImage& depth, const Camera& camera);
 

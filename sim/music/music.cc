@@ -38,7 +38,7 @@ std::vector<double> ClickTrack(std::span<const double> beats_s, double duration_
     const double pitch = beat % kBeatsPerBar == 0 ? kHighHz : kLowHz;
     for (std::size_t i = 0; i < length && first + i < samples.size(); ++i) {
       const double t = static_cast<double>(i) / rate_hz;
-      // Decays to zero at its end.
+      // A cubic envelope lets the click decay to zero at its end.
       samples[first + i] = kLoudness * std::sin(2 * kPi * pitch * t) * std::pow(1 - t / kClickSeconds, 3);
     }
   }

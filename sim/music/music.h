@@ -8,20 +8,20 @@
 
 namespace etude {
 
-/// The faults of a music player relative to the dance's own clock.
+/// The errors of a music player's clock, relative to the dance's own clock.
 struct MusicClockOptions {
   double drift = 0;             ///< plays 1 + drift seconds of music per second
   double stutters_per_min = 0;  ///< mean number of interruptions
   double stutter_s = 0.2;       ///< duration of an interruption; playing continues where it stopped
 };
 
-/// A simulated music player at 30 Hz: the position in the song at every frame of a session. It draws one number per
-/// frame whatever it is told to do, so its stutters are on the same frames of the session for every coach.
+/// A simulated music player at 30 Hz: it gives the position in the song at every frame of a session. It draws one
+/// number per frame, whatever it plays. Its stutters are therefore on the same frames of the session for every coach.
 class MusicClock {
  public:
   MusicClock(const MusicClockOptions& options, const WorldKey& world);
 
-  /// Jumps to a position in the song, seconds, and plays from there. A running stutter continues.
+  /// Jumps to a position in the song, seconds, and plays from there. A stutter that has begun continues.
   void PlayFrom(double music_s);
   /// Stops at the present position.
   void Pause();
@@ -39,8 +39,8 @@ class MusicClock {
   int standing_ = 0;  // remaining frames of the stutter
 };
 
-/// Makes a click on every beat; the first of every four is higher. Returns the samples of one channel in [-1, 1],
-/// `duration_s` long. `beats_s` must ascend; beats outside the duration are not heard.
+/// Makes a track with a click on every beat; the first click of every four is higher. Returns the samples of one
+/// channel in [-1, 1]; the track is `duration_s` long. `beats_s` must ascend; beats outside the duration are left out.
 std::vector<double> ClickTrack(std::span<const double> beats_s, double duration_s, int rate_hz = 44100);
 
 }  // namespace etude

@@ -24,15 +24,14 @@ constexpr std::array<Named<Fault>, 10> kFaults = {{{"amplitude", Fault::kAmplitu
 
 using enum Role;
 
-/// The number of limb directions that are compared: trunk, line of the shoulders, both upper arms, forearms, thighs and
-/// shanks.
+/// The number of compared limb directions: trunk, line of the shoulders, both upper arms, forearms, thighs and shanks.
 constexpr std::size_t kStrayLimbs = 10;
 
 /// Returns the centre of the i-th of `count` equal parts of [0, 1].
 double MiddleOf(int i, int count) { return (i + 0.5) / count; }
 
-/// Returns the unit directions of those limbs in the frame of `pose`, which faces +Z if the person faces the coach. A
-/// limb of length zero has a zero direction, whose angle to any other is 0.
+/// Returns the unit directions of the compared limbs in the frame of `pose`, which faces +Z if the person faces the
+/// coach. A limb of length zero has a zero direction, whose angle to any other direction is 0.
 std::array<glm::dvec3, kStrayLimbs> LimbDirections(const BodyPose& pose) {
   std::array<glm::dvec3, kStrayLimbs> directions{};
   std::size_t i = 0;

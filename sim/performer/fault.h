@@ -16,9 +16,9 @@ enum class Fault {
   kAmplitude,      ///< smaller than meant
   kWrongSide,      ///< left and right exchanged; only moves that are not their own mirror image
   kWrongMove,      ///< another move
-  kSkipped,        ///< stands still instead
+  kSkipped,        ///< the person stands still instead
   kLate,           ///< the whole move is late
-  kOffBeat,        ///< hurries or drags within the move and is on time again at its end
+  kOffBeat,        ///< hurries or drags within the move, and is on time again at its end
   kLimbMissing,    ///< one limb does not move
   kElbowStraight,  ///< elbows that should bend stay straight
   kWrongOrder,     ///< the parts of the move in a different order
@@ -27,7 +27,8 @@ enum class Fault {
 
 /// A fault and its severity: 0 changes nothing, and 1 is the worst form of this fault. Faults of execution (amplitude,
 /// late, off beat, limb missing, elbow straight) grow in magnitude. Faults of content (side, move, skipped, order,
-/// stopped) take a growing share of the performance; after it the person notices, and dances correctly.
+/// stopped) affect a growing share of the performance, from its beginning; then the person notices, and dances
+/// correctly.
 struct GradedFault {
   Fault fault = Fault::kAmplitude;
   double severity = 1;  ///< in [0, 1]
@@ -41,46 +42,47 @@ const std::vector<Fault>& AllFaults();
 std::string_view FaultName(Fault fault);
 /// Returns the names of AllFaults().
 const std::vector<std::string>& FaultNameList();
-/// Returns the fault with this name; empty if there is none.
+/// Returns the fault with this name; nullopt if the name is unknown.
 std::optional<Fault> FindFault(std::string_view name);
 /// Returns "none", or the names of the faults joined by "+": "amplitude+late".
 std::string FaultNames(const std::vector<GradedFault>& faults);
 
-/// The deviation of a performance from what the person meant: the same person's performance of the requested move with
-/// the same habits and the same random variation, but without faults. No other person's motion, taught clip or
-/// recogniser is used.
+/// The deviation of a performance from the meant performance: how the same person would perform the requested move with
+/// the same habits and the same random variation, but without faults. The motion of other people, taught clips and
+/// recognisers are not used.
 struct Stray {
-  /// The angle between the directions of a limb as danced and as meant: root mean square over the performance, for the
-  /// limb where it is largest, degrees. Poses are compared at equal shares of the performance, independently of timing.
+  /// For each limb, the angle between its danced and its meant direction, as root mean square over the performance; the
+  /// largest value over the limbs, degrees. Poses are compared at equal shares of the performance, independently of
+  /// timing.
   double limb_deg = 0;
   /// The difference between the danced and the meant timing: root mean square over the performance, beats.
   double timing_beats = 0;
 };
 
-/// The truth about a performance.
+/// The true judgement of a performance.
 enum class Truth {
   kRight,
-  kGrey,  ///< neither right nor wrong: reported separately and scored for no method
+  kGrey,  ///< neither right nor wrong: reported separately and not scored
   kWrong,
 };
 /// Returns "right", "grey" or "wrong".
 std::string_view TruthName(Truth truth);
 
-/// The upper limit of right and the lower limit of wrong (ours).
+/// A stray up to `right` is right, and a stray above `wrong` is wrong (ours).
 struct StrayLimits {
   Stray right{.limb_deg = 12, .timing_beats = 0.25};
   Stray wrong{.limb_deg = 25, .timing_beats = 0.5};
 };
 
-/// Returns right if both measures are within the first limits, wrong if at least one is beyond the second limits, and
+/// Returns right if both measures are within the limits of right, wrong if at least one exceeds its limit of wrong, and
 /// grey otherwise.
 Truth TruthOf(const Stray& stray, const StrayLimits& limits = {});
 
-/// Computes `limb_deg` from the poses, meant and danced, at 32 shares of the performance.
+/// Computes `limb_deg` by comparing the meant and the danced pose at 32 shares of the performance.
 double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,
                     const std::function<BodyPose(double share)>& danced);
-/// Computes `timing_beats` of a performance of `beats` beats. Each function maps the time that is due, in [0, 1], to
-/// the share of the performance reached then, clamped to [0, 1]; both are sampled at 64 times.
+/// Computes `timing_beats` of a performance of `beats` beats. Each function maps the time due, in [0, 1], to the share
+/// of the performance reached at that time, clamped to [0, 1]. Both are sampled at 64 times.
 double TimingStrayBeats(const std::function<double(double due)>& meant, const std::function<double(double due)>& danced,
                         double beats);
 

@@ -15,33 +15,34 @@
 namespace etude {
 namespace {
 
-// The units of learning (learning_law.h) are ours. Practice without knowledge of results teaches little, and such
-// knowledge teaches much: this is the first finding of Salmoni, Schmidt and Walter (1984).
+// The amounts of learning (learning_law.h) are ours. Practice without knowledge of results teaches little, and
+// knowledge of results teaches much: this is the first finding of Salmoni, Schmidt and Walter (1984).
 constexpr double kPractice = 0.25;
 constexpr double kDemonstration = 1;
 constexpr double kCorrection = 4;  // for the faults that were made
 constexpr double kWrongPraise = 0.5;
 
-// Feedback guides (Winstein and Schmidt 1990): errors are rarer immediately after it, but not permanently.
+// Feedback guides (Winstein and Schmidt 1990): errors are rarer immediately after feedback, but not permanently.
 constexpr double kGuided = 0.5;           // share of errors avoided right after feedback
 constexpr double kGuidedLater = 0.5;      // share of guidance left one performance later
 constexpr double kFrequencyMemory = 0.7;  // weight of the past in the running mean of feedback frequency
 
-// Costs and gains of patience, whose maximum is 1 (ours).
+// Losses and gains of patience, whose maximum is 1 (ours).
 constexpr double kNeedlessCost = 0.15;
 constexpr double kWrongPraiseCost = 0.06;
 constexpr double kCorrectionCost = 0.02;
 constexpr double kPraiseGain = 0.03;
 
-/// The minimum severity of a fault that happens (ours), so that few faults are too mild to make a performance wrong.
+/// The minimum severity of a fault that happens (ours). It keeps faults that are too mild to make a performance wrong
+/// rare.
 constexpr double kMinSeverity = 0.35;
 
-/// The probability of each fault of a person without any skill, in the order of Fault (ours).
+/// For a person without any skill, the probability of each fault, in the order of Fault (ours).
 constexpr std::array<double, 10> kFaultChances = {0.25, 0.10, 0.10, 0.12, 0.15, 0.10, 0.12, 0.12, 0.08, 0.10};
 using Proneness = std::array<double, 10>;
 
-/// Draws the probability of each fault in one move, without skill. Each person has typical mistakes: two faults are
-/// frequent in a move, the others rare (ours).
+/// Draws the probability of each fault in one move, without skill. Each person has typical mistakes: in every move two
+/// faults are frequent and the others rare (ours).
 Proneness DrawProneness(RandomStream& dice, std::span<const GradedFault> showable) {
   constexpr std::array<double, 2> kTypical = {0.45, 0.25};
   constexpr double kSeldom = 0.3;
@@ -62,7 +63,7 @@ Proneness DrawProneness(RandomStream& dice, std::span<const GradedFault> showabl
   return proneness;
 }
 
-/// The mean initial skill of a kind of people, and their initial patience (ours).
+/// The mean initial skill and the initial patience of one kind of people (ours).
 struct Beginning {
   double skill, patience;
 };
@@ -116,7 +117,7 @@ struct Learner::MoveState {
 };
 
 struct Learner::Layer {
-  std::optional<Rendition> rendition;  // empty: stands
+  std::optional<Rendition> rendition;  // empty: the body stands
   double seen_s = 0;                   // time from which it was shown
   double lag_s = 0;
   double blend_s = kBlendSeconds;
@@ -127,7 +128,7 @@ struct Learner::Layer {
   double Weight(double time_s) const { return Smootherstep((time_s - seen_s) / blend_s); }
 
   /// Returns the person's time within the performance, as a share: the beat that they saw one lag ago. Before the first
-  /// beat it accelerates from rest; after the last one shown it continues at the move's tempo.
+  /// beat, the time accelerates from rest; after the last shown beat, it continues at the move's tempo.
   double DueAt(double time_s) const {
     const Move& move = rendition->style().move();
     const double beats_per_s = move.tempo_bpm / 60, length_s = move.beats / beats_per_s;
@@ -186,11 +187,11 @@ const BodyPose& Learner::Step(const Shown& shown) {
 void Learner::Notice(const Shown& shown) {
   using enum Shown::Act;
   const bool goes_on = shown.act == before_.act && shown.move == before_.move && shown.repetition == before_.repetition;
-  // The same thing is still shown: record its beat.
+  // If the same performance is still shown, record its beat.
   if (goes_on) {
     if (shown.act == kDance && layers_.back().rendition) layers_.back().beats.push_back(shown.beat);
   } else {
-    // Something else is shown: end the dance, begin the next, or learn from the coach's act.
+    // If something else is shown, end the dance; then begin the next one, or learn from the coach's act.
     if (before_.act == kDance) End();
     if (shown.act == kDance) {
       Begin(shown);
@@ -202,7 +203,7 @@ void Learner::Notice(const Shown& shown) {
     if (shown.act == kDemonstrate && shown.move >= 0) Demonstrate(static_cast<std::size_t>(shown.move));
   }
   if (shown.praises && !before_.praises) Praise();
-  // Drop the layers that a later one covers completely.
+  // Drop layers that a later layer covers completely.
   const auto covers = [&](const Layer& layer) { return layer.Weight(time_s_) >= 1; };
   const auto top = std::find_if(layers_.rbegin(), layers_.rend(), covers);
   if (top != layers_.rend()) layers_.erase(layers_.begin(), top.base() - 1);
@@ -212,7 +213,7 @@ std::vector<GradedFault> Learner::DrawFaults(RandomStream& dice, std::size_t mov
   std::vector<GradedFault> faults;
   const std::span<const GradedFault> showable = showable_.Of(move);
   for (Fault fault : AllFaults()) {
-    // Every fault draws its random numbers, whether it happens or not.
+    // Draw the random numbers of every fault, whether it happens or not.
     const double happens = dice.Uniform(), severity = dice.Uniform(), choice = dice.Uniform();
     const std::span<const GradedFault> ways(std::ranges::lower_bound(showable, fault, {}, &GradedFault::fault),
                                             std::ranges::upper_bound(showable, fault, {}, &GradedFault::fault));
@@ -236,7 +237,7 @@ void Learner::Begin(const Shown& shown) {
   performance.move = shown.move;
   performance.attempt = known.attempts++;
 
-  // Draw its variation and its faults; an absent person or one who has given up stands still.
+  // Draw the performance's variation and its faults. A person who is absent or has given up stands still.
   RandomStream dice(key_, fmt::format("learner/{}/{}", move.name, performance.attempt));
   Chance chance = DrawChance(dice, person_);
   chance.tempo = 1;  // the music keeps the time
@@ -257,7 +258,7 @@ void Learner::Begin(const Shown& shown) {
     event.danced = moves_[instead].name;
   }
 
-  // Lay the performance over what the body does so far, and compute its truth.
+  // Put the performance as a new layer over the body's present action, and compute its truth.
   Layer layer;
   layer.rendition.emplace(StyleOf(index), chance, std::move(faults), &StyleOf(instead));
   layer.seen_s = time_s_;
@@ -282,7 +283,7 @@ void Learner::End() {
   performance.event.end_s = time_s_ + performance.event.chance.lag_s;
   if (performance.is_cut || HasGivenUp()) return;
 
-  // Practise, and update guidance and the feedback frequency.
+  // Add practice, and update guidance and the feedback frequency.
   for (Skill& skill : known.skills) skill.Practise(kPractice);
   known.guided *= kGuidedLater;
   known.feedback_frequency =
@@ -307,7 +308,7 @@ void Learner::Correct(std::size_t move) {
     SpendPatience(kNeedlessCost);
     return;
   }
-  // Learn about the faults that were made; frequent feedback is retained less.
+  // Learn about the faults of the mistake. After frequent feedback, less is retained.
   known.latest_was_corrected = true;
   const double lasts = 1 - options_.guidance * known.feedback_frequency;
   for (const GradedFault& fault : performances_[*known.latest].event.faults) {

@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// What a learner sees of the coach in one frame.
+/// The coach's action as a learner sees it in one frame.
 struct Shown {
   enum class Act {
     kNothing,      ///< stands by, dozes or wakes; the learner has nothing to follow
@@ -33,11 +33,11 @@ struct Shown {
 struct LearnerOptions {
   LearningLaw law = LearningLaw::kExponential;
   LearningRates rates = {};
-  /// The cost of frequent feedback (Salmoni, Schmidt and Walter 1984; Winstein and Schmidt 1990): the share of what
-  /// feedback teaches that is not retained if feedback follows every performance. In [0, 1]; the default of 0.5 is
+  /// The cost of frequent feedback (Salmoni, Schmidt and Walter 1984; Winstein and Schmidt 1990): if feedback follows
+  /// every performance, this share of the learning from feedback is not retained. In [0, 1]; the default of 0.5 is
   /// ours.
   double guidance = 0.5;
-  /// The level at which every skill starts, in [0, 1]. If empty, it depends on the person's kind and is drawn for every
+  /// The initial level of every skill, in [0, 1]. If empty, it depends on the kind of person and is drawn for every
   /// fault of every move.
   std::optional<double> skill = {};
   /// The severity of every fault that happens, in [0, 1]; drawn if empty.
@@ -45,28 +45,28 @@ struct LearnerOptions {
   bool gives_up = true;  ///< false: a learner never loses patience
 };
 
-/// One performance that a learner was asked for, and its truth. Times are seconds since the learner's first frame.
+/// One performance that a learner was asked for, and its truth. Times are in seconds from the learner's first frame.
 struct LearnerPerformance {
   int repetition = -1;  ///< number within the dance
   int move = 0;
   int attempt = 0;       ///< number of the attempt at this move, from 0; the key of its random numbers
-  bool is_over = false;  ///< true once the coach no longer shows it
+  bool is_over = false;  ///< true once the coach shows something else
   bool is_cut = false;   ///< true if the coach stopped it before its last beat, so it is not judged
-  /// The event, with faults, stray and truth from its first frame on. `end_s` is an estimate until the performance is
-  /// over; `first_right_s` is set when its beat is performed.
+  /// The event; its faults, stray and truth are known from its first frame on. `end_s` is an estimate until the
+  /// performance is over; `first_right_s` is set when its beat is performed.
   SessionEvent event;
 };
 
-/// A person who dances along with a coach and learns, frame by frame. Their behaviour depends only on what was shown so
-/// far.
+/// A person who dances along with a coach and learns, frame by frame. The person's behaviour depends only on what was
+/// shown so far.
 ///
-/// Learners follow what they see with their lag and in their own style (Style), and make mistakes according to their
-/// skills, one for every fault of every move. The random numbers of a performance are keyed by its move and its attempt
-/// and never by time, so they are the same under every coach. Practice teaches a little, a demonstration more, and a
-/// correction most, but a correction teaches only about the faults of the mistake that it follows. Feedback also
-/// guides: it improves the next performances more than what is retained. Praise for a mistake removes learning. Wrong
-/// praise and a correction without a mistake cost patience; without patience a learner gives up and stands still. The
-/// constants, with their sources or marked as ours, are in learner.cc.
+/// Learners follow the coach with their lag and in their own style (Style). They make mistakes according to their
+/// skills; there is one skill for every fault of every move. The random numbers of a performance are keyed by its move
+/// and its attempt and never by time, so they are the same under every coach. Practice teaches a little, a
+/// demonstration more, and a correction most, but a correction teaches only about the faults of the mistake before it.
+/// Feedback also guides: it improves the next performances by more than is retained. Praise for a mistake removes
+/// learning. Wrong praise and a correction without a mistake cost patience; without patience a learner gives up and
+/// stands still. The constants are in learner.cc, with their sources or marked as ours.
 class Learner {
  public:
   /// `moves`, `showable` (of the same moves) and the text of `key.scenario` must outlive this object.
@@ -76,20 +76,20 @@ class Learner {
   Learner(const Learner&) = delete;
   Learner& operator=(const Learner&) = delete;
 
-  /// Advances the learner by one frame (30 Hz) in which they see `shown`; returns the pose.
+  /// Advances the learner by one frame (30 Hz), in which the coach shows `shown`. Returns the learner's pose.
   const BodyPose& Step(const Shown& shown);
 
   const Person& person() const { return person_; }
-  /// Returns the performances in the order in which they began; the last one is the current one.
+  /// Returns the performances in the order in which they began; the last one is the current performance.
   std::span<const LearnerPerformance> performances() const { return performances_; }
   /// Returns the remaining patience, in [0, 1]; at 0 the learner has given up.
   double patience() const { return patience_; }
   bool HasGivenUp() const { return patience_ <= 0; }
   /// Returns the probability that the next performance of this move has no fault.
   double ChanceOfRight(std::size_t move) const;
-  /// Returns that probability without a coach after the time of `performances_later` performances: the effect of
-  /// guidance has ended, and part of the learning has been forgotten. For a learner who has given up, it is the
-  /// probability if they danced.
+  /// Returns ChanceOfRight after the time of `performances_later` performances without a coach: the effect of guidance
+  /// has ended, and part of the learning has been forgotten. For a learner who has given up, the result is the
+  /// probability if they danced again.
   double RetainedChanceOfRight(std::size_t move, int performances_later) const;
 
  private:

@@ -49,7 +49,7 @@ void Skill::Practise(double units) {
 
 void Skill::Learn(double units) {
   units_ += units;
-  // Apply the units one by one to the remaining error, so that the learning never exceeds it.
+  // Apply the units one by one to the remaining error, because the learning must not exceed it.
   for (double rest = units; rest > 0; rest -= 1) {
     const double share = std::min(rest, 1.0), error = 1 - fast_ - slow_;
     fast_ += share * rates_.fast_learnt * error;

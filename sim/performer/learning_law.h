@@ -6,8 +6,8 @@
 
 namespace etude {
 
-/// The law by which errors decrease with learning. Because the learner is a model of ours, a verdict about coaches
-/// counts only if it holds under all three laws.
+/// The law by which errors decrease with learning. The learner is a model of ours, so a verdict about coaches counts
+/// only if it holds under all three laws.
 enum class LearningLaw {
   kExponential,  ///< Heathcote, Brown and Mewhort (2000): practice of one person
   kPower,        ///< Newell and Rosenbloom (1981): fast at first, with a long tail
@@ -20,13 +20,14 @@ LearningLaw FindLearningLaw(std::string_view name);
 
 /// The constants of the laws.
 struct LearningRates {
-  /// The initial relative decrease of the error per unit of learning, under the exponential law. The power law starts
-  /// equally steep (ours).
+  /// The initial relative decrease of the error per unit of learning under the exponential law. The power law starts
+  /// with the same slope (ours).
   double rate = 0.15;
-  /// The power law's exponent: (1 + n·rate/exponent)^−exponent after n units (Newell and Rosenbloom report 0.2–0.6).
+  /// The exponent of the power law: after n units, the error is multiplied by (1 + n·rate/exponent)^−exponent (Newell
+  /// and Rosenbloom report exponents of 0.2–0.6).
   double exponent = 0.5;
-  // The two states: the share kept from one performance to the next, and the share learnt from an error (Smith et al.,
-  // table 1).
+  // For each of the two states: the share that is kept from one performance to the next, and the share of an error that
+  // is learnt (Smith et al., table 1).
   double fast_kept = 0.59, fast_learnt = 0.21;
   double slow_kept = 0.992, slow_learnt = 0.02;
 };
@@ -34,15 +35,15 @@ struct LearningRates {
 /// A skill: the probability of one fault of one move, as a function of the learning so far.
 class Skill {
  public:
-  /// The error starts at `error` in [0, 1] and never falls below `floor` in [0, error].
+  /// The error starts at `error`, in [0, 1], and never falls below `floor`, in [0, error].
   Skill(LearningLaw law, double error, double floor = 0, const LearningRates& rates = {});
 
   /// Returns the present probability of the fault, in [floor, error].
   double Error() const;
-  /// Records one performance, which teaches `units` in [0, 1]; one unit is what a trial with knowledge of results
-  /// teaches. Under the two-rate law it also causes forgetting.
+  /// Records one performance, from which the person learns `units`, in [0, 1]. One unit is the learning from one trial
+  /// with knowledge of results. Under the two-rate law, a performance also causes forgetting.
   void Practise(double units);
-  /// Adds `units` ≥ 0 of learning from another person between performances.
+  /// Adds `units` ≥ 0 of learning that another person causes between performances.
   void Learn(double units);
   /// Removes `units` of learning. Under the two-rate law both states shrink by exp(−rate · units).
   void Unlearn(double units);

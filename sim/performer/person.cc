@@ -9,8 +9,8 @@
 namespace etude {
 namespace {
 
-/// The sizes of one preset (ours, but the statures of school children are those of growth charts for six to fourteen
-/// years). Every spread is a standard deviation.
+/// The sizes of one preset. Every spread is a standard deviation. The sizes are ours, except for the statures of school
+/// children, which come from growth charts for six to fourteen years.
 struct Preset {
   double min_m, max_m;         // stature, drawn uniformly
   double lag_s, lag_spread_s;  // mean of the people, and spread between one person's performances
@@ -18,8 +18,8 @@ struct Preset {
   double own_tempo_spread, drift;
   double amplitude, amplitude_spread;
   double lower, lower_spread;  // gain of hips, trunk and legs relative to the arms
-  double gain_spread;          // of each gain's logarithm
-  double asymmetry;            // of the logarithm of left over right
+  double gain_spread;          // spread of each gain's logarithm
+  double asymmetry;            // spread of the logarithm of left over right
   double looseness;
   double tiring;
 };
@@ -33,7 +33,7 @@ constexpr Preset kPresets[] = {
     {1.50, 1.90, 0.24, 0.07, 0.95, 0.24, 0.08, 0.05, 0.84, 0.13, 0.70, 0.25, 0.25, 0.07, 1.25, 0.03},
 };
 
-/// Returns how childlike the proportions at a stature are: 1 at a metre, 0 from 1.65 m on.
+/// Returns how childlike the body proportions at a stature are: 1 at one metre, 0 from 1.65 m on.
 double ChildhoodOf(People kind, double stature_m) {
   if (kind != People::kToddler && kind != People::kSchoolChild) return 0;
   return std::clamp((1.65 - stature_m) / 0.65, 0.0, 1.0);
@@ -42,8 +42,8 @@ double ChildhoodOf(People kind, double stature_m) {
 /// Draws a standard normal number clamped to ±2.5.
 double Bounded(RandomStream& random) { return std::clamp(random.Normal(), -2.5, 2.5); }
 
-/// Draws a person's posture as differences from the ready stance. The sizes below are for looseness 1, in radians and
-/// metres.
+/// Draws a person's posture as differences from the ready stance. The standard deviations below are for looseness 1, in
+/// radians and metres.
 Controls DrawPosture(RandomStream& random, double looseness) {
   Controls posture;
   const auto middle = [&](MiddleControl control, double size) {
@@ -73,14 +73,14 @@ Controls DrawPosture(RandomStream& random, double looseness) {
 bool IsOfTheArm(SideControl control) { return control <= SideControl::kWrist; }
 
 std::array<double, kControlCount> DrawGains(RandomStream& random, const Preset& preset) {
-  // Hips, trunk and legs share one factor; every control also has a factor of its own.
+  // All controls of hips, trunk and legs share one factor; every control also has its own factor.
   constexpr double kMinLower = 0.25;
   const double lower = std::max(kMinLower, preset.lower + preset.lower_spread * Bounded(random));
   constexpr double kMin = 0.65, kMax = 1.5;
   const auto own = [&] { return std::clamp(std::exp(preset.gain_spread * Bounded(random)), kMin, kMax); };
   std::array<double, kControlCount> gains{};
   for (std::size_t i = 0; i < kMiddleControlCount; ++i) gains[i] = lower * own();
-  // One side is stronger than the other in all of its controls.
+  // One side is stronger than the other, with one ratio for all controls.
   const double strong_left = std::exp(0.5 * preset.asymmetry * Bounded(random));
   for (std::size_t i = 0; i < kSideControlCount; ++i) {
     const auto control = static_cast<SideControl>(i);
@@ -123,7 +123,7 @@ Person DrawPerson(const WorldKey& key, People people) {
   person.tempo = preset.tempo * std::exp(preset.tempo_spread * Bounded(random));
   person.tempo_spread = preset.own_tempo_spread;
   person.drift = preset.drift;
-  constexpr double kMinAmplitude = 0.55;  // of a person who takes part
+  constexpr double kMinAmplitude = 0.55;  // lower limit for a person who takes part
   person.amplitude = std::max(kMinAmplitude, preset.amplitude + preset.amplitude_spread * Bounded(random));
   person.tiring = preset.tiring * std::exp(0.4 * Bounded(random));
   person.looseness = preset.looseness;
@@ -140,7 +140,7 @@ double VigourAfter(const Person& person, double danced_s) {
 
 BodyDimensions DimensionsOf(double stature_m, double childhood) {
   constexpr double kCanonicalStature = 1.7;
-  /// The proportions of a child of four years, as shares of stature.
+  /// The proportions of a four-year-old child, as shares of stature.
   constexpr BodyDimensions kChild = {.hip_half_width = 0.055,
                                      .thigh = 0.213,
                                      .shank = 0.211,
@@ -156,7 +156,7 @@ BodyDimensions DimensionsOf(double stature_m, double childhood) {
                                      .forearm = 0.140,
                                      .hand = 0.108,
                                      .home_half_width = 0.075};
-  // Interpolate every size, as a share of stature, between the adult's and the child's.
+  // Interpolate every size, as a share of stature, between adult and child.
   const BodyDimensions adult;
   BodyDimensions body;
   for (double BodyDimensions::*size :

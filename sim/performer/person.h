@@ -35,48 +35,48 @@ constexpr std::array<double, kControlCount> AllGains(double gain) {
   return gains;
 }
 
-/// The traits of a person that stay the same from move to move. The defaults are the body for which the moves were
-/// made, dancing them exactly as taught.
+/// The traits of a person that stay the same from move to move. The defaults describe the canonical body, dancing
+/// exactly as taught.
 struct Person {
   People kind = People::kExpert;  ///< never kMixed
   double stature_m = 1.7;
   BodyDimensions body = {};
   FloorMove place = {};  ///< position and heading on the floor; the coach is at the origin and faces +Z
 
-  double lag_s = 0;         ///< mean delay behind what they see
+  double lag_s = 0;         ///< mean delay behind the coach
   double lag_spread_s = 0;  ///< standard deviation of the delay between performances
   double tempo = 1;         ///< factor on the move's tempo where no music sets it
   double tempo_spread = 0;  ///< standard deviation of the tempo's logarithm between performances
-  double drift = 0;         ///< unevenness of their timing within a performance, as a share of its length
+  double drift = 0;         ///< unevenness of the timing within a performance, as a share of its length
   double amplitude = 1;     ///< factor on every angle's distance from the ready stance
   double tiring = 0;        ///< share of the amplitude that is lost after a minute of dancing
 
-  /// The gain of each control: a factor on its distance from the ready stance. It states which movements this person
-  /// exaggerates or reduces, and which side is stronger.
+  /// The gain of each control: the factor on the control's distance from the ready stance. Gains determine which
+  /// movements the person exaggerates or reduces, and which side is stronger.
   std::array<double, kControlCount> gains = AllGains(1);
-  /// Their posture: what they add to every control, in every move and at rest.
+  /// The person's posture: offsets that are added to every control, in every move and at rest.
   Controls posture = {};
-  /// The size of the offsets of their Style; about 1 for an adult, 0 for somebody who dances exactly as taught.
+  /// The size of the offsets in the person's Style; about 1 for an adult, 0 for somebody who dances exactly as taught.
   double looseness = 0;
-  std::uint64_t style = 0;  ///< the random key of their Style of every move
+  std::uint64_t style = 0;  ///< the random key of the person's Style of every move
 };
 
-/// Returns the kind of person at this share, in [0, 1), of the mixture: toddlers first, then school children, adults
-/// and experts.
+/// Returns the kind of person for a number `share` in [0, 1). In the mixture, toddlers come first, then school
+/// children, adults and experts.
 People KindInMixture(double share);
 
-/// Draws a person; every world draws its own. A preset changes only the sizes: with the same draws, a toddler and an
-/// adult differ from their kind's average in the same way.
+/// Draws a person; every world draws its own. A preset changes only the sizes: with equal random numbers, a toddler and
+/// an adult differ in the same way from the averages of their kinds.
 Person DrawPerson(const WorldKey& key, People people);
 
-/// Returns the share of the amplitude that is left after `danced_s` seconds of dancing; it decreases to no less than
-/// 0.6.
+/// Returns the share of the amplitude that is left after `danced_s` seconds of dancing. It decreases to 0.6 at the
+/// lowest.
 double VigourAfter(const Person& person, double danced_s);
 
-/// Returns the sizes of a body of this stature, metres. `childhood` is 0 for an adult's proportions and 1 for those of
-/// a child of four: shorter legs, a longer trunk, a larger head. An adult's shares of stature are those of Drillis and
-/// Contini (1966), as for the canonical body. A child's are those of Snyder et al., "Anthropometry of infants, children
-/// and youths to age 18" (1977), rounded.
+/// Returns the sizes of a body with this stature, metres. `childhood` is 0 for an adult's proportions and 1 for those
+/// of a four-year-old child: shorter legs, a longer trunk, a larger head. The shares of stature come from Drillis and
+/// Contini (1966) for adults, as for the canonical body, and, rounded, from Snyder et al., "Anthropometry of infants,
+/// children and youths to age 18" (1977) for children.
 BodyDimensions DimensionsOf(double stature_m, double childhood);
 
 }  // namespace etude

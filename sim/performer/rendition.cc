@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// The duration of the change from wrong to right or back, as a share of a performance.
+/// The duration of a change from wrong to right or from right to wrong, as a share of a performance.
 constexpr double kChange = 0.25;
 
 // The effects of faults at severity 1 (ours).
@@ -22,7 +22,7 @@ constexpr double kOffBeats = 1;  // at the largest deviation, limited by kMaxOff
 constexpr double kMaxOffBeat = 0.7 / kPi;
 constexpr double kUnstopped = 0.35;  // share danced before a person stops
 
-/// Returns 1 in the first `severity` of the performance and 0 after it, with a smooth change.
+/// Returns 1 while `share` is below `severity`, and 0 above, with a smooth change between.
 double First(double share, double severity) {
   return 1 - Smootherstep((share - severity * (1 + kChange)) / kChange + 1);
 }
@@ -57,7 +57,7 @@ void LeaveOut(Controls& controls, const Controls& rest, const LimbName& limb, do
 }
 
 SmoothOffsets DrawWays(const Person& person, std::uint64_t key) {
-  constexpr double kOfStyle = 0.25;  // variation between performances relative to that between people (ours)
+  constexpr double kOfStyle = 0.25;  // variation between performances ÷ variation between people (ours)
   RandomStream random(WorldKey{.suite_seed = key, .scenario = "rendition"}, "ways");
   return {random, kOfStyle * person.looseness};
 }
@@ -96,7 +96,7 @@ Controls Rendition::Reordered(double share, double vigour) const {
   static constexpr std::array<int, 4> kOrder = {0, 2, 1, 3};
   static constexpr double kQuarter = 0.25, kBorderBlend = 0.22;
   const auto moved = [](std::size_t quarter) { return kQuarter * (kOrder[quarter] - static_cast<int>(quarter)); };
-  // Around a border between quarters both quarters continue, and one is blended into the other.
+  // Near a border between quarters, both quarters continue, and one is blended into the other.
   const double border = std::clamp(std::round(share / kQuarter), 1.0, 3.0);
   const auto after = static_cast<std::size_t>(border), before = after - 1;
   const double over = Smootherstep((share - kQuarter * border) / kBorderBlend + 0.5);
@@ -109,7 +109,7 @@ Controls Rendition::Danced(double share, double vigour) const {
   Controls danced = Meant(share, vigour);
   if (faults_.empty()) return danced;
   const Controls rest = RestOf(meant_->person());
-  // Faults of content, for the first part of the performance.
+  // Apply faults of content, in the first part of the performance.
   if (const auto order = Find(Fault::kWrongOrder)) {
     const double weight = First(share, order->severity);
     if (weight > 0) danced = Mix(danced, Reordered(share, vigour), weight);
@@ -121,7 +121,7 @@ Controls Rendition::Danced(double share, double vigour) const {
   if (const auto side = Find(Fault::kWrongSide)) {
     danced = Mix(danced, Mirrored(danced), First(share, side->severity));
   }
-  // Faults of execution, for all of it.
+  // Apply faults of execution, in the whole performance.
   if (const auto limb = Find(Fault::kLimbMissing)) LeaveOut(danced, rest, LimbOf(limb->choice), limb->severity);
   if (const auto elbow = Find(Fault::kElbowStraight)) {
     for (Side side : {Side::kLeft, Side::kRight}) danced.Of(side, SideControl::kElbow) *= 1 - elbow->severity;
@@ -189,7 +189,7 @@ bool CanShow(const GradedFault& fault, const Move& move, const Move* instead) {
   GradedFault worst = fault;
   worst.severity = 1;
   const Rendition rendition(style, {}, {worst}, &other);
-  // A move that equals its own mirror image half a performance later has no wrong side.
+  // If a move equals its own mirror image half a performance later, it has no wrong side.
   if (fault.fault == Fault::kWrongSide) {
     const auto shifted = [&](double share) { return PoseOf(rendition.Meant(share + 0.5)); };
     const auto mirrored = [&](double share) { return PoseOf(rendition.Danced(share)); };

@@ -12,11 +12,11 @@
 
 namespace etude {
 
-/// The duration of the blend from standing into a move, and of the blend back.
+/// The duration of the blend from standing into a move, and of the blend from the move back to standing, seconds.
 constexpr double kBlendSeconds = 0.45;
 
-/// Returns the time within a performance, seconds: it equals `time` between 0 and `length`, accelerates from rest in
-/// the blend before, and decelerates to rest in the blend after, so that no motion starts or stops abruptly.
+/// Returns the time within a performance, seconds. It equals `time` between 0 and `length`. It accelerates from rest in
+/// the blend before and decelerates to rest in the blend after, so motions neither start nor stop abruptly.
 inline double EasedTime(double time, double length) {
   if (time < 0) {
     const double t = std::max(time, -kBlendSeconds) + kBlendSeconds;
@@ -26,9 +26,9 @@ inline double EasedTime(double time, double length) {
   return time;
 }
 
-/// The random variation of one performance besides its faults; it differs between the performances of one person.
+/// The random variation of one performance, without its faults. It differs between the performances of one person.
 struct Chance {
-  double lag_s = 0;        ///< delay behind what is seen
+  double lag_s = 0;        ///< delay behind the coach
   double tempo = 1;        ///< factor on the move's tempo
   double unevenness = 0;   ///< unevenness of the timing from the first beat to the last, as a share of the performance
   std::uint64_t ways = 0;  ///< the random key of its offsets
@@ -37,23 +37,23 @@ struct Chance {
 /// Draws the variation of one performance by this person.
 Chance DrawChance(RandomStream& random, const Person& person);
 
-/// One performance of a move: the body at each share of the performance, and its timing, both with its faults and as it
-/// was meant. Shares and times run from 0 at the first beat to 1 at the last, and continue smoothly beyond.
+/// One performance of a move: the body at each share of the performance, and the timing, both with the performance's
+/// faults and as meant. Shares and times run from 0 at the first beat to 1 at the last, and continue smoothly beyond.
 class Rendition {
  public:
-  /// `meant` and `instead` must outlive this object. A performance with kWrongMove dances `instead`.
+  /// `meant` and `instead` must outlive this object. With the fault kWrongMove, `instead` is danced.
   Rendition(const Style& meant, const Chance& chance, std::vector<GradedFault> faults, const Style* instead = nullptr);
 
   const Style& style() const { return *meant_; }
 
-  /// Returns the body at a share of the performance, without its faults (Meant) or with them (Danced).
+  /// Returns the body at a share of the performance: Meant without the faults, Danced with them.
   Controls Meant(double share, double vigour = 1) const;
   Controls Danced(double share, double vigour = 1) const;
   /// Returns the weight of the dance: 1 while the person dances, 0 while they stand still.
   double Presence(double share) const;
 
-  /// Returns the share of the performance reached at `due`, a time that runs evenly from 0 to 1 in a performance on
-  /// time, without faults (MeantShare) or with them (DancedShare). Both functions increase.
+  /// Returns the share of the performance reached at `due`: MeantShare without the faults, DancedShare with them. In a
+  /// performance on time, `due` runs evenly from 0 to 1. Both functions increase.
   double MeantShare(double due) const;
   double DancedShare(double due) const;
   /// Returns the delay of the whole performance, as a share of its length.
@@ -61,7 +61,7 @@ class Rendition {
   /// Returns the time at which `share` is danced: the inverse of DancedShare.
   double DueOf(double share) const;
 
-  /// Computes the deviation from what was meant; it is zero without faults.
+  /// Computes the deviation from the meant performance. It is zero without faults.
   Stray Strays() const;
 
  private:
@@ -75,13 +75,13 @@ class Rendition {
   std::vector<GradedFault> faults_;
 };
 
-/// Returns true if a performance of `move` with only this fault at its worst, by somebody who otherwise dances as
-/// taught, is truly wrong. A move that equals its own mirror image half a performance later has no wrong side. `choice`
-/// is as in GradedFault; `instead` is used for kWrongMove.
+/// Returns true if this fault alone, at its worst, makes a performance of `move` truly wrong when somebody dances who
+/// otherwise dances as taught. If a move equals its own mirror image half a performance later, it has no wrong side.
+/// `choice` has the meaning of GradedFault::choice; `instead` is used for kWrongMove.
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead);
 
-/// The faults that each of some moves can show. They are the same for everybody; finding them costs some milliseconds
-/// per move.
+/// For each of some moves, the faults that it can show. They are the same for everybody. The search takes some
+/// milliseconds per move.
 class ShowableFaults {
  public:
   explicit ShowableFaults(std::span<const Move> moves);

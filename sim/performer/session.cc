@@ -22,7 +22,7 @@ void Shuffle(RandomStream& random, std::vector<T>& items) {
   for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.IndexBelow(i)]);
 }
 
-/// Draws `count` indices of moves: no move is repeated before all moves were drawn.
+/// Draws the indices of `count` moves. No move is repeated before all moves were drawn.
 std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count, std::size_t count) {
   std::vector<std::size_t> drawn;
   while (drawn.size() < count) {
@@ -35,8 +35,7 @@ std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count,
   return drawn;
 }
 
-/// Adds one more fault that the move can show, of a kind that the event does not have yet; adds none if there is no
-/// such fault.
+/// Adds one fault that the move can show and the event does not have yet, if there is one.
 void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOptions& options, SessionEvent& event) {
   const Move& asked = *FindByName(moves, event.move);
   std::vector<Fault> left = options.faults.empty() ? AllFaults() : options.faults;
@@ -57,7 +56,7 @@ void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOp
   }
 }
 
-/// An event with its rendition, placed in time.
+/// An event with its rendition, placed at its time in the session.
 class Dance {
  public:
   Dance(const SessionEvent& event, Rendition rendition)
@@ -68,7 +67,7 @@ class Dance {
     vigour_ = VigourAfter(rendition_.style().person(), event.start_s);
   }
 
-  /// Returns the weight of the dance over standing: 0 outside the event, 1 inside.
+  /// Returns the weight of the dance in the blend with standing: 0 outside the event, 1 inside.
   double Weight(double time_s) const {
     const double since = time_s - starts_s_ - late_s_;
     const double inside =
@@ -79,7 +78,7 @@ class Dance {
   Controls At(double time_s) const { return rendition_.Danced(ShareAt(time_s), vigour_); }
 
   Stray Strays() const { return rendition_.Strays(); }
-  /// Returns the time at which the performance reaches this beat of its move.
+  /// Returns the time at which the performance reaches `beat` of its move.
   double TimeOf(double beat) const {
     return starts_s_ + length_s_ * rendition_.DueOf(beat / rendition_.style().move().beats);
   }
@@ -95,7 +94,7 @@ class Dance {
   double vigour_ = 1;
 };
 
-/// Returns the person's styles of all moves that a plan names.
+/// Returns the person's style for every move in a plan.
 std::map<std::string_view, Style> StylesFor(const SessionPlan& plan, std::span<const Move> moves,
                                             const Person& person) {
   std::map<std::string_view, Style> styles;
@@ -122,7 +121,7 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
   std::fill_n(is_fault.begin(), std::lround(share * static_cast<double>(count)), 1);
   Shuffle(random, is_fault);
 
-  constexpr double kStandsFirst = 2.0;  // time for sensors and filters to settle
+  constexpr double kStandsFirst = 2.0;  // sensors and filters need this time to settle
   constexpr double kMinRest = 1.0;      // the blends out of one move and into the next must not overlap
   SessionPlan plan;
   double time = kStandsFirst;
@@ -158,7 +157,7 @@ Performance Perform(RandomStream& random, std::span<const Move> moves, const Per
     dances.emplace_back(event, Rendition(styles.at(event.move), event.chance, event.faults, instead));
   }
 
-  // Blend every frame from standing with sway and the dances at that time.
+  // Compute every frame: blend the dances at that time with standing and its sway.
   Performance performance{.person = person, .motion = {}, .events = plan.events};
   const Sway sway(random);
   const Controls rest = RestOf(person);

@@ -24,22 +24,22 @@ struct SessionOptions {
   double rest_s = 1.5;                  ///< minimum pause from an event's window to the next first beat; at least 1
 };
 
-/// A scripted performance of a move. All times are seconds from the session's first frame.
+/// One event of a session: a scripted performance of a move. All times are in seconds from the session's first frame.
 struct SessionEvent {
-  std::string move;                      ///< the move that is asked for and meant
+  std::string move;                      ///< the requested move, which the person means to dance
   std::vector<GradedFault> faults = {};  ///< empty: performed as meant
-  std::string danced;                    ///< the move that is actually danced, fully or in part; empty: none
+  std::string danced;                    ///< the move that is danced, fully or in part; empty: none
   double start_s = 0;                    ///< time of the first beat asked for
   double end_s = 0;                      ///< time of the last beat as this person means to dance it
   Chance chance = {};                    ///< random variation of this performance
   Stray stray;                           ///< truth: deviation from what was meant
   Truth truth = Truth::kRight;           ///< the judgement that follows from `stray`
-  /// For right events only: the time at which the move's last key beat was performed, computed from the timing of
-  /// choreography and person and not from any pose.
+  /// For right events only: the time at which the move's last key beat was performed. It is computed from the timing of
+  /// choreography and person, not from poses.
   std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }
-  /// Returns the end of the window in which the event is judged: half a second after its last beat
+  /// Returns the end of the window in which the event is judged: half a second after the event's last beat
   /// (docs/reference/metrics.md).
   double WindowEnd() const { return end_s + 0.5; }
 };
@@ -49,21 +49,21 @@ struct SessionPlan {
   double duration_s = 0;
 };
 
-/// A session as it was truly performed; the sensor observes it.
+/// A session as it was truly performed. The sensor observes this motion.
 struct Performance {
   Person person;
   BodyMotion motion;                 ///< the whole session at 30 Hz, with the person's body
-  std::vector<SessionEvent> events;  ///< with their truth
+  std::vector<SessionEvent> events;  ///< the events with their truth
 };
 
-/// Draws a script for this person: moves, faults and times. `moves` (at least one) are those that may be asked for,
-/// e.g. all built-in ones. A fault that a move cannot show (e.g. the wrong side of a symmetric move) is replaced by one
-/// that it can.
+/// Draws a script for this person: moves, faults and times. `moves` (at least one) are the moves that may be requested,
+/// for example all built-in ones. If a move cannot show a drawn fault (for example the wrong side of a symmetric move),
+/// another fault that it can show replaces it.
 SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const Person& person,
                         const SessionOptions& options);
 
-/// Performs the script: ready stance with idle sway between events, smooth blends into and out of every move, and the
-/// person's own style throughout. `moves` must contain every move that the plan names.
+/// Performs the script: ready stance with sway between events, smooth blends into and out of every move, always in the
+/// person's own style. `moves` must contain every move in the plan.
 Performance Perform(RandomStream& random, std::span<const Move> moves, const Person& person, const SessionPlan& plan);
 
 }  // namespace etude

@@ -13,8 +13,8 @@ namespace {
 using enum MiddleControl;
 using enum SideControl;
 
-/// The standard deviation of a control's offsets at size 1, and its range. Ranges are an adult's (algorithms B6, table
-/// 3.1), reduced where a limb would touch the trunk.
+/// The standard deviation of a control's offsets at size 1, and the control's range. Ranges are an adult's (algorithms
+/// B6, table 3.1); they are reduced where a limb would touch the trunk.
 struct ControlSpan {
   double spread, lower, upper;
 };
@@ -24,7 +24,7 @@ constexpr ControlSpan InDegrees(double spread, double lower, double upper) {
 }
 
 ControlSpan SpanOf(MiddleControl control) {
-  // Deviation, lower and upper end: metres, or degrees where said.
+  // Columns: standard deviation, lower end, upper end; in metres, or in degrees if so marked.
   switch (control) {
     case kHipsSide:
       return {0.015, -0.2, 0.2};
@@ -55,7 +55,7 @@ ControlSpan SpanOf(MiddleControl control) {
 }
 
 ControlSpan SpanOf(SideControl control) {
-  // Deviation, lower and upper end: metres, or degrees where said.
+  // Columns: standard deviation, lower end, upper end; in metres, or in degrees if so marked.
   switch (control) {
     case kArmForward:
       return InDegrees(15, -40, 170);
@@ -93,7 +93,7 @@ ControlSpan SpanOf(SideControl control) {
   return {};
 }
 
-/// Returns the spans of all controls in order.
+/// Returns the spans of all controls, in order.
 const std::array<ControlSpan, kControlCount>& Spans() {
   static const std::array<ControlSpan, kControlCount> spans = [] {
     std::array<ControlSpan, kControlCount> all{};
@@ -111,24 +111,24 @@ const std::array<ControlSpan, kControlCount>& Spans() {
 
 bool IsSpot(SideControl control) { return control == kFootSide || control == kFootAhead || control == kFootTurn; }
 
-/// Returns true for kLegFree, which is 0 or 1 and never scaled or offset.
+/// Returns true only for kLegFree, which is 0 or 1 and never scaled or offset.
 bool IsSwitch(std::size_t control) {
   return control == Controls::SideIndex(Side::kLeft, kLegFree) ||
          control == Controls::SideIndex(Side::kRight, kLegFree);
 }
 
-/// The share of each term in an offset's standard deviation: the constant, then the cosine and sine of three harmonics.
-/// The squares sum to .978, and the constant has nearly half of the variance.
+/// The share of each term in an offset's standard deviation: first the constant, then the cosine and sine of three
+/// harmonics. The squares sum to .978; the constant has nearly half of the variance.
 constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
 
-/// Draws standard normal numbers, each times its term's share.
+/// Draws a standard normal number, clamped to ±2.5, for each term, times the term's share.
 std::array<double, 7> DrawTerms(RandomStream& random) {
   std::array<double, 7> terms{};
   for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = kTermShares[i] * std::clamp(random.Normal(), -2.5, 2.5);
   return terms;
 }
 
-/// Returns a deviation limited to `room`: small deviations are nearly unchanged, and large ones approach `room`.
+/// Returns a deviation limited to `room`: small deviations hardly change, and large ones approach `room`.
 double Saturated(double deviation, double room) {
   if (room <= 0) return 0;
   return room * (1 - std::exp(-deviation / room));
@@ -141,7 +141,8 @@ SmoothOffsets::SmoothOffsets(RandomStream& random, double size) {
     terms_[i] = DrawTerms(random);
     for (double& term : terms_[i]) term *= size * Spans()[i].spread;
   }
-  // The parts of a control's offset that are common to both sides and separate. The squares sum to one.
+  // The weights of two parts of a control's offset: one that both sides share, and one for each side. Their squares sum
+  // to one.
   constexpr double kCommon = 0.8, kAlone = 0.6;
   for (std::size_t i = 0; i < kSideControlCount; ++i) {
     const auto control = static_cast<SideControl>(i);
@@ -180,7 +181,7 @@ Controls Style::At(double beat, double vigour, const SmoothOffsets& chance) cons
   const double own_beat = beat + move_.beats * (rhythm_[0] * std::sin(angle) + 0.5 * rhythm_[1] * std::sin(2 * angle));
   const Controls authored = move_.curves.At(own_beat), ready = ReadyStance();
   const Controls own = offsets_.At(share), chance_offsets = chance.At(share);
-  // Scale it about the ready stance, and add posture and offsets.
+  // Scale the controls about the ready stance, and add posture and offsets.
   Controls danced;
   for (std::size_t i = 0; i < kControlCount; ++i) {
     const double reach = person_.amplitude * vigour * person_.gains[i];

@@ -9,17 +9,17 @@
 
 namespace etude {
 
-/// Offsets of every control that vary smoothly over one performance and are periodic with it: a constant and three
-/// harmonics per control. The two sides are correlated, as in a body. The spot of a standing foot gets only a constant
-/// offset, so the foot does not slide.
+/// Offsets of every control that vary smoothly over one performance and have its length as their period: a constant and
+/// three harmonics per control. The offsets of left and right are correlated, as in a real body. The spot of a standing
+/// foot gets only a constant offset, because the foot must not slide.
 class SmoothOffsets {
  public:
   SmoothOffsets() = default;
-  /// Draws the offsets. A `size` of 1 is about 15 degrees in the arms: the standard deviation between people in one
+  /// Draws the offsets. At `size` 1 their standard deviation is about 15 degrees in the arms, as between people in one
   /// move (ours).
   SmoothOffsets(RandomStream& random, double size);
 
-  /// Returns the offsets at a share of the performance; their period is 1.
+  /// Returns the offsets at a share of the performance. The period is 1.
   Controls At(double share) const;
 
  private:
@@ -27,18 +27,18 @@ class SmoothOffsets {
   std::array<std::array<double, kTerms>, kControlCount> terms_{};
 };
 
-/// One person's way of dancing one move, the same in all of their performances: the choreography with the person's
-/// gains and posture, with offsets and a rhythm of their own, and with every joint kept within its range.
+/// One person's way of dancing one move, the same in all of the person's performances: the choreography with the
+/// person's gains and posture, with individual offsets and an individual rhythm. Every joint is kept within its range.
 class Style {
  public:
-  /// The person and the move must outlive this object.
+  /// `person` and `move` must outlive this object.
   Style(const Person& person, const Move& move);
 
   const Person& person() const { return person_; }
   const Move& move() const { return move_; }
 
-  /// Returns the body at `beat` of the move. `vigour`, in (0, 1], is the share of the amplitude that tiredness leaves;
-  /// `chance` holds one performance's own offsets.
+  /// Returns the body at `beat` of the move. `vigour`, in (0, 1], is the share of the amplitude that is left when the
+  /// person is tired; `chance` holds the offsets of one performance.
   Controls At(double beat, double vigour = 1, const SmoothOffsets& chance = {}) const;
 
  private:
@@ -51,11 +51,12 @@ class Style {
 /// Returns the person's posture at rest.
 Controls RestOf(const Person& person);
 
-/// Returns `wanted` with every control kept within its joint's range; a control that `authored` has outside its range
-/// may stay there, but goes no further. Near the end of the range the difference from `authored` saturates smoothly.
+/// Returns `wanted` with every control kept within its joint's range. If `authored` has a control outside the range,
+/// the control may stay there but goes no further. Near the end of the range the difference from `authored` saturates
+/// smoothly.
 Controls WithinReach(const Controls& wanted, const Controls& authored);
 
-/// The sway of a standing body: weight shifts from foot to foot, the chest breathes, the head turns.
+/// The sway of a standing body: its weight shifts from foot to foot, its chest breathes, and its head turns.
 class Sway {
  public:
   explicit Sway(RandomStream& random);

@@ -1,12 +1,12 @@
-// Compiled once for every vector instruction set of x86-64 CPUs; the best one is chosen at run time. Integers give the
-// same bits in all of them.
+// This file is compiled once for every vector instruction set of x86-64 CPUs; the best version is chosen at run time.
+// All versions give the same bits, because the arithmetic uses integers.
 #include "sim/random/philox_lanes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/random/philox_lanes.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// Included after foreach_target.h, once for each target.
+// This header must be included after foreach_target.h.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,7 +18,7 @@ constexpr size_t kLanes = 8;
 using Word = hn::CappedTag<uint64_t, kLanes>;
 using Vec = hn::Vec<Word>;
 
-/// The two halves of the products of 64-bit numbers with one constant.
+/// The high and low halves of the products of 64-bit numbers with one constant.
 struct Product {
   Vec high, low;
 };
@@ -26,24 +26,24 @@ struct Product {
 HWY_INLINE Product Multiply(Vec a, uint64_t constant) {
   const Word word;
   const hn::Repartition<uint32_t, Word> half;
-  // Products of the low (0) and high (1) 32-bit halves.
+  // Compute the products of the low (0) and high (1) 32-bit halves.
   const auto mask = hn::Set(word, 0xffffffffu);
   const auto a0 = hn::BitCast(half, a), a1 = hn::BitCast(half, hn::ShiftRight<32>(a));
   const auto b0 = hn::BitCast(half, hn::Set(word, constant)), b1 = hn::BitCast(half, hn::Set(word, constant >> 32));
   const auto p00 = hn::MulEven(a0, b0), p01 = hn::MulEven(a0, b1), p10 = hn::MulEven(a1, b0), p11 = hn::MulEven(a1, b1);
-  // Sum them with their carries.
+  // Sum up the products with their carries.
   const auto middle = hn::Add(p10, hn::ShiftRight<32>(p00)), lower = hn::Add(p01, hn::And(middle, mask));
   return {hn::Add(hn::Add(p11, hn::ShiftRight<32>(middle)), hn::ShiftRight<32>(lower)),
           hn::Or(hn::ShiftLeft<32>(lower), hn::And(p00, mask))};
 }
 
-/// A block in every lane.
+/// Philox blocks, one in every lane.
 struct Blocks {
   Vec x0, x1, x2, x3;
 };
 
 HWY_INLINE void MakeRound(Blocks& blocks, Vec key0, Vec key1) {
-  // Random123's multipliers (Salmon et al. 2011).
+  // Apply Random123's multipliers (Salmon et al. 2011).
   const Product of_x0 = Multiply(blocks.x0, 0xD2E7470EE14C6C93), of_x2 = Multiply(blocks.x2, 0xCA5A826395121157);
   blocks.x0 = hn::Xor(hn::Xor(of_x2.high, blocks.x1), key0);
   blocks.x1 = of_x2.low;
@@ -59,7 +59,7 @@ size_t FillBlocks(uint64_t first, uint64_t key0, uint64_t key1, size_t count, ui
   const Word word;
   const auto zero = hn::Zero(word);
   if (hn::Lanes(word) < kLanes) return 0;
-  // Two vectors at a time, because each round waits for the one before it.
+  // Process two vectors at a time: each round waits for the previous round, so two independent chains hide the latency.
   size_t done = 0;
   for (; done + 2 * kLanes <= count; done += 2 * kLanes) {
     Blocks a{hn::Iota(word, first + done), zero, zero, zero};

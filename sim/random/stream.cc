@@ -15,8 +15,8 @@ namespace etude {
 
 namespace {
 
-/// Derives a key for every text by a message authentication code: the cipher's blocks are chained, and the text's
-/// length comes first, so that no text is a prefix of another.
+/// Derives a key for every text by a message authentication code: the cipher's blocks are chained. The text's length
+/// comes first; with it, no input is a prefix of another.
 Words256 DeriveKey(const Words256& key, std::string_view text) {
   Words256 chained = Encrypt(key, {text.size()});
   while (!text.empty()) {
@@ -89,7 +89,7 @@ glm::dvec3 RandomStream::Normal3() {
 }
 
 std::uint64_t RandomStream::IndexBelow(std::uint64_t count) {
-  // Values beyond the last whole multiple of `count` are rejected, so that all results are equally likely.
+  // Reject values beyond the last whole multiple of `count`, which makes all results equally likely.
   const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % count);
   std::uint64_t bits = Bits();
   while (bits >= limit) bits = Bits();

@@ -10,37 +10,37 @@
 
 namespace etude {
 
-/// The key of a world's random numbers. It excludes the method, so every method gets the same world, and the
-/// condition's values, so a sweep changes strengths and not the random numbers. Only with a secret seed does every
-/// condition have its own numbers: `scenario` then includes the condition.
+/// The key of a world's random numbers. It excludes the method: every method gets the same world. It also excludes the
+/// condition's values: a sweep changes strengths but not random numbers. Only with a secret seed does every condition
+/// have its own numbers; `scenario` then includes the condition.
 struct WorldKey {
   Seed suite_seed = 1;
   std::string_view scenario;
   int trial = 0;
 };
 
-/// A stream of random numbers that depends only on its key (counter-based: Philox 4×64-10 of Random123, Salmon et al.
-/// 2011) and is the same on every machine. With a secret seed, it is Threefish-256 in counter mode with a key that the
-/// cipher derives from the secret and everything that names the stream: all numbers of all other streams reveal nothing
-/// about this one. The distributions are our own, because the standard library's differ between implementations.
+/// A stream of random numbers that depends only on its key and is the same on every machine (counter-based: Philox
+/// 4×64-10 of Random123, Salmon et al. 2011). With a secret seed, the stream is Threefish-256 in counter mode; the
+/// cipher derives the key from the secret and from everything that names the stream. The numbers of all other streams
+/// then reveal nothing about this one. The distributions are our own, because those of standard libraries differ.
 class RandomStream {
  public:
-  /// Makes the stream of one purpose, independent of all others, e.g. "joint-noise" or "camera-0/pixel-noise". The seed
-  /// must be open.
+  /// Makes the stream of one purpose, such as "joint-noise" or "camera-0/pixel-noise". It is independent of all other
+  /// streams. The seed must be open.
   RandomStream(const WorldKey& world, std::string_view purpose);
 
   std::uint64_t Bits();
-  /// Fills `out` with the results of that many calls of Bits(), but faster.
+  /// Fills `out` with the results of out.size() calls of Bits(), but faster.
   void FillBits(std::span<std::uint64_t> out);
   /// Draws a uniform number in [0, 1) with 53 random bits.
   double Uniform();
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
-  /// Draws a standard normal number (Box–Muller, both values are used).
+  /// Draws a standard normal number (Box–Muller; both values of a pair are used).
   double Normal();
   double Normal(double mean, double deviation) { return mean + deviation * Normal(); }
   /// Draws three independent standard normal numbers.
   glm::dvec3 Normal3();
-  /// Draws a uniform number in {0, …, count − 1} without bias; `count` > 0.
+  /// Draws a uniform number in {0, …, count − 1} without bias. `count` must be > 0.
   std::uint64_t IndexBelow(std::uint64_t count);
   bool Chance(double probability) { return Uniform() < probability; }
 

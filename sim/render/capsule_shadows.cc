@@ -9,11 +9,11 @@
 namespace etude {
 namespace {
 
-// The distance up to which a body darkens the surface that it stands on, metres.
+// A body darkens the surface on which it stands up to this distance, metres.
 constexpr float kContactReach = 0.12f;
-// A margin for pixels computed in single precision.
+// A margin for pixels, which are computed in single precision.
 constexpr double kFloatMargin = 1e-3;
-// Capsules farther away cast no shadow here, metres.
+// Capsules farther away than this cast no shadow, metres.
 constexpr double kMaxCasterDistance = 1e4;
 
 float Clamp01(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
@@ -29,7 +29,7 @@ struct PixelRow {
   int count;
 };
 
-// A capsule in the lamp's view: around start + t · along, 0 ≤ t ≤ 1, metres from the lamp.
+// A capsule seen from the lamp: its axis is start + t · along, 0 ≤ t ≤ 1, metres from the lamp.
 class Caster {
  public:
   Caster(const Capsule& capsule, const glm::dvec3& lamp)
@@ -45,15 +45,14 @@ class Caster {
     is_near_floor_ = std::min(capsule.a.y, capsule.b.y) - radius_ < kContactReach;
   }
 
-  // Returns true if a pixel of the tile may be in the capsule's shadow; false positives are possible, false negatives
-  // are not.
+  // Returns false only if no pixel of the tile is in the capsule's shadow. May return true without need.
   bool MayDarken(const RoomTile& tile) const {
     if (tile.farthest < nearest_ - kFloatMargin) return false;
     const glm::dvec3 apart = tile.middle - middle_;
     const double both = tile.spread + spread_ + kFloatMargin;
     if (glm::dot(apart, apart) > both * both) return false;
-    // Compute the distance of the capsule's axis from the line through the lamp and the tile's middle direction. A ray
-    // whose direction differs by `spread` can pass a point at that distance closer by distance times spread.
+    // Compute the distance of the capsule's axis from the line through the lamp in the tile's middle direction. A ray
+    // whose direction differs by `spread` passes a point at distance d at most d times `spread` closer.
     const auto across = [&](const glm::dvec3& v) { return v - glm::dot(v, tile.middle) * tile.middle; };
     const glm::dvec3 from = across(start_), direction = across(along_);
     const double square = glm::dot(direction, direction);
@@ -63,7 +62,8 @@ class Caster {
     return glm::dot(gap, gap) <= reach * reach;
   }
 
-  // Returns true if a pixel of the tile may be within kContactReach of the capsule, for capsules on or near the floor.
+  // Returns false only if no pixel of the tile is within kContactReach of the capsule. Used for capsules on or near the
+  // floor.
   bool MayTouch(const RoomTile& tile) const {
     if (!is_near_floor_) return false;
     const double square = glm::dot(along_, along_);
@@ -72,21 +72,22 @@ class Caster {
     return gap <= tile.radius + radius_ + kContactReach + kFloatMargin;
   }
 
-  // Raises each pixel's darkness to that of this shadow: 0 outside, 1 deep inside. The lamp and the pixel's point w
-  // define one segment, the capsule's axis another; their distance is computed as in Ericson 2005, section 5.1.9.
+  // Raises each pixel's darkness to the darkness of this capsule's shadow: 0 outside, 1 deep inside. The line from the
+  // lamp to the pixel's point w is one segment, and the capsule's axis another; their distance is computed as in
+  // Ericson 2005, section 5.1.9.
   void Darken(const PixelRow& row, float* darkness) const {
     const glm::vec3 a(start_), v(along_);
     const float aa = glm::dot(a, a), va = glm::dot(v, a), vv = glm::dot(v, v);
     const float per_vv = vv > 0 ? 1 / vv : 0, per_radius = static_cast<float>(1 / radius_);
     for (int i = 0; i < row.count; ++i) {
-      // Closest points of both segments.
+      // Compute the closest points of both segments.
       const float x = row.x[i], y = row.y[i], z = row.z[i];
       const float ww = x * x + y * y + z * z, wa = x * a.x + y * a.y + z * a.z, wv = x * v.x + y * v.y + z * v.z;
       const float determinant = std::max(ww * vv - wv * wv, 1e-12f);
       const float at_first = Clamp01((wa * vv - wv * va) / determinant);
       const float t = Clamp01((wv * at_first - va) * per_vv);
       const float s = Clamp01((wv * t + wa) / ww);
-      // Depth inside the capsule, and softness by the distance from caster to pixel.
+      // Compute the depth inside the capsule, and the softness from the distance between capsule and pixel.
       const float gx = s * x - a.x - t * v.x, gy = s * y - a.y - t * v.y, gz = s * z - a.z - t * v.z;
       const float inside = 1 - std::sqrt(gx * gx + gy * gy + gz * gz) * per_radius;
       const float away = std::sqrt(std::max(ww - 2 * wa + aa, 0.0f));
@@ -96,7 +97,7 @@ class Caster {
     }
   }
 
-  // Raises each pixel's nearness: 1 at the capsule's skin, 0 at kContactReach from it.
+  // Raises each pixel's nearness to the capsule: 1 at the capsule's skin, 0 at kContactReach from it.
   void Touch(const PixelRow& row, float* nearness) const {
     const glm::vec3 a(start_), v(along_);
     const float vv = glm::dot(v, v), per_vv = vv > 0 ? 1 / vv : 0, radius = static_cast<float>(radius_);
@@ -112,8 +113,8 @@ class Caster {
  private:
   glm::dvec3 start_, along_;
   double radius_;
-  glm::dvec3 middle_;  // unit: the axis of a cone around it
-  double spread_;      // as in RoomTile
+  glm::dvec3 middle_;  // unit: the axis of a cone around the tile's directions
+  double spread_;      // RoomTile::spread
   double nearest_, farthest_;
   bool is_near_floor_;
 };
@@ -164,7 +165,7 @@ TileShade Shade(const std::vector<Caster>& casters, bool with_contacts, const La
 
 void Paint(const KeptRoom& kept, const TileShade& shade, double brightness, const PixelRect& pixels, bool labels,
            int top_row, View& view) {
-  // Row by row: darken the light, then convert it to bytes.
+  // In each row, darken the light, then convert it to bytes.
   const std::size_t width = static_cast<std::size_t>(view.colour.width);
   std::array<float, 3 * kRoomTileSize> light;
   for (int y = pixels.top; y < pixels.bottom; ++y) {

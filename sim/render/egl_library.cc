@@ -12,7 +12,8 @@
 namespace etude {
 namespace {
 
-/// The functions of EGL, taken from its library alone, because other loaded libraries may define the same names.
+/// The functions of EGL. They are looked up in EGL's library only, because other loaded libraries may define the same
+/// names.
 struct Egl {
   decltype(&eglGetPlatformDisplay) GetPlatformDisplay = nullptr;
   decltype(&eglInitialize) Initialize = nullptr;
@@ -38,7 +39,7 @@ Result<void*> MakeEglContext() {
 void MakeEglCurrent(void* context) { egl.MakeCurrent(egl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context); }
 
 void DestroyEglContext(void* context) {
-  // A current context would not be destroyed.
+  // Release the context first: a current context would not be destroyed.
   if (egl.GetCurrentContext() == context) MakeEglCurrent(EGL_NO_CONTEXT);
   egl.DestroyContext(egl.display, context);
 }
@@ -46,7 +47,7 @@ void DestroyEglContext(void* context) {
 }  // namespace
 
 Result<GlLibrary> LoadEgl() {
-  // Select Mesa's software rasteriser, whatever graphics card there is.
+  // Select Mesa's software rasteriser, even if there is a graphics card.
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
   ::setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   ASSIGN_OR_RETURN(void* const library, OpenGlLibrary("EGL", "libEGL.so.1"));

@@ -43,13 +43,13 @@ RoomTile MakeTile(const PixelRect& pixels, const LampView& view, int width) {
       sum += directions.back();
     }
   }
-  // The cone around the directions.
+  // Compute the cone around the directions.
   const double length = glm::length(sum);
   tile.middle = length > 0 ? sum / length : glm::dvec3(0, 1, 0);
   for (const glm::dvec3& direction : directions) {
     tile.spread = std::max(tile.spread, glm::distance(direction, tile.middle));
   }
-  // The ball around the points.
+  // Compute the ball around the points.
   tile.centre = 0.5 * (low + high);
   for (const glm::dvec3& point : points) tile.radius = std::max(tile.radius, glm::distance(point, tile.centre));
   return tile;
@@ -62,7 +62,7 @@ LampView SeeFromLamp(const std::vector<float>& depths, const Camera& camera, con
   LampView view;
   view.lamp = lamp;
   for (std::vector<float>* part : {&view.x, &view.y, &view.z}) part->reserve(depths.size());
-  // Relative position of every pixel's point.
+  // Compute the position of every pixel's point relative to the lamp.
   for (int y = 0; y < in.height; ++y) {
     for (int x = 0; x < in.width; ++x) {
       const double depth = depths[static_cast<std::size_t>(y) * in.width + x];
@@ -74,7 +74,7 @@ LampView SeeFromLamp(const std::vector<float>& depths, const Camera& camera, con
       view.z.push_back(static_cast<float>(point.z));
     }
   }
-  // Tiles that show room.
+  // Make the tiles in which the room is visible.
   for (int top = 0; top < in.height; top += kRoomTileSize) {
     for (int left = 0; left < in.width; left += kRoomTileSize) {
       const PixelRect pixels{left, top, std::min(left + kRoomTileSize, in.width),
@@ -86,7 +86,7 @@ LampView SeeFromLamp(const std::vector<float>& depths, const Camera& camera, con
   return view;
 }
 
-// As many as the largest rig has cameras: about 25 MB each at 640 × 480, 100 MB with smoothing.
+// The number of cameras in the largest rig. Each kept picture takes about 25 MB at 640 × 480, or 100 MB with smoothing.
 constexpr std::size_t kMaxKept = 8;
 
 bool SameView(const Camera& a, const Camera& b) {
@@ -128,7 +128,7 @@ RoomTexture MakeRoomTexture(std::uint64_t seed) {
 }
 
 void RoundToBytes(const float* light, std::size_t count, float brightness, std::uint8_t* bytes) {
-  // Adding 2²³ leaves a float no bits for fractions: the sum is rounded to a whole number.
+  // Adding 2²³ rounds a float to a whole number, because the sum has no bits left for fractions.
   constexpr float kWhole = 8388608;
   for (std::size_t i = 0; i < count; ++i) {
     const float level = std::min(std::max(light[i] * brightness, 0.0f), 1.0f) * 255.0f;
@@ -163,7 +163,7 @@ void KeptRooms::Drop(const Kept& kept) {
 }
 
 const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
-  // Take a kept picture and make it the most recent.
+  // Take the kept picture, if any, and make it the most recent.
   const auto found = std::ranges::find_if(kept_, [&](const Kept& kept) {
     return kept.texture_seed == room.texture_seed && SameView(kept.camera, camera) &&
            SameInterior(kept.interior, room.interior);
@@ -172,7 +172,7 @@ const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
     std::rotate(kept_.begin(), found, found + 1);
     return kept_.front().picture;
   }
-  // Otherwise drop the oldest and draw.
+  // Otherwise drop the oldest picture and draw a new one.
   if (kept_.size() == kMaxKept) {
     Drop(kept_.back());
     kept_.pop_back();
@@ -198,7 +198,7 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   }
   gl_.DrawBuffers(2, attachments);
   for (GLuint i = 0; i < 2; ++i)
-    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last picture may have masked them
+    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last draw may have masked them
 
   // Draw the room with its rays.
   gl_.Viewport(0, 0, width, height);

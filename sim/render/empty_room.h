@@ -13,42 +13,41 @@
 
 namespace etude {
 
-/// The 64 different tiles of floor or wall: x, y = centre of a round spot within the tile (0…1); z = its radius (0 =
-/// none; the spot stays inside the tile); w = tone of the tile, 0…1.
+/// The 64 different tiles of a floor or wall. For each tile: x, y = centre of a round spot within the tile (0…1); z =
+/// the spot's radius (0 = no spot; a spot stays inside its tile); w = tone of the tile, 0…1.
 using TilePattern = std::array<glm::vec4, 64>;
 
-/// The patterns of the room's two surfaces; tile (i, j) uses entry (i mod 8) + 8 (j mod 8).
+/// The tile patterns of floor and wall. Tile (i, j) uses entry (i mod 8) + 8 (j mod 8).
 struct RoomTexture {
   TilePattern floor;
   TilePattern wall;
 };
 
-/// Draws the random patterns of a room; they depend on `seed` alone.
+/// Draws the random patterns of a room. They depend only on `seed`.
 RoomTexture MakeRoomTexture(std::uint64_t seed);
 
-/// The maximum side of a tile, pixels: small enough to follow shadows closely, although each tile costs a test against
-/// every body.
+/// The maximum side of a tile, pixels. Small tiles follow shadows closely, but every tile is tested against every body.
 constexpr int kRoomTileSize = 16;
 
-/// A tile of the picture, and the directions from the lamp to the points that the empty room shows there. Directions
-/// are unit vectors.
+/// A tile of the picture, and the directions (unit vectors) from the lamp to the points of the empty room that the tile
+/// shows.
 struct RoomTile {
   PixelRect pixels;
   glm::dvec3 middle{0};  ///< mean direction, unit
-  double spread = 0;     ///< maximum distance between a direction's tip and that of `middle`
+  double spread = 0;     ///< maximum distance between the tips of `middle` and another direction
   double farthest = 0;   ///< maximum distance from the lamp, metres
   glm::dvec3 centre{0};  ///< centre of a ball around the points, metres from the lamp
   double radius = 0;     ///< radius of that ball
 };
 
-/// The points that a picture of the empty room shows, relative to the lamp: one value per pixel, row by row.
+/// The points of the empty room that a picture shows, relative to the lamp: one value per pixel, row by row.
 struct LampView {
   glm::dvec3 lamp{0};           ///< in the world, metres
-  std::vector<float> x, y, z;   ///< from the lamp, in the world's axes, metres; next to the lamp if there is no room
-  std::vector<RoomTile> tiles;  ///< the picture without tiles that show no room
+  std::vector<float> x, y, z;   ///< from the lamp, world axes, metres; next to the lamp without a surface
+  std::vector<RoomTile> tiles;  ///< the tiles in which the room is visible
 };
 
-/// The empty room as one camera sees it at brightness 1: as textures for shaders, and as numbers for computations
+/// One camera's picture of the empty room at brightness 1: as textures for shaders, and as numbers for computations
 /// without GL.
 struct KeptRoom {
   GLuint room = 0;                   ///< RGB colour, A depth
@@ -61,11 +60,11 @@ struct KeptRoom {
 };
 
 /// Caches pictures of the empty room, one per camera, because cameras stand still while people move. The most recently
-/// used ones are kept.
+/// used pictures are kept.
 class KeptRooms {
  public:
-  /// The programs draw the studio and interiors (shaders.h). They and `empty_vertices`, a vertex array without
-  /// attributes, must outlive this object.
+  /// The two programs draw the studio and interiors (shaders.h). The programs, and `empty_vertices`, a vertex array
+  /// without attributes, must outlive this object.
   KeptRooms(const GlFunctions& gl, GLuint studio_program, GLuint interior_program, GLuint empty_vertices)
       : gl_(gl),
         studio_program_(studio_program),
@@ -75,8 +74,8 @@ class KeptRooms {
   KeptRooms(const KeptRooms&) = delete;
   KeptRooms& operator=(const KeptRooms&) = delete;
 
-  /// Returns the room seen by `camera`, drawn now or earlier. If it draws, GL's framebuffer, viewport and program
-  /// change.
+  /// Returns the picture of the room from `camera`, from the cache or newly drawn. Drawing changes GL's framebuffer,
+  /// viewport and program.
   const KeptRoom& FindOrDraw(const Room& room, const Camera& camera);
 
  private:
@@ -96,11 +95,11 @@ class KeptRooms {
 };
 
 /// Fills `view` with `rows` of the empty room at `brightness`, `width` pixels each. The bytes are exactly those that GL
-/// would draw (round to nearest even). Pictures of another size are reallocated.
+/// would draw (round to nearest even). Pictures in `view` with another size are reallocated.
 void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view);
 
-/// Converts `count` values times the brightness to 8-bit levels, rounded as GL rounds them.
+/// Multiplies `count` values by the brightness and converts them to 8-bit levels; rounding is the same as in GL.
 void RoundToBytes(const float* light, std::size_t count, float brightness, std::uint8_t* bytes);
 
 }  // namespace etude

@@ -15,7 +15,7 @@ const Capsule* FindFirst(const std::vector<Capsule>& shape, Part part) {
   return nullptr;
 }
 
-// The skull is the thickest capsule of the head: a neck may be labelled kHead too, but gets no face.
+// Returns the skull, the thickest capsule of the head. A neck may also be labelled kHead, but gets no face.
 const Capsule* FindSkull(const std::vector<Capsule>& shape) {
   const Capsule* skull = nullptr;
   for (const Capsule& capsule : shape) {
@@ -24,14 +24,14 @@ const Capsule* FindSkull(const std::vector<Capsule>& shape) {
   return skull;
 }
 
-// The capsule that gets a face, and the direction in which it looks.
+// The capsule that gets a face, and the direction of the face.
 struct Face {
   const Capsule* head = nullptr;  // null: no face
   glm::dvec3 up{0};
   glm::dvec3 front{0};
 };
 
-// The face has the direction of the chest: across the shoulders × up the neck.
+// Places the face in the direction of the chest: across the shoulders × up the neck.
 Face PlaceFace(const std::vector<Capsule>& shape) {
   const Capsule* left = FindFirst(shape, Part::kLeftUpperArm);
   const Capsule* right = FindFirst(shape, Part::kRightUpperArm);
@@ -63,7 +63,7 @@ void AddInstances(const Figure& figure, const glm::dvec3& eye, std::vector<Capsu
   }
 }
 
-// Metres. Within this limit, products of floats do not overflow; NaN fails the comparison.
+// Metres. Below this limit, products of floats do not overflow; NaN fails the comparison, too.
 constexpr float kMaxCoordinate = 1e6f;
 
 bool IsWithin(const glm::vec3& v, float limit) {
@@ -84,7 +84,7 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
   assert(surface.normals.size() == surface.positions.size() && surface.parts.size() == surface.triangles.size());
   assert(!surface.paint || surface.rest.size() == surface.positions.size());
   assert(surface.paint || !surface.texture || surface.on_texture.size() == surface.positions.size());
-  // The corners of a vertex, one per part that meets there, form a linked list.
+  // The corners of one vertex, one for each part that meets there, form a linked list.
   struct Made {
     Part part;
     std::uint32_t next;
@@ -93,7 +93,7 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
   std::vector<std::uint32_t> first(surface.positions.size(), kNone);
   std::vector<Made> made;
   const std::size_t before = all.corners.size();
-  // Find or add the corner of a vertex for a part.
+  // Finds or adds the corner of a vertex for a part.
   const auto corner_of = [&](std::uint32_t vertex, Part part) {
     std::uint32_t* at = &first[vertex];
     while (*at != kNone && made[*at].part != part) at = &made[*at].next;

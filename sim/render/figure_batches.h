@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// One capsule as the vertex shader reads it (kCapsuleBox in shaders.h). Frame E has the world's axes and its origin at
+/// One capsule as input of the vertex shader (kCapsuleBox in shaders.h). Frame E has the world's axes and its origin at
 /// the camera's centre.
 struct CapsuleInstance {
   glm::vec4 start_and_radius;  ///< in E; for a face, the end at the chin
@@ -17,11 +17,11 @@ struct CapsuleInstance {
   glm::vec3 front;             ///< unit direction in which the face looks
 };
 
-/// Returns all capsules of all figures, except those that are not finite or whose radius is not positive.
+/// Returns all capsules of all figures, except those with infinite or NaN coordinates or without a positive radius.
 std::vector<CapsuleInstance> MakeInstances(const std::vector<Figure>& figures, const glm::dvec3& eye);
 
-/// One corner of a triangle as the surface shaders read it. Frame E has the world's axes and its origin at the camera's
-/// centre.
+/// One corner of a triangle as input of the surface shaders. Frame E has the world's axes and its origin at the
+/// camera's centre.
 struct SurfaceCorner {
   glm::vec3 place;  ///< in E
   glm::vec3 normal;
@@ -30,19 +30,20 @@ struct SurfaceCorner {
       rest_and_paint;  ///< position on the body at rest, or RG = position on the texture; A = the paint's index or −1
 };
 
-/// Triangles with three indices each. Triangles of one part that share a vertex share its corner, so GL shades it once.
+/// Triangles as three indices each. Triangles of one part that share a vertex also share its corner, which GL then
+/// shades only once.
 struct Triangles {
   std::vector<SurfaceCorner> corners;
   std::vector<std::uint32_t> indices;
 };
 
-/// Consecutive indices with the same texture.
+/// A run of consecutive indices with the same texture.
 struct TexturedRun {
   SharedTexture texture;
   std::size_t first = 0, count = 0;
 };
 
-/// The triangles of all surfaces, by the way they are painted.
+/// The triangles of all surfaces, grouped by the kind of paint.
 struct SurfaceTriangles {
   Triangles plain;    ///< surfaces in one colour
   Triangles painted;  ///< surfaces with a paint
@@ -51,7 +52,7 @@ struct SurfaceTriangles {
 };
 
 /// Collects all triangles of all figures in `all`, whose memory is reused. Triangles with a corner or normal that is
-/// not finite or is far outside any scene are left out. Paints have indices in the order of PaintsOf.
+/// not finite, or with a corner far outside any scene, are left out. Paints have indices in the order of PaintsOf.
 void MakeTriangles(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceTriangles& all);
 
 /// Returns the paints of all surfaces in the order of their indices.

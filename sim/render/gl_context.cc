@@ -4,8 +4,9 @@
 #include <string_view>
 
 #ifdef __SANITIZE_ADDRESS__
-// OSMesa leaks 480 bytes per destroyed context, EGL its display, and fontconfig what it has read. The sanitizer calls
-// this function in every program that links this file, so neither tests nor manual runs need LSAN_OPTIONS.
+// Known leaks: OSMesa leaks 480 bytes per destroyed context, EGL its display, and fontconfig the data it has read. The
+// sanitizer calls this function in every program that links this file, so neither tests nor manual runs need
+// LSAN_OPTIONS.
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libOSMesa\nleak:libEGL\nleak:libgallium\nleak:swrast_dri\nleak:libfontconfig\n";
 }
@@ -51,7 +52,7 @@ Result<std::unique_ptr<GlContext>> GlContext::Create() {
   if (!result->functions_.name) return Fail({}, "{} lacks the OpenGL function gl{}", result->library(), #name);
   ETUDE_GL_FUNCTIONS(ETUDE_GL_LOAD)
 #undef ETUDE_GL_LOAD
-  // Accept only llvmpipe.
+  // Accept only the renderer llvmpipe.
   const auto* renderer = reinterpret_cast<const char*>(result->functions_.GetString(GL_RENDERER));
   if (renderer == nullptr || !std::string_view(renderer).starts_with("llvmpipe")) {
     return Fail({}, "{} draws by {}; only Mesa's llvmpipe gives the same pixels on every machine", library.name,

@@ -1,6 +1,6 @@
 #pragma once
 
-// The only header with GL: only this folder's .cc files include it.
+// No other header includes GL; only this folder's .cc files include this one.
 #include <GL/glcorearb.h>
 
 #include <memory>
@@ -12,8 +12,8 @@
 
 namespace etude {
 
-// Every GL function that this folder calls. Their addresses are requested from OSMesa or EGL by name, because the usual
-// loaders (libepoxy, GLEW) do not work with OSMesa.
+// The list of all GL functions that this folder calls. Their addresses are requested by name from OSMesa or EGL,
+// because the usual loaders (libepoxy, GLEW) do not work with OSMesa.
 #define ETUDE_GL_FUNCTIONS(X)                                  \
   X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                     \
   X(PFNGLATTACHSHADERPROC, AttachShader)                       \
@@ -82,7 +82,7 @@ namespace etude {
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
   X(PFNGLVIEWPORTPROC, Viewport)
 
-/// The GL functions, without their prefix: `gl.Clear(…)`.
+/// The GL functions without the prefix "gl": `gl.Clear(…)`.
 struct GlFunctions {
 #define ETUDE_GL_MEMBER(type, name) type name = nullptr;
   ETUDE_GL_FUNCTIONS(ETUDE_GL_MEMBER)
@@ -92,8 +92,8 @@ struct GlFunctions {
 /// An offscreen context of OpenGL 3.3 core. Everything is drawn into our own framebuffer objects.
 class GlContext {
  public:
-  /// Fails if no library can be loaded, or if the loaded one has no such context or lacks a function; the error says
-  /// which.
+  /// Fails if no library can be loaded, if the loaded library cannot make such a context, or if it lacks a function.
+  /// The error states which.
   static Result<std::unique_ptr<GlContext>> Create();
   ~GlContext();
   GlContext(const GlContext&) = delete;
@@ -102,7 +102,7 @@ class GlContext {
   /// Directs all following GL calls to this context.
   void MakeCurrent();
   const GlFunctions& functions() const { return functions_; }
-  /// Returns the name of its library: "OSMesa", "EGL".
+  /// Returns the name of the GL library: "OSMesa" or "EGL".
   const std::string& library() const { return library_.name; }
 
   /// Compiles and links a program; `attributes` get the locations 0, 1, 2, … in order. The error contains the
@@ -118,7 +118,7 @@ class GlContext {
   GlFunctions functions_;
 };
 
-/// Throws std::bad_alloc if GL has run out of memory since the last call; what it drew since is not a valid picture.
+/// Throws std::bad_alloc if GL has run out of memory since the last call. Pictures drawn since then are not valid.
 void CheckMemory(const GlFunctions& gl);
 
 /// Makes a texture without filtering and leaves it bound.

@@ -175,10 +175,10 @@ void FrameTargets::WriteOnly(bool colour, bool labels, bool depth) {
 void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, View& view) {
   const int width = rect.Width();
   const std::size_t pixels = static_cast<std::size_t>(width) * rect.Height();
-  // Colour: bodies replace, shadows darken.
+  // Read colours: bodies replace the view's pixels, shadows darken them.
   bytes_.resize(4 * pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
-  // The framebuffer holds four bytes a pixel; letting GL drop the fourth is slower.
+  // Read four bytes per pixel as the framebuffer holds them; a conversion to three bytes would be slower.
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
   CheckMemory(gl_);
   const std::uint8_t* source = bytes_.data();
@@ -192,7 +192,7 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   }
   if (targets == Targets::kColour) return;
 
-  // Labels.
+  // Read labels.
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, bytes_.data());
   CheckMemory(gl_);
@@ -203,7 +203,7 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   }
   if (targets == Targets::kColourAndLabels) return;
 
-  // Depth.
+  // Read depths.
   depths_.resize(pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT2);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED, GL_FLOAT, depths_.data());

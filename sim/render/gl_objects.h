@@ -11,16 +11,17 @@
 namespace etude {
 
 /// The vertex data of one draw call, uploaded for every picture: corners of triangles, or instances of one triangle
-/// strip whose corners the shader computes. It lives as long as its context.
+/// strip whose corners the shader computes. The GL context must outlive this object.
 class VertexStream {
  public:
-  /// An input of the shader: `size` floats at `offset` bytes into an element. Locations are numbered from 0 in order.
+  /// An input of the shader: `size` floats, which begin `offset` bytes into an element. Locations are numbered from 0
+  /// in order.
   struct Attribute {
     int size;
     std::size_t offset;
   };
-  /// Makes the vertex array. `strip_length` is the number of corners of the strip that each element stands for, or 0 if
-  /// elements are corners.
+  /// Makes the vertex array. If each element is an instance of a triangle strip, `strip_length` is the number of
+  /// corners of the strip; if elements are corners, it is 0.
   VertexStream(const GlFunctions& gl, std::size_t element_bytes, GLsizei strip_length,
                std::initializer_list<Attribute> attributes);
 
@@ -36,7 +37,7 @@ class VertexStream {
   }
   bool IsEmpty() const { return count_ == 0; }
   void Draw() const;
-  /// Draws only `count` indices from `first` on; for streams of corners only.
+  /// Draws `count` indices, beginning with index number `first`; only for streams of corners.
   void DrawSome(std::size_t first, std::size_t count) const;
 
  private:
@@ -50,20 +51,20 @@ class VertexStream {
   GLuint buffer_ = 0, indices_ = 0;
 };
 
-/// The textures that were uploaded to GL; a figure's textures are kept from picture to picture. It lives as long as its
-/// context.
+/// The textures that were uploaded to GL; a figure's textures are kept from picture to picture. The GL context must
+/// outlive this object.
 class TextureStore {
  public:
-  /// The texture unit of the bound texture; unit 0 holds the room's.
+  /// The texture unit to which Bind binds; unit 0 holds the room's texture.
   static constexpr GLint kUnit = 1;
 
   explicit TextureStore(const GlFunctions& gl) : gl_(gl) {}
 
-  /// Binds a texture to the unit; a new texture is first uploaded with mipmaps.
+  /// Binds a texture to the unit. A new texture is first uploaded, with mipmaps.
   void Bind(const SharedTexture& texture);
 
  private:
-  // Holding the pointer prevents another texture from getting the same address.
+  // The pointer is kept, because otherwise another texture could get the same address.
   struct Uploaded {
     SharedTexture texture;
     GLuint name = 0;
@@ -76,8 +77,9 @@ class TextureStore {
 };
 
 /// The framebuffer for pictures: colour, labels, linear depth, and a depth buffer for hidden surfaces. It grows to the
-/// largest picture; smaller ones use its corner. It holds only what is drawn over the empty room. Bodies are drawn with
-/// an alpha of 0, shadows with 0.5, and the darkest shadow counts; pixels that were not drawn are not read.
+/// size of the largest picture; smaller pictures use its corner. It holds only pixels drawn over the empty room. Bodies
+/// are drawn with an alpha of 0 and shadows with 0.5; where shadows overlap, the darkest counts. Pixels that were not
+/// drawn are not read.
 class FrameTargets {
  public:
   explicit FrameTargets(const GlFunctions& gl) : gl_(gl) {}
@@ -85,19 +87,19 @@ class FrameTargets {
   FrameTargets(const FrameTargets&) = delete;
   FrameTargets& operator=(const FrameTargets&) = delete;
 
-  /// Directs drawing to the top left `width` × `height` pixels of the requested attachments; fewer attachments are
+  /// Directs drawing to the top left `width` × `height` pixels of the requested attachments. Fewer attachments are
   /// faster.
   void Begin(int width, int height, Targets asked);
-  /// Clears rectangles (at least one) of the attachments selected by WriteOnly: they then hold no drawn pixels and no
-  /// depths. From then on drawing is limited to the rectangle around all of them.
+  /// Clears rectangles (at least one) of the attachments selected by WriteOnly: their pixels then count as not drawn.
+  /// From then on drawing is limited to the bounding rectangle of all of them.
   void Clear(const std::vector<PixelRect>& rects);
-  /// Selects the attachments that the next draws write. It uses masks, because a change of attachments would make Mesa
-  /// finish all pending drawing.
+  /// Selects the attachments that the next draw calls write. Masks are used, because a change of attachments would make
+  /// Mesa finish all pending drawing.
   void WriteOnly(bool colour, bool labels, bool depth);
-  /// Copies the drawn pixels of a rectangle from GL to the pictures of `view`, which already have their size and begin
-  /// with row `top_row`.
+  /// Copies the drawn pixels of a rectangle from GL to the pictures of `view`. These must have their size already;
+  /// their first row is row `top_row`.
   void Read(const PixelRect& rect, int top_row, Targets targets, View& view);
-  /// Copies the drawn pixels of a rectangle to an overlay without change.
+  /// Copies the drawn pixels of a rectangle from GL to an overlay, unchanged.
   void Read(const PixelRect& rect, Overlay& overlay);
 
  private:

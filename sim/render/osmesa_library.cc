@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// OSMesa's own functions; OSMesaGetProcAddress returns only those of GL.
+/// OSMesa's own functions. (OSMesaGetProcAddress returns only GL's functions.)
 struct OsMesa {
   decltype(&OSMesaCreateContextAttribs) CreateContextAttribs = nullptr;
   decltype(&OSMesaDestroyContext) DestroyContext = nullptr;

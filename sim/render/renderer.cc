@@ -18,10 +18,10 @@
 namespace etude {
 namespace {
 
-// Surfaces beyond this depth are not drawn, metres.
+// Surfaces beyond this distance are not drawn, metres.
 constexpr float kMaxDepth = 200;
 
-// A box as one triangle strip.
+// The number of corners of a box as one triangle strip.
 constexpr GLsizei kStripLength = 14;
 
 struct Programs {
@@ -139,7 +139,7 @@ struct Renderer::State {
   }
 
   // Draws the shadows of surfaces in the studio. Each triangle darkens separately; where shadows overlap, the darkest
-  // counts and not their product.
+  // counts.
   void DrawShadowsOfSurfaces(const Shot& shot) {
     const GLuint program = programs.surface_shadow;
     Use(program, shot);
@@ -157,7 +157,7 @@ struct Renderer::State {
     gl.Disablei(GL_BLEND, 0);
   }
 
-  // Marks shadows on the studio's floor only; bodies are drawn over them.
+  // Marks shadows on the studio's floor only. Bodies are drawn over them later.
   void MarkShadowsOfSurfaces(const Room& room, const Camera& camera) {
     gl.UseProgram(programs.shadow_mark);
     SetPixelGeometry(gl, programs.shadow_mark, camera, room);
@@ -215,7 +215,7 @@ struct Renderer::State {
   }
 
   void Upload(const std::vector<Figure>& figures, const glm::dvec3& eye) {
-    // Capsules, with and without a face.
+    // Collect capsules, with and without a face.
     std::vector<CapsuleInstance> plain = MakeInstances(figures, eye), with_face;
     const auto first_face = std::stable_partition(
         plain.begin(), plain.end(), [](const CapsuleInstance& instance) { return instance.paint.a == 0; });
@@ -223,7 +223,7 @@ struct Renderer::State {
     plain.erase(first_face, plain.end());
     capsules.Upload(plain);
     faces.Upload(with_face);
-    // Surfaces.
+    // Collect surfaces.
     all_closed = AllClosed(figures);
     MakeTriangles(figures, eye, triangles);
     surfaces.Upload(triangles.plain.corners, triangles.plain.indices);
@@ -231,8 +231,8 @@ struct Renderer::State {
     textured.Upload(triangles.textured.corners, triangles.textured.indices);
   }
 
-  // Draws bodies, and the shadows of surfaces in the studio, in `rects` of the picture, over `view`, whose first row is
-  // `top_row`.
+  // Draws bodies, and in the studio the shadows of surfaces, over `view`, in the rectangles `rects` of the picture. The
+  // first row of `view` is row `top_row` of the picture.
   void DrawTouched(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, const Camera& camera,
                    Targets asked, const std::vector<PixelRect>& rects, int top_row, View& view) {
     if (rects.empty()) return;
@@ -285,7 +285,7 @@ Result<std::unique_ptr<Renderer>> Renderer::Create() {
 }
 
 Result<Renderer*> SharedRenderer() {
-  // Never destroyed, because Mesa may already be unloaded at exit.
+  // The shared renderer is never destroyed, because Mesa may already be unloaded at exit.
   static const auto* const shared = new Result<std::unique_ptr<Renderer>>(Renderer::Create());
   if (!*shared) return tl::unexpected(shared->error());
   return (*shared)->get();
@@ -320,12 +320,12 @@ View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, 
   assert(width > 0 && height > 0 && width <= kMaxPictureSide && height <= kMaxPictureSide);
   assert(0 <= rows.first && rows.first < rows.end && rows.end <= height);
   state_->context->MakeCurrent();
-  // The empty room with the shadows of capsules.
+  // Draw the empty room with the shadows of capsules.
   const KeptRoom& kept = state_->rooms.FindOrDraw(room, camera);
   View view;
   FillBackdrop(kept, width, room.brightness, targets, rows, view);
   if (room.casts_shadows) CastCapsuleShadows(kept, room, figures, targets, rows, view);
-  // The figures.
+  // Draw the figures.
   state_->DrawTouched(kept, room, figures, camera, targets, TouchedPixels(room, figures, camera, rows), rows.first,
                       view);
   return view;
@@ -334,7 +334,7 @@ View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, 
 void Renderer::DrawFigures(const std::vector<Figure>& figures, const Camera& camera, Overlay& overlay) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
   state_->context->MakeCurrent();
-  // Clear what the last picture drew.
+  // Clear the drawing of the last picture.
   if (overlay.width != width || overlay.height != height) {
     overlay = {width, height, std::vector(4 * static_cast<std::size_t>(width) * height, std::uint8_t{255}), {}};
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-// The description of a scene: plain data, independent of the renderer.
+// This file describes a scene as plain data, independent of the renderer.
 
 #include <array>
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace etude {
 
-/// The pattern in which two colours share a surface. Patterns from kPlanks on are for rooms only; on figures they are
-/// drawn plain. Positions are metres in the surface's own space: the body at rest for clothes (so patterns move with
+/// The pattern of two colours on a surface. Patterns from kPlanks on are for rooms only; figures show them as plain.
+/// Positions are in metres in the surface's own space: the body at rest for clothes (their patterns therefore move with
 /// them), the plane of a wall or floor, the box of a piece of furniture.
 enum class Pattern {
   kPlain,      ///< the first colour
@@ -28,7 +28,7 @@ enum class Pattern {
   kPatchwork,  ///< blocks of `size`, each a mix of the two colours: books, pictures
 };
 
-/// A painted surface.
+/// The paint of a surface: a pattern and its colours.
 struct SurfacePaint {
   Rgb8 first{};
   Rgb8 second{};
@@ -43,21 +43,20 @@ struct SurfacePaint {
 /// The colours of the parts of a body, indexed by Part.
 using PartColours = std::array<Rgb8, 16>;
 
-/// Triangles in the world with one colour, a paint or a texture. Both sides are drawn. Triangles with a corner or
-/// normal that is not finite, or with a corner 1000 km away, are left out; parts nearer to the camera than 1 cm are
-/// clipped.
+/// Triangles in the world with one colour, a paint or a texture. Both sides are drawn. Triangles are left out if a
+/// corner or normal is not finite or a corner is 1000 km away. Parts nearer to the camera than 1 cm are clipped.
 struct Surface {
   std::vector<glm::dvec3> positions;                    ///< metres
   std::vector<glm::dvec3> normals;                      ///< unit, one per position
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<Part> parts;                              ///< one per triangle: its label
   Rgb8 colour;
-  std::optional<PartColours> by_part{};  ///< instead of `colour`: the colour of each triangle's part
+  std::optional<PartColours> by_part{};  ///< the colour of each triangle's part, instead of `colour`
   std::optional<SurfacePaint> paint{};   ///< instead of `colour`
-  bool is_closed = false;                ///< true if no back side is ever visible; this is faster
-  std::vector<glm::vec3> rest{};         ///< with `paint`, one per position: its position on the body at rest, metres
+  bool is_closed = false;                ///< true if no back side is ever visible, which makes drawing faster
+  std::vector<glm::vec3> rest{};         ///< with `paint`: one per position, on the body at rest, metres
   SharedTexture texture{};               ///< instead of `colour`, unless there is a paint
-  std::vector<glm::vec2> on_texture{};   ///< with `texture`, one per position
+  std::vector<glm::vec2> on_texture{};   ///< with `texture`: texture coordinates, one per position
 };
 
 /// A person or a moving object in the scene: capsules with the colours of their parts, or surfaces, or both.
@@ -65,9 +64,9 @@ struct Figure {
   std::vector<Capsule> shape;
   PartColours colours{};
   std::vector<Surface> surfaces{};
-  /// Invisible capsules that cast the shadow of the surfaces in furnished rooms, where surfaces cast none.
+  /// Invisible capsules that cast the figure's shadow in furnished rooms, because surfaces cast no shadow there.
   std::vector<Capsule> shadow{};
-  /// If set, the label of all its pixels, kBystander or kClutter, instead of those of its parts.
+  /// If set, the label of all pixels of the figure, kBystander or kClutter, replaces the labels of its parts.
   std::optional<Part> seen_as{};
   bool is_hooded = false;  ///< true: neither hair nor a face is drawn on the head's capsules
 };
@@ -75,11 +74,11 @@ struct Figure {
 /// The maximum number of painted surfaces in one picture.
 constexpr std::size_t kMaxPaints = 64;
 
-/// Returns the colours of the captured performer: clothes and skin of warm hues (335° through red to 45°). They differ
-/// in hue by at least 85° from everything in the room, because segmentation compares hues.
+/// Returns the colours of the captured performer: clothes and skin with warm hues (from 335° through red to 45°). They
+/// differ in hue by at least 85° from everything in the room, because segmentation compares hues.
 PartColours PerformerColours();
 
-/// A fixed box in the room, rotated about the vertical like Cuboid (sim/body/shape.h); its pixels are labelled
+/// A fixed box in the room, rotated about the vertical like Cuboid (sim/body/shape.h). Its pixels are labelled
 /// kFurniture.
 struct FurnitureBox {
   glm::dvec3 centre{0};     ///< metres
@@ -88,7 +87,7 @@ struct FurnitureBox {
   SurfacePaint paint;
 };
 
-/// A picture or a window: a painted rectangle on a wall; its pixels have the wall's label.
+/// A picture or a window: a painted rectangle on a wall. Its pixels have the wall's label.
 struct WallPicture {
   enum class Wall { kBack, kLeft, kRight };  ///< z = low.z, x = low.x, x = high.x
   Wall wall = Wall::kBack;
@@ -96,10 +95,10 @@ struct WallPicture {
   glm::dvec2 half_size{0};  ///< metres, including the frame
   SurfacePaint paint;
   Rgb8 frame{};
-  double glow = 0;  ///< own light: 1 = a window at noon, which shows its paint independently of the lamps
+  double glow = 0;  ///< light of its own; 1 = a window at noon, whose paint does not depend on lamps
 };
 
-/// The lights of an interior, relative to the studio's lamp and ambient light. Linear RGB.
+/// The lights of an interior in linear RGB, relative to the studio's lamp and ambient light.
 struct Lights {
   glm::dvec3 key{-1.8, 2.9, 4.0};  ///< position of the lamp that casts shadows, metres
   glm::dvec3 key_colour{1};
@@ -110,12 +109,12 @@ struct Lights {
   glm::dvec3 window_colour{0};
 };
 
-/// The maximum contents of one interior; further ones are not drawn.
+/// The maximum number of objects in an interior; more are not drawn.
 constexpr std::size_t kMaxFurnitureBoxes = 48;
 constexpr std::size_t kMaxWallPictures = 8;
 
-/// A furnished room: a closed, painted box with its contents. Walls are visible from inside only, so a camera may stand
-/// behind one.
+/// A furnished room: a closed, painted box with its contents. Walls are visible only from inside, so a camera may stand
+/// behind a wall.
 struct Interior {
   glm::dvec3 low{-4, 0, -2.5};  ///< corners of the room, metres
   glm::dvec3 high{4, 3.3, 5};
@@ -132,16 +131,16 @@ struct Interior {
 bool operator==(const Lights&, const Lights&);
 bool operator==(const Interior&, const Interior&);
 
-/// The studio's wall is the infinite plane z = kWallZ, visible from its front only; the floor is y = 0.
+/// The studio's wall is the infinite plane z = kWallZ, which is visible only from its front. The floor is y = 0.
 constexpr double kWallZ = -2.5;
 /// The position of the studio's only lamp, metres.
 constexpr glm::dvec3 kLamp{-1.8, 2.9, 4.0};
 
-/// The room: a floor at y = 0 and a wall behind it, both textured and lit by one lamp that casts shadows; or an
-/// interior.
+/// The room: either the studio, which has a floor at y = 0 and a wall behind it, both textured and lit by one lamp that
+/// casts shadows; or an interior.
 struct Room {
   std::uint64_t texture_seed = 1;  ///< determines the spots of the wall and floor
-  double brightness = 1.0;         ///< factor on the light, e.g. exposure or lamp drift; keeps the hue; ≥ 0
+  double brightness = 1.0;         ///< factor on the light (exposure, lamp drift), ≥ 0; does not change hues
   bool casts_shadows = true;
   const Interior* interior = nullptr;  ///< null: the studio. Must live until the picture is drawn.
 };
@@ -160,12 +159,12 @@ struct PixelRect {
   bool IsEmpty() const { return right <= left || bottom <= top; }
 };
 
-/// Returns the smallest rectangle that contains both; an empty rectangle contains nothing.
+/// Returns the smallest rectangle that contains both rectangles. An empty rectangle contains no pixels.
 PixelRect Union(const PixelRect& a, const PixelRect& b);
 
-/// The pixels of figures alone, for pictures with another background.
+/// The pixels of figures alone, to be put over another background.
 struct Overlay {
-  /// The fourth byte: the kind of pixel.
+  /// The kind of a pixel, stored as its fourth byte.
   enum Seen : std::uint8_t { kBody = 0, kShadow = 128, kNothing = 255 };
 
   int width = 0, height = 0;
@@ -173,19 +172,19 @@ struct Overlay {
   PixelRect drawn{};                ///< every pixel outside is kNothing
 };
 
-/// Rows `first` to `end` − 1 of a picture.
+/// The rows `first` to `end` − 1 of a picture.
 struct RowRange {
   int first = 0;
   int end = 0;
 };
 
-/// The pictures that a caller needs. Colour alone is the fastest; pictures that are not requested stay empty.
+/// The pictures that a caller requests. Colour alone is the fastest; the others stay empty.
 enum class Targets { kColour, kColourAndLabels, kAll };
 
 /// The maximum side of a picture, pixels.
 constexpr int kMaxPictureSide = 4096;
 
-/// Returns the lights of the studio, or of the room's interior.
+/// Returns the lights of the room's interior, or of the studio without an interior.
 Lights LightsOf(const Room& room);
 
 }  // namespace etude

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// An axis-aligned box in the world; empty while no point was added.
+// An axis-aligned box in the world. It is empty until a point is added.
 struct Extent {
   glm::dvec3 low{kInfinity}, high{-kInfinity};
 
@@ -30,8 +30,8 @@ struct Extent {
 
 bool IsFinitePoint(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// A rectangle that grows over projected points. A point behind the camera may appear anywhere, so the rectangle is then
-// the whole picture.
+// The bounding rectangle of projected points. A point behind the camera may appear anywhere; the rectangle is then the
+// whole picture.
 class SeenRect {
  public:
   explicit SeenRect(const Camera& camera) : camera_(camera) {}
@@ -71,7 +71,7 @@ class SeenRect {
   glm::dvec2 low_{kInfinity}, high_{-kInfinity};
 };
 
-// Returns the shadow of an extent on one plane of the room, clipped to the plane's bounds.
+// Returns the shadow of an extent on one plane of the room, clipped to the plane's limits.
 Extent ShadowOn(const Extent& extent, const glm::dvec3& lamp, int axis, double plane, const Extent& room) {
   Extent shadow;
   const double reach = std::abs(lamp[axis] - plane), side = lamp[axis] > plane ? 1 : -1;
@@ -90,7 +90,7 @@ Extent ShadowOn(const Extent& extent, const glm::dvec3& lamp, int axis, double p
   return shadow;
 }
 
-// Return the extents of every capsule, and of every surface as a whole.
+// These functions return the extents of every capsule, and of every surface as a whole.
 std::vector<Extent> ExtentsOf(const std::vector<Capsule>& shape) {
   std::vector<Extent> extents;
   for (const Capsule& capsule : shape) {
@@ -116,7 +116,7 @@ std::vector<Extent> ExtentsOf(const std::vector<Surface>& surfaces) {
 
 int Area(const PixelRect& rect) { return rect.Width() * rect.Height(); }
 
-// Merges two rectangles if their union has at most 10 % more pixels than both.
+// Merges two rectangles if their union has at most 10 % more pixels than both together.
 void Merge(std::vector<PixelRect>& rects) {
   std::erase_if(rects, [](const PixelRect& rect) { return rect.IsEmpty(); });
   for (std::size_t i = 0; i < rects.size(); ++i) {

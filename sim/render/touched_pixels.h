@@ -7,8 +7,9 @@
 
 namespace etude {
 
-/// Returns the rectangles of the picture in which GL draws: around every figure and, in the studio, around the shadow
-/// of its surfaces (`with_wall`: on the wall, too). They may overlap, and lie within `rows` of the picture.
+/// Returns the rectangles of the picture in which GL draws: around every figure and, in the studio, around the shadows
+/// of its surfaces on the floor and, if `with_wall`, on the wall. They may overlap; all lie within `rows` of the
+/// picture.
 std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>& figures, const Camera& camera,
                                      const RowRange& rows, bool with_wall = true);
 

@@ -15,7 +15,7 @@ void SetMatrix(const GlFunctions& gl, GLuint program, const char* name, const gl
   gl.UniformMatrix3fv(gl.GetUniformLocation(program, name), 1, GL_FALSE, glm::value_ptr(narrow));
 }
 
-// The first indices of the shader's paints.
+// The indices of the first picture and of the first box among the shader's paints.
 constexpr int kFirstPicturePaint = 4, kFirstBoxPaint = 12;
 static_assert(kFirstBoxPaint - kFirstPicturePaint == kMaxWallPictures);
 static_assert(kFirstBoxPaint + kMaxFurnitureBoxes <= kMaxPaints);
@@ -65,7 +65,7 @@ void SetPictures(const GlFunctions& gl, GLuint program, const std::vector<WallPi
   for (std::size_t i = 0; i < count; ++i) {
     const WallPicture& picture = pictures[i];
     positions.emplace_back(glm::vec2(picture.centre), glm::vec2(picture.half_size));
-    // The glow, in sixteen steps, shares a number with the wall.
+    // Pack the glow, in sixteen steps, into one number with the wall.
     const int glow = static_cast<int>(std::lround(16 * std::clamp(picture.glow, 0.0, 1.0)));
     frames.emplace_back(ToShares(picture.frame), static_cast<float>(WallNumber(picture.wall) + 8 * glow));
     paints.push_back(picture.paint);
@@ -85,7 +85,7 @@ void SetPoint(const GlFunctions& gl, GLuint program, const char* name, const glm
 
 void SetPixelGeometry(const GlFunctions& gl, GLuint program, const Camera& camera, const Room& room) {
   const Intrinsics& in = camera.intrinsics;
-  // Columns, as in GLM: image (u w, v w, w) = K · direction in C.
+  // The columns are those of GLM: image (u w, v w, w) = K · direction in C.
   const glm::dmat3 K(in.fx, 0, 0, in.skew, in.fy, 0, in.cx, in.cy, 1);
   SetMatrix(gl, program, "ray_of_pixel", glm::transpose(camera.R_CW) * glm::inverse(K));
   SetMatrix(gl, program, "image_of_direction", K * camera.R_CW);

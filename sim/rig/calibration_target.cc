@@ -42,7 +42,7 @@ void AddDisc(const PlacedDisc& disc, const glm::dvec3& right, const glm::dvec3& 
   }
 }
 
-// Adds a board as rectangles of one colour: black squares whole, white squares module by module.
+// Adds a board to two surfaces of one colour each: a black square as one rectangle, a white square module by module.
 void AddBoard(const PlacedBoard& placed, Surface& black, Surface& white) {
   const Board& board = placed.board;
   const double module = board.square / kModules;
@@ -91,7 +91,7 @@ std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards) {
 
 MarkedCube MakeMarkedCube(const glm::dvec3& middle) {
   constexpr double kThickness =
-      0.001;  // metres between a disc and its plane, so that they do not coincide in the picture
+      0.001;  // metres between a disc and its plane, which would otherwise coincide in the picture
   MarkedCube cube;
   cube.surfaces.resize(2);
   Surface &black = cube.surfaces[0], &white = cube.surfaces[1];

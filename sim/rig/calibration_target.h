@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// A board in the world W: its top left corner and its axes, seen from its front.
+/// The pose of a board in the world W: its top left corner and its axes, as seen from its front.
 struct PlacedBoard {
   Board board;
   glm::dvec3 p_WO{0};           ///< the top left corner
@@ -20,12 +20,12 @@ struct PlacedBoard {
   glm::dvec3 At(const glm::dvec2& point) const { return p_WO + point.x * right_W + point.y * down_W; }
 };
 
-/// Returns the boards of a cube of 1.2 m on a stand, with a board on each of its four sides and on its top. Every
-/// camera around it sees at least two sides, which are "different planes" (paper B, section 2.2). No two boards have a
-/// code in common.
+/// Returns the boards on a cube of 1.2 m that stands on a stand: one on each of the four sides and one on the top.
+/// Every camera around the cube sees at least two sides, which are "different planes" (paper B, section 2.2). No code
+/// appears on two boards.
 std::vector<PlacedBoard> CalibrationTarget(const glm::dvec3& middle);
 
-/// Returns the surfaces that the renderer draws for these boards.
+/// Returns these boards as surfaces for the renderer.
 std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards);
 
 /// A dark disc on a bright plane. A person marks the disc's centre in pictures.
@@ -34,15 +34,16 @@ struct PlacedDisc {
   glm::dvec3 outwards_W{0};  ///< unit normal of the plane
 };
 
-/// The same cube with a disc of 5 cm in the centre of every square: paper B's "marks on different planes".
+/// A cube like that of CalibrationTarget, but with a disc of 5 cm in the centre of every square: paper B's "marks on
+/// different planes".
 struct MarkedCube {
   std::vector<PlacedDisc> discs;
   std::vector<Surface> surfaces;  ///< the discs and the planes, for the renderer
 };
-/// Makes the cube at the place at which `CalibrationTarget(middle)` puts its own.
+/// Makes the cube at the place of the cube of `CalibrationTarget(middle)`.
 MarkedCube MakeMarkedCube(const glm::dvec3& middle);
 
-/// Returns the corners that were seen, each with its position in the world.
+/// Returns the seen corners, each with its position in the world.
 std::vector<PointPair> PairsOf(std::span<const PlacedBoard> boards, std::span<const SeenCorner> seen);
 
 }  // namespace etude

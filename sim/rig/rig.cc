@@ -12,15 +12,15 @@ namespace etude {
 namespace {
 
 constexpr double kAimHeight = 0.95;      // metres: the centre of a standing body
-constexpr double kFlesh = 0.15;          // metres of the body around a joint that must be in the picture, too
+constexpr double kFlesh = 0.15;          // metres of flesh around a joint that must also be in the picture
 constexpr double kWallDistance = 0.3;    // minimum distance from the wall, metres
 constexpr double kMinFocalShare = 0.5;   // minimum focal length as a share of the usual one
-constexpr double kPositionError = 0.05;  // metres along the floor: standard deviations of setting up by hand
+constexpr double kPositionError = 0.05;  // metres on the floor; kPositionError … kAimError are standard deviations
 constexpr double kHeightError = 0.03;    // metres
 constexpr double kAngleError = 2;        // degrees
 constexpr double kAimError = 0.02;       // metres
 
-// The intended position of a camera relative to the middle of the motion.
+// The intended place of a camera, relative to the middle of the motion.
 struct Stand {
   double angle_deg = 0;
   double height = 0;
@@ -54,14 +54,15 @@ std::vector<Stand> StandsOf(const RigOptions& options) {
 
 glm::dvec3 OnFloor(double angle) { return {std::sin(angle), 0, std::cos(angle)}; }
 
-// Returns the distance from `middle` that is wanted, or less if the back wall is in the way.
+// Returns `wanted`, or a smaller distance from `middle` if the back wall is in the way.
 double DistanceWithin(const glm::dvec3& middle, const glm::dvec3& outwards, double wanted) {
   if (outwards.z >= 0) return wanted;
   const double to_wall = (kWallZ + kWallDistance - middle.z) / outwards.z;
   return std::min(wanted, std::max(to_wall, kWallDistance));
 }
 
-// Returns the largest share of the usual focal length at which `point` and the body around it stay in the picture.
+// Returns the largest focal length, as a share of the usual one, with which `point` and the flesh around it stay in the
+// picture.
 double LensFor(const Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 p_C = camera.R_CW * (point - camera.p_WC);
   if (p_C.z <= kFlesh) return 0;
@@ -91,11 +92,11 @@ Camera SetUp(const Stand& stand, const glm::dvec3& middle, double distance, Rand
   return LookAt({}, foot + glm::dvec3(0, height, 0), middle + glm::dvec3(aim_x, aim_y, 0) + aside);
 }
 
-// Returns the point nearest to all optical axes in the least-squares sense; if they are parallel, it is some metres
-// ahead.
+// Returns the point nearest to all optical axes in the least-squares sense. If the axes are parallel, returns a point
+// some metres in front of the cameras.
 glm::dvec3 CommonMiddle(std::span<const Camera> cameras) {
   constexpr double kAhead = 3;          // metres
-  constexpr double kHintWeight = 1e-3;  // decides only directions that the axes leave open
+  constexpr double kHintWeight = 1e-3;  // small, so it matters only where the axes determine nothing
   glm::dmat3 normal(0);
   glm::dvec3 right(0);
   for (const Camera& camera : cameras) {

@@ -20,11 +20,13 @@ enum class RigShape {
 
 struct RigOptions {
   RigShape shape = RigShape::kAngles;
-  /// The angles around the performer for kAngles, degrees; 0 = in front, positive = to the performer's left.
+  /// The angles of the cameras around the performer for kAngles, degrees; 0 = in front, positive = to the performer's
+  /// left.
   std::vector<double> angles_deg = {-40, 40};
-  /// The heights of the cameras, metres: one per angle for kAngles, otherwise taken in turn. The defaults differ,
-  /// because two cameras at one height cannot determine the direction of a limb parallel to the line between them;
-  /// hips, shoulders and stretched arms of a performer who faces both are such limbs.
+  /// The heights of the cameras, metres: one per angle for kAngles; for other shapes, cameras take the heights in turn.
+  /// The defaults differ, because two cameras at the same height cannot determine the direction of a limb that is
+  /// parallel to the line between them. If a performer faces both cameras, hips, shoulders and stretched arms are such
+  /// limbs.
   std::vector<double> heights_m = {1.0, 2.2};
   double distance_m = 3.8;       ///< from the middle of the performer's motion, as far as the room allows
   double baseline_m = 0.6;       ///< kStereo: distance between the two cameras
@@ -34,23 +36,23 @@ struct RigOptions {
 
 constexpr std::size_t kMaxCameras = 8;
 
-/// Sets up the cameras of a studio as a crew does by hand for a take. The cameras are fitted to the room (none is in or
-/// behind its back wall) and to the motion: they look at the middle of the performer's motion, and a camera that would
-/// cut off the performer gets a wider lens, up to 94° (half of the usual focal length); joints that still leave the
-/// picture are out of view. Positions and angles have random errors, because nobody places a tripod to the centimetre;
-/// every camera has its own random numbers. A user's own rig is only moved along the floor as a whole, so that the
-/// point nearest to its optical axes is at the middle of the motion.
+/// Sets up the cameras of a studio as a crew would do by hand for a take. The cameras are adapted to the room (none is
+/// in or behind its back wall) and to the motion: they look at the middle of the performer's motion. A camera that
+/// would cut off the performer gets a wider lens, up to 94° (half of the usual focal length); joints that still leave
+/// the picture are out of view. Positions and angles have random errors, because nobody places a tripod to the
+/// centimetre; every camera has its own random numbers. A user's own rig is only moved along the floor as a whole: the
+/// point nearest to its optical axes moves to the middle of the motion.
 /// @param motion at least one pose, metres, Y up
 std::vector<Camera> SetUpCameras(const RigOptions& options, std::span<const BodyPose> motion, const WorldKey& key);
 
-/// Returns the centre of the bounding box of all joints of a motion, on the floor.
+/// Returns the centre, on the floor, of the bounding box of all joints of a motion.
 glm::dvec3 MiddleOnFloor(std::span<const BodyPose> motion);
 
-/// Returns true if all twenty joints project into the camera's picture; occlusion is ignored.
+/// Returns true if all twenty joints project into the camera's picture. Occlusion is ignored.
 bool IsInPicture(const Camera& camera, const BodyPose& pose);
 
-/// Returns for each frame true if at least two cameras have the whole body in their pictures; otherwise the pose cannot
-/// be triangulated.
+/// For each frame, returns true if at least two cameras have the whole body in their pictures. Otherwise the pose
+/// cannot be triangulated.
 std::vector<bool> FramesInView(std::span<const Camera> cameras, std::span<const BodyPose> motion);
 
 }  // namespace etude

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Returns the factor by which a first-order low pass keeps its value over one frame; 0 for a time constant of 0.
+/// Returns the share of its value that a first-order low pass keeps over one frame; 0 for a time constant of 0.
 double MemoryOf(double time_s, double rate_hz) { return time_s > 0 ? std::exp(-1.0 / (rate_hz * time_s)) : 0.0; }
 
 constexpr double kLoudnessTime = 0.7;  // approximate duration of a burst, seconds (ours)
@@ -19,7 +19,7 @@ using enum Role;
 
 bool IsLeft(Role role) { return RoleName(role).starts_with("left"); }
 
-/// Returns the standard normal value that is exceeded with this probability, in (0, 1).
+/// Returns the value that a standard normal number exceeds with this probability, in (0, 1).
 double NormalQuantileAbove(double probability) {
   double low = -9, high = 9;
   for (int i = 0; i < 60; ++i) {
@@ -33,18 +33,19 @@ PoseLengths LengthsOf(const SkeletonSensorOptions& options) {
   return {.own = options.pose_length_m, .far = options.far_pose_length_m};
 }
 
-constexpr double kFullSpeed = 0.5;  // m/s, at which the fast part has its full size
-constexpr double kSpeedCap = 1.3;   // times kFullSpeed: the fast part grows no further
+constexpr double kFullSpeed = 0.5;  // m/s; at this speed the fast part has its full size
+constexpr double kSpeedCap = 1.3;   // times kFullSpeed; beyond this speed the fast part does not grow
 
 double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSensorOptions& options) {
   double body = 0;
   for (double speed : speeds) body += speed / kRoleCount;
-  // The joint's speed and the body's mean speed count equally, because a moving body disturbs its resting joints, too.
+  // The joint's speed and the body's mean speed count equally, because a moving body also disturbs joints at rest.
   const double activity = std::min(0.5 * (speeds[joint] + body) / kFullSpeed, kSpeedCap);
   return options.fast_quiet + (1 - options.fast_quiet) * activity * activity;
 }
 
-/// The line of sight and two axes across it, and the growth of errors relative to the reference distance.
+/// The line of sight to a joint, two axes across it, and the growth of errors from the reference distance to the
+/// joint's distance.
 struct Sight {
   glm::dmat3 axes;  ///< columns: across, across, along
   double across_growth, along_growth;
@@ -73,7 +74,7 @@ glm::dvec3 InWorld(const Sight& sight, const glm::dvec3& unit, double size, doub
          (across * unit * glm::dvec3(sight.across_growth, sight.across_growth, depth_ratio * sight.along_growth));
 }
 
-/// The other end of a bone at a joint, and the factor on the joint's own error along the bone.
+/// The other end of a bone at a joint, and the factor by which the joint's own error along the bone is multiplied.
 struct StiffBone {
   std::optional<Role> other;
   double stretch = 1;
@@ -95,8 +96,8 @@ std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& op
   }
 }
 
-/// Scales a joint's own error (in the axes of sight) along its bones by their stretch factors, and normalises it. The
-/// mean square is preserved exactly if there is one bone or the bones are perpendicular.
+/// Multiplies a joint's own error (in the axes of `sight`) along its bones by their stretch factors, and normalises it.
+/// With one bone or perpendicular bones, the mean square is preserved exactly.
 glm::dvec3 Stiffened(glm::dvec3 own, Role role, const BodyPose& pose, const Sight& sight,
                      const SkeletonSensorOptions& options) {
   double mean_square = 3;
@@ -113,10 +114,12 @@ glm::dvec3 Stiffened(glm::dvec3 own, Role role, const BodyPose& pose, const Sigh
 
 SlowNoise::SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomStream& dice)
     : memory_(MemoryOf(time_s, rate_hz)), smoothing_(MemoryOf(smoothing_s, rate_hz)) {
-  // The variance of a second low pass (s) applied to a unit AR(1) process (m): (1 − s) (1 + s m) / ((1 + s) (1 − s m)).
+  // Compute the variance of a second low pass (s) applied to a unit AR(1) process (m): (1 − s) (1 + s m) / ((1 + s) (1
+  // − s m)).
   const double s = smoothing_, m = memory_;
   scale_ = std::sqrt((1 + s) * (1 - s * m) / ((1 - s) * (1 + s * m)));
-  // The joint stationary distribution of both: variances 1 and 1/scale², covariance (1 − s) / (1 − s m).
+  // Draw from the stationary joint distribution of both processes: variances 1 and 1/scale², covariance (1 − s) / (1 −
+  // s m).
   const glm::dvec3 a = dice.Normal3(), b = dice.Normal3();
   const double covariance = (1 - s) / (1 - s * m);
   const double rest = std::max(0.0, 1 / (scale_ * scale_) - covariance * covariance);
@@ -141,7 +144,7 @@ glm::dvec3 BurstNoise::Next(RandomStream& dice) {
 }
 
 PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) {
-  // Choose the joint positions on which the function depends.
+  // Choose the joint positions that are the function's arguments.
   const auto depend_on = [&](Role joint, bool from_shoulders, double length) {
     points_[point_count_++] = {joint, from_shoulders, length};
   };
@@ -166,7 +169,7 @@ PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) 
   for (Wave& wave : waves_) {
     wave.direction = dice.Normal3() * std::sqrt(2.0 / kWaves);
     wave.phase = dice.Uniform(0, 2 * kPi);
-    // The number of draws is the same for all joints.
+    // Draw the same number of random numbers for all joints.
     for (std::size_t i = 0; i < kMaxPoints; ++i) {
       const glm::dvec3 drawn = dice.Normal3();
       wave.per_metre[i] = i < point_count_ ? drawn / points_[i].length : glm::dvec3(0);
@@ -234,7 +237,7 @@ FrameErrors ContinuousErrors::Next(const BodyPose& pose, const FrameMotion& moti
     const glm::dvec3 resting = noise.resting.Next(rest_dice_);
     const glm::dvec3 own =
         Stiffened(std::sqrt(moves) * moving + std::sqrt(1 - moves) * resting, role, pose, sight, options_);
-    // Correlate it with the parent's error.
+    // Correlate the joint's own error with the parent's error.
     const auto parent = ParentOf(role);
     const double rho = parent ? options_.correlation[Index(BoneKindOf(role))] : 0;
     unit[j] = (parent ? rho * unit[Index(*parent)] : glm::dvec3(0)) + std::sqrt(1 - rho * rho) * own;

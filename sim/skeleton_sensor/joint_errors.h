@@ -13,11 +13,11 @@
 namespace etude {
 
 /// A stationary random process with three independent axes of unit variance: white noise filtered by one first-order
-/// low pass (Ornstein–Uhlenbeck, correlation exp(−t/τ)), or by two.
+/// low pass (Ornstein–Uhlenbeck, autocorrelation exp(−t/τ)) or by two.
 class SlowNoise {
  public:
-  /// Starts in the stationary distribution. `time_s` is the longer time constant and `smoothing_s` the shorter; 0 means
-  /// a single low pass.
+  /// Starts in the stationary distribution. `time_s` is the longer time constant and `smoothing_s` the shorter one; if
+  /// `smoothing_s` is 0, there is a single low pass.
   SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomStream& dice);
 
   /// Returns the next frame's value; uses three normal draws.
@@ -28,7 +28,7 @@ class SlowNoise {
   glm::dvec3 first_{0}, second_{0};
 };
 
-/// Short noise in bursts, with unit variance over long times and heavy tails; its kurtosis is 3 exp(4 tail²).
+/// Fast noise in bursts, with unit variance over long times and heavy tails: its kurtosis is 3 exp(4 tail²).
 class BurstNoise {
  public:
   BurstNoise(double time_s, double tail, double rate_hz, RandomStream& dice);
@@ -41,14 +41,14 @@ class BurstNoise {
   SlowNoise noise_, loudness_;
 };
 
-/// The lengths over which a joint's error is correlated, metres.
+/// The distances of movement over which a joint's error is correlated, metres.
 struct PoseLengths {
-  double own = 0.25;  ///< as the joint itself or the next joint of its limb moves
-  double far = 0.8;   ///< as the arms move, for joints of the trunk and legs
+  double own = 0.25;  ///< movement of the joint itself or of the next joint of its limb
+  double far = 0.8;   ///< movement of the arms, for joints of the trunk and legs
 };
 
-/// A smooth random function of the pose for one joint, with a standard normal distribution along each axis; equal poses
-/// have equal values. It is a sum of random waves over the positions of the joint, of its limb and of the arms.
+/// A smooth random function of the pose for one joint, with a standard normal distribution along each axis. It is a sum
+/// of random waves over the positions of the joint, of its limb and of the arms, so equal poses have equal values.
 class PoseField {
  public:
   PoseField(Role role, const PoseLengths& lengths, RandomStream& dice);
@@ -58,7 +58,7 @@ class PoseField {
  private:
   static constexpr int kWaves = 12;
   static constexpr std::size_t kMaxPoints = 5;
-  /// A joint position on which the function depends, relative to the shoulder centre or in the world.
+  /// A joint position that is an argument of the function, relative to the shoulder centre or in the world.
   struct Point {
     Role joint;
     bool from_shoulders;
@@ -74,7 +74,7 @@ class PoseField {
   std::array<Wave, kWaves> waves_;
 };
 
-/// The error of one joint as a function of the pose: unit mean square per axis, with jumps where the mode changes.
+/// The error of one joint as a function of the pose: unit mean square per axis, with jumps between two modes.
 class PoseError {
  public:
   PoseError(Role role, const SkeletonSensorOptions& options, RandomStream& dice);
@@ -86,19 +86,19 @@ class PoseError {
   double usual_size_ = 1, mode_size_ = 1, threshold_ = 0;
 };
 
-/// The offset of each joint's reported position from its true position, metres, in the world.
+/// For each joint, the reported position minus the true position, metres, in the world.
 using FrameErrors = std::array<glm::dvec3, kRoleCount>;
 
-/// The continuous errors of clearly seen joints, frame by frame. In units of its group's size, and in axes along and
-/// across the line of sight, a joint's error is ρ times its parent's plus √(1 − ρ²) times its own. Its own error
-/// depends on the pose, and a share of it is fast and comes in bursts. The slow drift of a body at rest is added joint
-/// by joint.
+/// The continuous errors of clearly seen joints, frame by frame. A joint's error is ρ times its parent's error plus √(1
+/// − ρ²) times its own error; errors are in units of the size of the joint's group, along and across the line of sight.
+/// The own error depends on the pose; a share of it is fast and comes in bursts. The slow drift of a body at rest is
+/// added joint by joint.
 class ContinuousErrors {
  public:
-  /// `rate_hz` > 0.
+  /// `rate_hz` must be > 0.
   ContinuousErrors(const Camera& sensor, const SkeletonSensorOptions& options, double rate_hz, const WorldKey& world);
 
-  /// Returns the errors of the next frame; uses the same number of draws for every pose.
+  /// Returns the errors of the next frame. For every pose, the same number of random numbers is drawn.
   FrameErrors Next(const BodyPose& pose, const FrameMotion& motion);
 
  private:

@@ -10,9 +10,9 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kSpeedReach = 2;           // frames on either side for a speed
-constexpr std::size_t kFootReach = 5;            // frames on either side of a foot's fast motion
-constexpr double kResting = 0.1, kMoving = 0.6;  // m/s of a foot: below it rests, above it moves
+constexpr std::size_t kSpeedReach = 2;           // frames before and after, for a speed
+constexpr std::size_t kFootReach = 5;            // frames before and after, for a foot's motion
+constexpr double kResting = 0.1, kMoving = 0.6;  // m/s; a foot rests below the first and moves above the second
 static_assert(kSpeedReach + kFootReach == MotionWindow::kAhead);
 
 std::size_t Before(std::size_t frame, std::size_t by) { return frame - std::min(frame, by); }
@@ -44,7 +44,7 @@ std::optional<MotionWindow::Known> MotionWindow::Next() {
   Known known{PoseAt(frame), {.speeds = frame_speeds_[frame % kKept], .moves = {}}};
   known.motion.moves.fill(1);
   const std::size_t last = std::min(frame + kFootReach, count_ - 1);
-  // A foot moves if it is fast at any time within kFootReach frames.
+  // A foot counts as moving if it is fast in any frame within kFootReach frames.
   for (const Role role : AllRoles()) {
     if (GroupOf(role) != JointGroup::kFeet) continue;
     double fastest = 0;

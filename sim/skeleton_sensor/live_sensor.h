@@ -19,31 +19,31 @@ struct FrameMotion {
 };
 
 /// Computes the motion around each frame of a stream. A foot counts as moving from shortly before it leaves the floor
-/// until shortly after it lands, so a frame's motion is known kAhead frames later.
+/// until shortly after it lands. A frame's motion is therefore known only kAhead frames later.
 class MotionWindow {
  public:
   static constexpr std::size_t kAhead = 7;
 
-  /// `rate_hz` > 0.
+  /// `rate_hz` must be > 0.
   explicit MotionWindow(double rate_hz) : rate_hz_(rate_hz) {}
 
   /// Adds the next frame of the stream.
   void Push(const BodyPose& pose);
   /// Ends the stream: the motion of the last frames is computed from the available frames.
   void End() { ended_ = true; }
-  /// The pose and the motion of the next frame whose motion is known.
+  /// A pose with its motion.
   struct Known {
     const BodyPose& pose;  ///< valid until the next Push
     FrameMotion motion;
   };
-  /// Returns that frame and advances; nullopt if more poses are needed first.
+  /// Returns the next frame whose motion is known, and advances; nullopt if more poses are needed first.
   std::optional<Known> Next();
 
  private:
   static constexpr std::size_t kKept = 16;  // number of frames: a power of two, larger than twice kAhead
 
   const BodyPose& PoseAt(std::size_t frame) const { return poses_[frame % kKept]; }
-  /// Computes the speeds of all frames whose neighbours are known.
+  /// Computes the speeds of all frames whose neighbouring frames are known.
   void ComputeSpeeds();
 
   double rate_hz_;
@@ -55,17 +55,17 @@ class MotionWindow {
   std::array<JointSpeeds, kKept> frame_speeds_{};
 };
 
-/// A sensor that observes a body while it moves, for closed loops.
+/// A sensor that observes a body while it moves, for closed loops such as a coach and a learner.
 class LiveSensor {
  public:
-  /// The number of frames that a body must plan ahead: a skeleton sensor's errors depend on the coming motion, and
-  /// cameras expose between frames. A frame's report never depends on later pictures or reports.
+  /// The number of frames by which the body must plan ahead. A skeleton sensor's errors depend on the coming motion,
+  /// and cameras expose between frames. A frame's report never depends on later pictures or reports.
   static constexpr std::size_t kAhead = MotionWindow::kAhead;
 
   virtual ~LiveSensor() = default;
 
-  /// Takes the body's next pose and returns the report of the frame `kAhead` before it; empty in the first `kAhead`
-  /// frames.
+  /// Takes the body's next pose and returns the report of the frame `kAhead` frames before. Returns nullopt in the
+  /// first `kAhead` frames.
   virtual std::optional<SensedFrame> Update(const BodyPose& pose) = 0;
 };
 

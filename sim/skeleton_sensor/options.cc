@@ -33,7 +33,7 @@ struct NumberKey {
 };
 const std::vector<NumberKey>& NumberKeys() {
   using Options = SkeletonSensorOptions;
-  // Key in the file, the option that it sets, and its allowed range.
+  // Each row: the key in the file, the option that it sets, and its allowed range.
   static const std::vector<NumberKey> keys = {
       {"reference_distance_m", &Options::reference_distance_m, {0.5, 10}},
       {"arm_stretch", &Options::arm_stretch, {0, 5}},
@@ -114,7 +114,7 @@ void ReadCorrelations(Fields& fields, SkeletonSensorOptions& options) {
 }  // namespace
 
 JointGroup GroupOf(Role role) {
-  // Left and right share a group; all joints of the trunk and the head are the torso.
+  // Left and right share a group; all joints of trunk and head form the torso.
   switch (role) {
     case kLeftShoulder:
     case kRightShoulder:
@@ -148,7 +148,7 @@ std::string_view GroupName(JointGroup group) { return kGroupNames[Index(group)];
 std::span<const JointGroup, kJointGroupCount> AllJointGroups() { return kGroups; }
 
 BoneKind BoneKindOf(Role child) {
-  // Left and right bones share a kind.
+  // Left and right bones have the same kind.
   switch (child) {
     case kHipCentre:
     case kSpine:
@@ -199,14 +199,14 @@ SkeletonSensorOptions SensorV1() {
   SkeletonSensorOptions v1;
   v1.view = {.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};  // 57° × 43°
   v1.depth_law = DepthLaw::kStructuredLight;
-  // The sizes of torso and head, hands and feet reproduce the published errors in a dance. Those of elbows and knees
-  // lie between them (ours). Errors are larger in depth than across it: by 1.2–1.8 at knees and feet of a v2, used for
-  // all groups.
+  // The sizes of torso and head, hands and feet reproduce the published errors in a dance. The sizes of elbows and
+  // knees lie between them (ours). Errors are larger in depth than across it; for a v2, published ratios are 1.2–1.8 at
+  // knees and feet, and all groups use such ratios.
   constexpr GroupErrors kTrunk{.size = 0.025, .depth_ratio = 1.4, .still = 0.0014, .white = 0.0002};
   constexpr GroupErrors kMiddle{.size = 0.038, .depth_ratio = 1.4, .still = 0.0020, .white = 0.0006};
   constexpr GroupErrors kEnds{.size = 0.066, .depth_ratio = 1.4, .still = 0.0030, .white = 0.0010};
   v1.groups = {kTrunk, kTrunk, kMiddle, kEnds, kEnds, kTrunk, kMiddle, kEnds};
-  // The correlations are those of the v2's recordings, because no source gives the v1's.
+  // The correlations come from the v2's recordings, because no source gives the v1's.
   v1.correlation = SensorV2().correlation;
   v1.lag_frames = 3;  // Livingston et al. 2012: 106 ms at best
   return v1;
@@ -216,10 +216,10 @@ SkeletonSensorOptions SensorV2() {
   SkeletonSensorOptions v2;
   v2.view = {.width = 512, .height = 424, .fx = 365, .fy = 365, .cx = 256, .cy = 212, .skew = 0};  // 70° × 60°
   v2.depth_law = DepthLaw::kTimeOfFlight;
-  // Fitted by `etude sensor fit`, 240 worlds, to one recording with an optical reference: 6.6 s of one seated person
-  // who lifts and lowers both arms 3 m in front of a Kinect v2. The recording cannot determine errors of feet in motion
-  // (published: 5–6 cm), at other distances, of turned or standing bodies or of other people, nor lag, hidden limbs,
-  // swaps and dropouts.
+  // These values were fitted by `etude sensor fit`, 240 worlds, to one recording with an optical reference: for 6.6 s,
+  // a seated person lifts and lowers both arms 3 m in front of a Kinect v2. The recording determines neither errors of
+  // feet in motion (published: 5–6 cm), nor errors at other distances, of turned or standing bodies or of other people,
+  // nor lag, hidden limbs, swaps and dropouts.
   v2.reference_distance_m = 3.04;
   v2[JointGroup::kTorso] = {.size = 0.0344, .depth_ratio = 0.93, .still = 0.0014, .white = 0.000022};
   v2[JointGroup::kShoulders] = {.size = 0.0805, .depth_ratio = 1.16, .still = 0.0014, .white = 0.000044};
@@ -236,7 +236,8 @@ SkeletonSensorOptions SensorV2() {
   v2.planted_feet = 0.00392;
   v2.fast_share = 0.141;
   v2.fast_quiet = 0.00486;
-  // Not fitted. A v2 smooths its output: without smoothing, a resting torso would jitter three times as much.
+  // This value was not fitted. A v2 smooths its output: without smoothing, a resting torso would jitter three times as
+  // much.
   v2.wander_smoothing_s = 0.2;
   v2.lag_frames = 2;
   v2.swaps_when_facing = false;
@@ -252,7 +253,7 @@ std::optional<SkeletonSensorOptions> FindSensorPreset(std::string_view name) {
 
 Result<SkeletonSensorOptions> ReadSensorFile(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const Node node, ParseYaml(text, file));
-  // Read every number on top of the preset.
+  // Read every number; a missing number keeps the preset's value.
   Fields fields(node, "a sensor file");
   SkeletonSensorOptions options = *FindSensorPreset(fields.Choice("based_on", {"v1", "v2"}, "v2"));
   for (const NumberKey& key : NumberKeys()) {
@@ -264,7 +265,7 @@ Result<SkeletonSensorOptions> ReadSensorFile(std::string_view text, const std::s
   options.swaps_when_facing = fields.Boolean("swaps_when_facing", options.swaps_when_facing);
   ReadGroups(fields, options);
   ReadCorrelations(fields, options);
-  // Check the keys against each other.
+  // Check that the values are consistent.
   if (options.longest_episode < options.shortest_episode) {
     fields.Complain(node.place, "'longest_episode' is less than 'shortest_episode'");
   }

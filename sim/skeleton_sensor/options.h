@@ -30,7 +30,7 @@ JointGroup GroupOf(Role role);
 std::string_view GroupName(JointGroup group);
 std::span<const JointGroup, kJointGroupCount> AllJointGroups();
 
-/// The kinds of bones along which errors are correlated; the same on both sides of the body.
+/// The kinds of bones along which errors are correlated. Left and right bones have the same kind.
 enum class BoneKind {
   kLowerSpine,  ///< hip centre – spine
   kUpperSpine,  ///< spine – shoulder centre
@@ -46,39 +46,39 @@ enum class BoneKind {
 };
 constexpr std::size_t kBoneKindCount = 11;
 constexpr std::size_t Index(BoneKind kind) { return static_cast<std::size_t>(kind); }
-/// Returns the kind of the bone that ends in `child`; `child` is not the hip centre.
+/// Returns the kind of the bone that ends in `child`, which must not be the hip centre.
 BoneKind BoneKindOf(Role child);
 /// Returns the name of a kind in sensor files and tables: "lower_spine", "upper_spine", ….
 std::string_view BoneName(BoneKind kind);
 std::span<const BoneKind, kBoneKindCount> AllBoneKinds();
 
-/// The sizes of a group's errors, metres. All are root mean square distances in three dimensions, except `still` and
-/// `white`, which are standard deviations per axis.
+/// The sizes of a group's errors, metres. `size` is a root mean square distance in three dimensions; `still` and
+/// `white` are standard deviations per axis.
 struct GroupErrors {
-  double size = 0;         ///< in motion at the reference distance: the pose-dependent and the fast part together
-  double depth_ratio = 1;  ///< of `size`: along the line of sight ÷ along each axis across it
+  double size = 0;         ///< in motion, at the reference distance: pose-dependent and fast part together
+  double depth_ratio = 1;  ///< ratio of errors along the line of sight to errors along each axis across it
   double still = 0;        ///< the slow drift while the body stands still
   double white = 0;        ///< the uncorrelated part
 };
 
-/// The law by which errors grow along the line of sight with the distance z from the sensor (metres along its axis).
-/// Across the line of sight they are proportional to z, as a pixel's footprint is.
+/// The law by which errors along the line of sight grow with the distance z from the sensor (metres along its axis).
+/// Errors across the line of sight are proportional to z, like the size of a pixel on the surface.
 enum class DepthLaw {
   /// Structured light: σ_z = 0.0012 + 0.0019 (z − 0.4)² m (Nguyen, Izadi and Lovell 2012).
   kStructuredLight,
-  /// Time of flight: σ_z = 1.5 − 0.5 z + 0.3 z² mm (Fankhauser et al. 2015, facing the surface).
+  /// Time of flight: σ_z = 1.5 − 0.5 z + 0.3 z² mm (Fankhauser et al. 2015, for surfaces that face the sensor).
   kTimeOfFlight,
 };
-/// Returns σ_z of a single depth pixel, metres. For joints only its relative growth is used, because a joint is
-/// estimated from many pixels.
+/// Returns σ_z of a single depth pixel, metres. Joints use only its relative growth, because a joint is estimated from
+/// many pixels.
 double DepthDeviation(DepthLaw law, double z);
 
-/// The errors of a Kinect-like skeleton sensor: `SensorV1()`, `SensorV2()` or a file (docs/sensor.md). The sources of
-/// the values are given with the presets.
+/// The errors of a Kinect-like skeleton sensor: `SensorV1()`, `SensorV2()` or a file (docs/sensor.md). Comments at the
+/// presets state the sources of the values.
 struct SkeletonSensorOptions {
-  /// A factor on every size, probability and lag below (probabilities are limited to 1). Occlusion, its offsets and
-  /// joints out of view do not depend on it. At 0, hidden joints are inferred correctly and everything else is the
-  /// truth.
+  /// A factor on every size, probability and lag below (probabilities are limited to 1). It does not affect which
+  /// joints are hidden or out of view, nor the offsets of guesses for hidden joints. At 0, hidden joints are inferred
+  /// correctly, and all other joints are reported at their true positions.
   double strength = 1.0;
 
   Intrinsics view;  ///< of the depth camera
@@ -86,31 +86,32 @@ struct SkeletonSensorOptions {
   double reference_distance_m = 2.75;  ///< the distance at which the sizes hold
 
   std::array<GroupErrors, kJointGroupCount> groups;
-  /// The errors follow a linear model on the tree of the body: in units of its own size, a joint's error is ρ times its
-  /// parent's plus √(1 − ρ²) times its own. ρ depends on the kind of bone and is in (−1, 1).
+  /// Errors follow a linear model on the tree of the body: in units of its group's size, a joint's error is ρ times its
+  /// parent's error plus √(1 − ρ²) times its own error. ρ depends on the kind of bone and is in (−1, 1).
   std::array<double, kBoneKindCount> correlation{};
-  /// Factors on a joint's own error along the bones that end in it. Below 1, the sensor keeps limb lengths nearly
-  /// constant.
+  /// Factors on a joint's own error along the bones that end in the joint. Below 1, the sensor keeps limb lengths
+  /// nearly constant.
   double arm_stretch = 1;       ///< of shoulders, elbows and wrists along upper arm and forearm
   double hand_stretch = 1;      ///< of hands along the hand
   double shoulder_stretch = 1;  ///< of shoulders towards each other
-  /// The `size` of an ankle or foot at rest on the floor; its noise is slow (`rest_time_s`). In motion the group's size
-  /// holds.
+  /// The `size` of an ankle or foot at rest on the floor, whose noise is slow (`rest_time_s`). In motion, the size of
+  /// the group applies.
   double planted_feet = 0.003;
-  double rest_time_s = 0.2;  ///< time constant of that noise (ours)
+  double rest_time_s = 0.2;  ///< time constant of the noise of resting feet (ours)
 
-  // The slow drift: its time constant, and the time constant of its smoothing (0: an Ornstein–Uhlenbeck process).
+  // The slow drift: its time constant, and the time constant of a second low pass (0: none, an Ornstein–Uhlenbeck
+  // process).
   double wander_time_s = 0.4;
   double wander_smoothing_s = 0;
 
-  // The pose-dependent part: a smooth random function of the joint positions, with modes. Where a second such function
-  // is above a threshold, the sensor prefers another estimate of the body, and the error jumps.
+  // The pose-dependent part: a smooth random function of the joint positions. A second such function selects the mode:
+  // above a threshold, the sensor prefers another estimate of the body, and the error jumps.
   double pose_length_m = 0.25;     ///< correlation length over the joint's own position
-  double far_pose_length_m = 0.8;  ///< same over the positions of the arms, for trunk and legs (ours)
-  double mode_share = 0.12;        ///< share of all poses that are in the mode (ours)
-  double mode_ratio = 4;           ///< size of errors in the mode ÷ outside it (ours)
+  double far_pose_length_m = 0.8;  ///< correlation length over the arms' positions, for trunk and legs (ours)
+  double mode_share = 0.12;        ///< share of all poses in the second mode (ours)
+  double mode_ratio = 4;           ///< size of errors in the second mode ÷ size in the first (ours)
 
-  // The fast part: short noise in bursts, larger when the body moves.
+  // The fast part: noise in bursts, larger when the body moves.
   double fast_share = 0.2;    ///< share of the variance of `size`
   double fast_time_s = 0.05;  ///< time constant (ours)
   double fast_quiet = 0.05;   ///< factor for a body at rest; grows with the square of speed to 1 at 0.5 m/s (ours)
@@ -118,7 +119,8 @@ struct SkeletonSensorOptions {
 
   int lag_frames = 0;  ///< delay of the report, frames
 
-  // Occlusion: an episode lasts this many frames, or until the limb is seen again; then the guess changes.
+  // Occlusion: an episode lasts for a number of frames in this range, or until the limb is seen again; then a new guess
+  // is drawn.
   int shortest_episode = 3;
   int longest_episode = 40;
   double nearest_guess_m = 0.2;  ///< range of the error of a hidden hand or foot
@@ -138,17 +140,17 @@ struct SkeletonSensorOptions {
   const GroupErrors& operator[](JointGroup group) const { return groups[Index(group)]; }
 };
 
-/// Returns Kinect v1 as published measurements describe it (algorithms A7, first paragraph; tests compare the simulator
-/// with them).
+/// Returns Kinect v1 as published measurements describe it (algorithms A7, first paragraph). Tests compare the
+/// simulator with these measurements.
 SkeletonSensorOptions SensorV1();
-/// Returns Kinect v2, fitted to a recording with an optical reference; values that this recording cannot determine are
-/// v1's or ours.
+/// Returns Kinect v2, fitted to a recording with an optical reference. Values that the recording cannot determine are
+/// the v1's or ours.
 SkeletonSensorOptions SensorV2();
-/// Returns the preset "v1" or "v2"; empty for other names.
+/// Returns the preset "v1" or "v2"; nullopt for other names.
 std::optional<SkeletonSensorOptions> FindSensorPreset(std::string_view name);
 
-/// Reads a sensor file (docs/sensor.md) in YAML. All keys are optional; the preset that `based_on` names supplies the
-/// rest.
+/// Reads a sensor file (docs/sensor.md) in YAML. All keys are optional. Missing values come from the preset that
+/// `based_on` names.
 ///
 ///     based_on: v2                # or v1
 ///     reference_distance_m: 2.9
@@ -161,8 +163,8 @@ std::optional<SkeletonSensorOptions> FindSensorPreset(std::string_view name);
 /// Fails for unknown keys and values out of range, with file, line and column.
 Result<SkeletonSensorOptions> ReadSensorFile(std::string_view text, const std::string& file);
 
-/// Writes all keys of such a file; `strength` belongs to the scenario and is not a key. Reading and writing a file
-/// again gives the same text.
+/// Writes all keys of a sensor file. `strength` is not a key, because it belongs to the scenario. Reading the text and
+/// writing it again gives the same text.
 std::string WriteSensorFile(const SkeletonSensorOptions& options, std::string_view based_on);
 
 }  // namespace etude

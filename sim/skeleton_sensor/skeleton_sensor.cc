@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Returns the distance from `eye` at which the ray to `joint` hits furniture or the second person.
+/// Returns the distance from `eye` at which the ray to `joint` first hits furniture or the second person.
 double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<Capsule>& bystander,
                        const glm::dvec3& joint, const glm::dvec3& eye) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<C
 
 using enum Role;
 
-/// A limb's joints from its root outwards; the error of a guess grows along it.
+/// A limb's joints from its root outwards. In this order, the error of a guess grows.
 struct Limb {
   std::array<Role, 4> joints;
 };
@@ -34,7 +34,7 @@ constexpr std::array<Limb, 4> kLimbRoles = {{{{kLeftShoulder, kLeftElbow, kLeftW
                                              {{kRightHip, kRightKnee, kRightAnkle, kRightFoot}}}};
 constexpr std::array<double, 4> kShareOfOffset = {0.0, 0.5, 0.9, 1.0};
 
-// The number of frames of a dropout (ours).
+// A dropout lasts for a number of frames in this range (ours).
 constexpr std::uint64_t kMinDropout = 2, kMaxDropout = 10;
 
 }  // namespace
@@ -76,7 +76,7 @@ FrameGuesses OcclusionGuesses::Next(const BodyPose& pose, const HiddenJoints& hi
   // Begin, continue or end the limb's episode.
   for (std::size_t l = 0; l < kLimbs; ++l) {
     const Limb& limb = kLimbRoles[l];
-    const Episode fresh = DrawEpisode();  // drawn in every frame, used only if an episode begins
+    const Episode fresh = DrawEpisode();  // drawn in every frame, but used only if an episode begins
 
     Episode& episode = episodes_[l];
     bool hides = false;
@@ -87,11 +87,12 @@ FrameGuesses OcclusionGuesses::Next(const BodyPose& pose, const HiddenJoints& hi
     if (!episode.IsRunning()) continue;
 
     ++episode.age;
-    // A wrong guess is biased towards the body: the hidden limb is taken for a visible part of it.
+    // Wrong guesses are biased towards the body, because the sensor takes a visible part of the body for the hidden
+    // limb.
     const glm::dvec3 inwards = pose[limb.joints.front()] - pose[limb.joints.back()];
     const glm::dvec3 lean = glm::normalize(inwards + glm::dvec3(0, 1e-6, 0)) + episode.direction;
     const glm::dvec3 offset = episode.wrong ? episode.size_m * glm::normalize(lean) : glm::dvec3(0);
-    // Offset the joints that were hidden since the episode began, more towards the end of the limb.
+    // Offset every joint that was hidden at some time in the episode; the offset grows towards the limb's end.
     for (std::size_t k = 1; k < limb.joints.size(); ++k) {
       const std::size_t joint = Index(limb.joints[k]);
       episode.joints[k] |= hidden[joint];
@@ -212,7 +213,7 @@ SensedFrame SkeletonSensor::Sense(const BodyPose& pose, const FrameMotion& motio
   return frame;
 }
 
-/// Delays every frame by Lag() frames; the first frame is repeated until then.
+/// Delays every frame by Lag() frames. Until the first delayed frame, the first frame is repeated.
 SensedFrame SkeletonSensor::Delayed(const SensedFrame& sensed) {
   if (frame_ == 0) std::fill(delayed_.begin(), delayed_.end(), sensed);
   delayed_[frame_ % delayed_.size()] = sensed;

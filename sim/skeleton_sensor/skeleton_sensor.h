@@ -20,42 +20,42 @@ namespace etude {
 /// For each joint of one frame: true if it is hidden.
 using HiddenJoints = std::array<bool, kRoleCount>;
 
-/// The objects besides the body itself that may hide it from a sensor.
+/// The objects that may hide a body from a sensor, besides the body itself.
 struct Occluders {
   std::vector<Cuboid> furniture;
-  std::vector<BodyPose> bystander;  ///< a second person: one pose per frame (the last one stays); empty: nobody
+  std::vector<BodyPose> bystander;  ///< a second person: one pose per frame, then the last pose; empty: nobody
 };
 
-/// Finds the joints of `pose` that `eye` does not see in this frame: the ray to the joint hits another part of the
-/// body, furniture or the second person at least 2 cm before the joint's own skin. The body's shape is that of the
-/// renderer (sim/body).
+/// Finds the joints of `pose` that are hidden from `eye` in this frame: the ray to the joint hits another part of the
+/// body, furniture or the second person at least 2 cm before it reaches the joint's own skin. The body has the shape
+/// that the renderer draws (sim/body).
 HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye);
 
-/// The sensor's guess of the position of a joint that is not clearly seen.
+/// The sensor's guess for a joint that is not clearly seen.
 struct Guess {
   bool inferred = false;
-  glm::dvec3 offset{0};  ///< metres from the position that would be reported if the joint were seen
+  glm::dvec3 offset{0};  ///< metres, from the position that would be reported if the joint were seen
 };
 using FrameGuesses = std::array<Guess, kRoleCount>;
 
-/// The guesses for hidden joints, limb by limb, each lasting for an episode.
+/// Draws the guesses for hidden joints, limb by limb. A guess is kept for one episode.
 class OcclusionGuesses {
  public:
   OcclusionGuesses(const SkeletonSensorOptions& options, const WorldKey& world);
-  /// Returns the guesses of the next frame. Inferred are the joints that are hidden now, and those of a limb that have
-  /// been hidden since its episode began.
+  /// Returns the guesses of the next frame. A joint is inferred if it is hidden now, or was hidden at some time in its
+  /// limb's current episode.
   FrameGuesses Next(const BodyPose& pose, const HiddenJoints& hidden);
 
  private:
   static constexpr std::size_t kLimbs = 4, kJointsOfLimb = 4;
-  /// The current guess of the positions of one limb's hidden joints; it is randomly right or wrong.
+  /// The current guess for the hidden joints of one limb. It is randomly right or wrong.
   struct Episode {
     int age = 0;
     int length = 0;  ///< 0: no episode
     bool wrong = false;
     double size_m = 0;
     glm::dvec3 direction{0};
-    std::array<bool, kJointsOfLimb> joints{};  ///< joints that were hidden since the episode began
+    std::array<bool, kJointsOfLimb> joints{};  ///< joints that were hidden at some time in the episode
 
     bool IsRunning() const { return length > 0; }
   };
@@ -67,7 +67,7 @@ class OcclusionGuesses {
   std::array<Episode, kLimbs> episodes_;
 };
 
-/// Rare errors of single joints in single frames; zero elsewhere.
+/// Draws rare large errors of single joints in single frames; other errors are zero.
 class Outliers {
  public:
   Outliers(const SkeletonSensorOptions& options, const WorldKey& world);
@@ -79,7 +79,7 @@ class Outliers {
   RandomStream dice_;
 };
 
-/// The swap of one frame: left and right arms, or legs, are exchanged.
+/// The swap in one frame: left and right arms, or legs, are exchanged.
 struct Swap {
   bool arms = false;
   bool legs = false;
@@ -93,13 +93,13 @@ class Swaps {
  private:
   double usual_chance_;  ///< probability that a swap starts in a frame
   bool when_facing_;
-  int length_;  ///< frames
+  int length_;  ///< length of a swap, frames
   RandomStream dice_;
   int left_ = 0;
   Swap current_;
 };
 
-/// The dropouts: frames in which the whole body is lost.
+/// Draws the dropouts: frames in which the sensor loses the whole body.
 class Dropouts {
  public:
   Dropouts(const SkeletonSensorOptions& options, const WorldKey& world);
@@ -112,29 +112,29 @@ class Dropouts {
   std::uint64_t left_ = 0;
 };
 
-/// The position of a sensor in front of a performer who is at the origin and faces +Z.
+/// The position of a sensor relative to a performer who is at the origin and faces +Z.
 struct SensorPlacement {
   double distance = 2.75;  ///< metres along the floor
-  double turn = 0;         ///< radians: the performer appears turned by this angle
+  double turn = 0;         ///< radians; the performer appears turned by this angle
   double height = 1.0;     ///< metres above the floor; the sensor looks at a point one metre above the floor
 };
-/// Returns the pose of the sensor as a camera with the intrinsics `view`.
+/// Returns the sensor as a camera at its pose, with the intrinsics `view`.
 Camera SkeletonSensorAt(const SensorPlacement& place, const Intrinsics& view);
 
-/// A skeleton sensor, frame by frame. A joint's error depends on the body's motion around the frame, so a frame's
-/// report is available only when the pose `kAhead` frames later is known; in a closed loop the body must plan that far
-/// ahead. Every kind of error has its own random stream and a fixed number of draws per frame, so options change only
-/// the strengths.
+/// Simulates a skeleton sensor, frame by frame. A joint's error depends on the body's motion around the frame, so a
+/// frame's report is available only when the pose `kAhead` frames later is known. In a closed loop the body must plan
+/// that far ahead. Every kind of error has its own random stream and a fixed number of random numbers per frame.
+/// Options therefore change only the strengths.
 class SkeletonSensor final : public LiveSensor {
  public:
-  /// `occluders` must outlive this object; `rate_hz` > 0.
+  /// `occluders` must outlive this object; `rate_hz` must be > 0.
   SkeletonSensor(const Camera& sensor, const Occluders& occluders, const SkeletonSensorOptions& options, double rate_hz,
                  const WorldKey& world);
 
-  /// Reports a joint as inferred while something hides it, and as not tracked while it is out of view. The report
-  /// describes the pose of `options.Lag()` frames before.
+  /// Reports a joint as inferred while it is hidden, and as not tracked while it is out of view. The report describes
+  /// the pose `options.Lag()` frames before.
   std::optional<SensedFrame> Update(const BodyPose& pose) override;
-  /// Returns the reports of the last `kAhead` frames at the end of a motion. No call may follow.
+  /// Returns the reports of the last `kAhead` frames, at the end of a motion. No other call may follow.
   std::vector<SensedFrame> Finish();
 
  private:
@@ -155,7 +155,7 @@ class SkeletonSensor final : public LiveSensor {
   std::vector<SensedFrame> delayed_;  ///< a ring of the last Lag() + 1 frames
 };
 
-/// Returns the stream that `sensor` would report of a body that moves like `truth`.
+/// Returns the stream that `sensor` reports of a body that moves like `truth`.
 SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, const Occluders& occluders,
                              const SkeletonSensorOptions& options, const WorldKey& world);
 

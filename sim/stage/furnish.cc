@@ -13,7 +13,8 @@
 namespace etude {
 namespace {
 
-// Collects boxes in a piece's own frame: x to the piece's left, y up, z away from the wall. Metres.
+// Collects the boxes of a piece of furniture in the piece's own frame: x to its left, y up, z away from the wall.
+// Metres.
 class FurnitureBuilder {
  public:
   FurnitureBuilder(const glm::dvec3& place, double heading) : place_(place), heading_(heading) {}
@@ -73,10 +74,10 @@ void AddLegs(FurnitureBuilder& builder, double half_x, double z_near, double z_f
   }
 }
 
-// Each function makes one piece of furniture from boxes. `place` is on the floor at the middle of the piece's back, or
-// at its centre if it stands free; `heading` is the direction of its front. Sizes, colours and details are random;
-// colours are interpolated by `share` between the studio's and those of everyday objects. The number of draws of a
-// piece is constant.
+// Each function makes one piece of furniture from boxes. `place` is the point on the floor at the middle of the piece's
+// back, or at its centre if the piece stands free; `heading` is the direction of its front. Sizes, colours and details
+// are random. Colours are interpolated by `share` between the studio's (0) and those of everyday objects (1). Each
+// function draws a constant number of random numbers.
 
 std::vector<FurnitureBox> MakeCupboard(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.4, 0.65), height = random.Uniform(0.9, 2.05), deep = random.Uniform(0.36, 0.48);
@@ -134,7 +135,7 @@ std::vector<FurnitureBox> MakeTable(RandomStream& random, double share, const gl
   return std::move(builder).Take();
 }
 
-// A low cabinet with a screen on it; the screen is the last box.
+// Makes a low cabinet with a screen on it; the screen is the last box.
 std::vector<FurnitureBox> MakeScreen(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.5, 0.7), low = random.Uniform(0.42, 0.55), wide = random.Uniform(0.42, 0.58);
   const SurfacePaint wood = DrawWood(random, share);
@@ -146,7 +147,7 @@ std::vector<FurnitureBox> MakeScreen(RandomStream& random, double share, const g
   return std::move(builder).Take();
 }
 
-// One box; the leaves move (Movers).
+// Makes a pot of one box; its leaves move and belong to Movers.
 std::vector<FurnitureBox> MakePlantPot(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.13, 0.2), height = random.Uniform(0.25, 0.42), out = random.Uniform(0.35, 0.5);
   const SurfacePaint pot = WithGrain(DrawMixed(random, share), Pattern::kPlain, 0.1);
@@ -155,7 +156,7 @@ std::vector<FurnitureBox> MakePlantPot(RandomStream& random, double share, const
   return std::move(builder).Take();
 }
 
-// Three boxes stacked on each other.
+// Makes a pile of three boxes.
 std::vector<FurnitureBox> MakePile(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   FurnitureBuilder builder(place, heading);
   double y = 0, half = random.Uniform(0.26, 0.36);
@@ -193,7 +194,7 @@ std::vector<FurnitureBox> MakeCrate(RandomStream& random, double share, const gl
   return std::move(builder).Take();
 }
 
-// The value of `scene` from which each piece is in the room.
+// The value of `scene` from which on each piece is in the room.
 constexpr double kPoster1 = 0.05, kCupboard = 0.10, kPlant = 0.15, kRug = 0.20, kShelf = 0.25, kPoster2 = 0.30;
 constexpr double kWindow = 0.35, kSofa = 0.40, kScreen = 0.45, kTable = 0.50, kPoster3 = 0.55, kChair = 0.65;
 constexpr double kPile = 0.75, kCrate = 0.85;
@@ -208,7 +209,7 @@ SurfacePaint RoomPaint(RandomStream& random, const Hsv& studio, double share, st
   return {.first = ToRgb(first), .second = ToRgb(second), .pattern = patterns[pick], .size = sizes[pick]};
 }
 
-// Paints walls and floor; each has its own random numbers.
+// Paints walls and floor; each surface has its own random numbers.
 void PaintRoom(const WorldKey& key, double share, Interior& room) {
   RandomStream walls(key, "walls"), floor(key, "floor"), rug(key, "rug"), ceiling(key, "ceiling");
   constexpr std::array kWallPatterns = {Pattern::kPlain, Pattern::kStripes, Pattern::kSpeckle, Pattern::kTwoTone};
@@ -234,7 +235,7 @@ void Light(const WorldKey& key, double scene, Interior& room) {
   Lights& lights = room.lights;
   const glm::dvec3 offset{random.Uniform(-0.9, 1.5), random.Uniform(-0.1, 0.05), random.Uniform(-1.3, 0.5)};
   lights.key += scene * offset;
-  // A colour between a bulb's yellow and a cloudy sky's blue.
+  // Returns a colour between the yellow of a bulb and the blue of a cloudy sky.
   const auto tint = [&](double warmth, double strength) {
     return glm::dvec3(1) + scene * strength * warmth * glm::dvec3(0.10, 0.0, -0.14);
   };
@@ -267,14 +268,14 @@ WallPicture DrawPicture(RandomStream& random, const Interior& room, double share
 }
 
 void HangPictures(const WorldKey& key, double scene, double share, Interior& room) {
-  // Posters; each appears from its threshold on.
+  // Add posters; each appears from its own threshold on.
   int number = 0;
   for (const double threshold : {kPoster1, kPoster2, kPoster3}) {
     RandomStream random(key, "poster-" + std::to_string(++number));
     const WallPicture poster = DrawPicture(random, room, share);
     if (scene >= threshold) room.pictures.push_back(poster);
   }
-  // A window.
+  // Add a window.
   RandomStream random(key, "window");
   WallPicture window = DrawPicture(random, room, share);
   window.half_size = {random.Uniform(0.5, 0.8), random.Uniform(0.55, 0.75)};
@@ -286,19 +287,19 @@ void HangPictures(const WorldKey& key, double scene, double share, Interior& roo
                   .size = random.Uniform(-0.4, 0.1)};
   window.frame = {225, 222, 214};
   window.glow = daylight;
-  // The window also lights the room.
+  // Let the window light the room.
   if (scene < kWindow) return;
   room.pictures.push_back(window);
   Lights& lights = room.lights;
   const bool back = window.wall == WallPicture::Wall::kBack;
   const double side = window.wall == WallPicture::Wall::kLeft ? room.low.x : room.high.x;
   lights.window = back ? glm::dvec3(window.centre, room.low.z) : glm::dvec3(side, window.centre.y, window.centre.x);
-  // The window's light acts from the wall inwards, so it does not light its own wall.
+  // The window's light shines from the wall inwards and does not reach the window's own wall.
   const double strength = 0.30 * daylight * (scene - kWindow) / (1 - kWindow);
   lights.window_colour = strength * glm::dvec3(0.92, 0.98, 1.08);
 }
 
-// A position along a wall for one piece: the middle of its back, and its heading.
+// A place along a wall for one piece: the position of the middle of its back, and its heading.
 struct Slot {
   glm::dvec3 place{0};
   double heading = 0;
@@ -328,14 +329,14 @@ bool StandsOn(const FurnitureBox& box, const FreeFloor& free) {
          box.centre.z - reach < free.high.y;
 }
 
-// Returns a position between the performer and a camera, at the edge of the free floor, where a piece hides part of the
+// Returns a place between the performer and a camera, at the edge of the free floor. A piece there hides a part of the
 // legs.
 Slot InFrontOf(const Camera& camera, const FreeFloor& free, double aside, double turn) {
   const glm::dvec2 middle = 0.5 * (free.low + free.high), half = 0.5 * (free.high - free.low);
   glm::dvec2 towards(camera.p_WC.x - middle.x, camera.p_WC.z - middle.y);
   const double away = glm::length(towards);
   towards = away > 0 ? towards / away : glm::dvec2(0, 1);
-  // Go to the border of the rectangle, and 45 cm beyond.
+  // Go to the border of the rectangle, and 45 cm farther.
   const double to_border = std::min(std::abs(towards.x) > 1e-6 ? half.x / std::abs(towards.x) : 1e9,
                                     std::abs(towards.y) > 1e-6 ? half.y / std::abs(towards.y) : 1e9);
   const double distance = std::min(to_border + 0.45, 0.62 * away);
@@ -350,7 +351,7 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
   const WorldKey key{seed, "stage", 0};
   RandomStream size(key, "size"), order(key, "slots"), front(key, "in-front");
   FurnishedRoom made;
-  // Walls, floor, lights and pictures.
+  // Make walls, floor, lights and pictures.
   Interior& room = made.interior;
   room.low = {-size.Uniform(3.5, 4.3), 0, kWallZ};
   room.high = {size.Uniform(3.5, 4.3), size.Uniform(3.1, 3.5), 5.6};
@@ -360,7 +361,7 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
   Light(key, scene, room);
   HangPictures(key, scene, colour_share, room);
 
-  // Place each piece at a random slot along the walls; a piece in the performer's way is left out.
+  // Put each piece at a random place along the walls; leave out a piece in the performer's way.
   const std::array<Slot, 8> slots = Shuffled(Slots(room), order);
   const auto add_piece = [&](const char* purpose, double threshold, auto make, const Slot& slot) {
     RandomStream random(key, purpose);
@@ -385,7 +386,7 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
   add_piece("table", kTable, MakeTable, slots[5]);
   add_piece("pile", kPile, MakePile, slots[6]);
 
-  // The last two pieces hide part of the performer from the cameras.
+  // Put the last two pieces where they hide a part of the performer from the cameras.
   const double chair_aside = front.Uniform(-0.35, 0.35), chair_turn = front.Uniform(-kPi, kPi);
   const double crate_aside = front.Uniform(-0.35, 0.35), crate_turn = front.Uniform(-kPi, kPi);
   const std::size_t first = front.IndexBelow(2);

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The part of the floor that the performer needs; no piece of furniture stands on it.
+/// The part of the floor that the performer needs. No piece of furniture stands on it.
 struct FreeFloor {
   glm::dvec2 low{0}, high{0};  ///< x, z
 };
@@ -26,9 +26,9 @@ struct FurnishedRoom {
   MoverPositions places;
 };
 
-/// Furnishes the room of this seed. Each piece has its own random numbers and its own threshold of `scene`, so
-/// everything present at 0.25 is present at 0.5. Colours are interpolated by `colour_share` between the studio's (0)
-/// and those of everyday objects (1).
+/// Furnishes the room with this seed. Each piece has its own random numbers and its own threshold of `scene`: every
+/// piece present at a low value is also present at a higher one. Colours are interpolated by `colour_share` between the
+/// studio's (0) and those of everyday objects (1).
 FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, const FreeFloor& free,
                       std::span<const Camera> cameras);
 

@@ -15,14 +15,14 @@ struct Hsv {
 Rgb8 ToRgb(const Hsv& colour);
 Hsv ToHsv(Rgb8 colour);
 
-/// Interpolates from colour `a` (share 0) to `b` (share 1); hues take the shorter way round.
+/// Interpolates between colour `a` (share 0) and `b` (share 1). Hues take the shorter way round.
 Hsv Mixed(const Hsv& a, const Hsv& b, double share);
 
-/// Draws a colour of everyday objects, walls and clothes: often wood and leather, some denim, some green, and sometimes
-/// any hue. The number of draws is constant.
+/// Draws a colour of everyday objects, walls and clothes: often wood and leather, less often denim or green, and
+/// sometimes any hue. Always draws the same number of random numbers.
 Hsv DrawColour(RandomStream& random);
 
-/// Draws a colour of the studio's objects: hues of 150–230°, which its performers do not have.
+/// Draws a colour of the studio's objects. Its hue is 150–230°; performers in the studio have other hues.
 Hsv DrawStudioColour(RandomStream& random);
 
 }  // namespace etude

@@ -16,7 +16,8 @@
 namespace etude {
 namespace {
 
-// The value of `scene` from which each is present; the plant and the screen come with their furniture.
+// The value of `scene` from which on the ball and the second person are present. (The plant and the screen appear with
+// their furniture.)
 constexpr double kBall = 0.55, kBystander = 0.60;
 constexpr double kShotSeconds = 1.7;  // duration of one picture on the screen
 
@@ -28,7 +29,7 @@ BodyPose Placed(const BodyPose& pose, double size, double heading, const glm::dv
   return FloorMove{heading, place.x, place.z}.Apply(scaled);
 }
 
-// Returns the floor that the performer covers, plus a margin.
+// Returns the floor that the performer uses, plus a margin.
 FreeFloor FloorOf(std::span<const BodyPose> poses) {
   constexpr double kAir = 0.3, kInfinity = std::numeric_limits<double>::infinity();
   FreeFloor free{glm::dvec2(kInfinity), glm::dvec2(-kInfinity)};
@@ -46,7 +47,7 @@ FreeFloor FloorOf(std::span<const BodyPose> poses) {
 Movers::Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free)
     : seed_(seed), scene_(scene), colour_share_(colour_share), places_(room.places) {
   const WorldKey key{seed, "stage", 0};
-  // The plant's leaves, at golden-angle steps.
+  // Place the plant's leaves at steps of the golden angle.
   RandomStream plant(key, "leaves"), ball(key, "ball"), person(key, "bystander");
 
   leaf_colour_ = ToRgb(Mixed({150, 0.5, 0.5}, {plant.Uniform(80, 130), 0.5, plant.Uniform(0.35, 0.6)}, colour_share));
@@ -58,7 +59,7 @@ Movers::Movers(std::uint64_t seed, double scene, double colour_share, const Furn
     leaves_.push_back({{out * std::cos(angle), up, out * std::sin(angle)}, phase, rate});
   }
 
-  // The ball, behind the performer.
+  // Place the ball behind the performer.
   const double behind = std::max(room.interior.low.z + 0.45, std::min(-1.25, free.low.y - 0.2));
   Ball drawn;
   drawn.middle = {ball.Uniform(-0.6, 0.6), 0, behind + 0.15};
@@ -70,7 +71,7 @@ Movers::Movers(std::uint64_t seed, double scene, double colour_share, const Furn
   drawn.colour = ToRgb(Mixed(DrawStudioColour(ball), DrawColour(ball), colour_share));
   if (scene >= kBall) ball_ = drawn;
 
-  // The second person, who dances a built-in move.
+  // Add the second person, who dances a built-in move.
   const std::vector<std::string> moves = BuiltinMoveNames();
   const std::string& name = moves[person.IndexBelow(moves.size())];
   const glm::dvec3 place{person.Uniform(-1.0, 1.0), 0, behind};
@@ -104,7 +105,7 @@ Figure Movers::PlantAt(double seconds) const {
 }
 
 Figure Movers::ScreenAt(double seconds) const {
-  // Every picture of the screen has its own random numbers.
+  // Every picture on the screen has its own random numbers.
   const auto shot = static_cast<std::int64_t>(std::floor(seconds / kShotSeconds));
   RandomStream random({seed_, "stage", 0}, "screen/shot/" + std::to_string(shot));
   const Hsv studio = DrawStudioColour(random), one = DrawColour(random), two = DrawColour(random);
@@ -114,7 +115,7 @@ Figure Movers::ScreenAt(double seconds) const {
   bright.value = std::clamp(0.85 * flicker, 0.0, 1.0);
   other.value = std::clamp(0.6 * flicker, 0.0, 1.0);
 
-  // A rectangle on the box's front.
+  // Make a rectangle on the front of the box.
   const FurnitureBox& box = places_.screen;
   const glm::dvec3 across(std::cos(box.heading), 0, -std::sin(box.heading)),
       out(std::sin(box.heading), 0, std::cos(box.heading));
@@ -166,7 +167,8 @@ std::vector<Figure> Movers::At(double seconds) const {
 }
 
 double ColourShare(double scene) {
-  // Hue segmentation tolerates much of this; with these steps its IoU falls about evenly (README.md).
+  // Steps of the share at equal steps of `scene`. Segmentation by hue tolerates large shares; with these steps its IoU
+  // falls about evenly with `scene` (README.md).
   constexpr std::array kSteps = {0.0, 0.85, 0.92, 0.95, 1.0};
   const double step = std::clamp(scene, 0.0, 1.0) * (kSteps.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(step), kSteps.size() - 2);
@@ -202,7 +204,7 @@ std::optional<BodyPose> StagedRoom::BystanderAt(double seconds) const {
 }
 
 double StagedRoom::FlickerAt(double seconds) const {
-  // The mains frequency is slightly off 50 Hz, so 30 pictures a second show a slow beat.
+  // The mains frequency is slightly off 50 Hz: 30 pictures a second show a slow beat.
   constexpr double kLampHz = 2 * 50.02;
   return 1 + flicker_ * std::sin(2 * kPi * (kLampHz * seconds + flicker_phase_));
 }

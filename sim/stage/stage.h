@@ -14,16 +14,16 @@
 
 namespace etude {
 
-/// The moving objects in the room besides the performer: a plant, a screen, a ball and a second person. Each is a
-/// function of time, and has its own random numbers and its own threshold of `scene`.
+/// The moving objects in the room besides the performer: a plant, a screen, a ball and a second person. The motion of
+/// each is a function of time. Each has its own random numbers and its own threshold of `scene`.
 class Movers {
  public:
   Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free);
 
-  /// Returns the figures at a time, which may be before the take; they are labelled kClutter and kBystander.
+  /// Returns the figures at a time, which may be before the take. They are labelled kClutter and kBystander.
   std::vector<Figure> At(double seconds) const;
 
-  /// Returns the second person's joints at that time; empty if there is no such person.
+  /// Returns the second person's joints at a time; nullopt without a second person.
   std::optional<BodyPose> BystanderAt(double seconds) const;
 
  private:
@@ -58,35 +58,36 @@ class Movers {
 
 /// The options of a stage.
 struct StageOptions {
-  std::uint64_t seed = 1;  ///< of all random numbers; what they determine does not depend on `scene`
+  std::uint64_t seed = 1;  ///< seed of all random numbers; they do not depend on `scene`
   /// 0 = the studio: an empty, bluish room and a performer of capsules in warm colours. 1 = a furnished room with
   /// moving people and objects, whose colours the performer's clothes share (README.md has the table).
   double scene = 0;
   Wardrobe wardrobe = Wardrobe::kStudio;
 };
 
-/// The room around a performer: its furniture, its moving objects, the performer's clothes, and the lighting. At scene
-/// 0 it has none of these.
+/// The room around a performer: furniture, moving objects, the performer's clothes, and the lighting. At scene 0 all of
+/// these are absent.
 class StagedRoom {
  public:
   StagedRoom() = default;
-  /// Makes a room for a performer who moves like `poses` in front of `cameras`; furniture leaves that floor free.
+  /// Makes a room for a performer who moves like `poses` in front of `cameras`. No furniture stands on the floor that
+  /// the performer uses.
   StagedRoom(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras);
 
-  /// Returns the interior, or null for the studio. It lives as long as this object.
+  /// Returns the interior, or null for the studio. The interior belongs to this object.
   const Interior* interior() const { return furnished_ ? &furnished_->interior : nullptr; }
   bool IsPerformerDressed() const { return performer_.has_value(); }
-  /// Returns the dressed performer, or at scene 0 the capsules in the `studio` colours.
+  /// Returns the dressed performer; at scene 0, capsules in the `studio` colours.
   Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
-  /// Returns the moving objects at `seconds` after the take's start (negative: before it).
+  /// Returns the moving objects at `seconds` after the take's start; a negative time is before it.
   std::vector<Figure> MoversAt(double seconds) const;
-  /// Returns the second person's joints, if there is one.
+  /// Returns the second person's joints; nullopt without a second person.
   std::optional<BodyPose> BystanderAt(double seconds) const;
-  /// Returns the factor by which the flicker of mains-powered lamps changes the light of a picture taken at that time:
-  /// 100 Hz, sampled by the camera.
+  /// Returns the factor by which the 100 Hz flicker of mains-powered lamps changes the light of a picture taken at this
+  /// time.
   double FlickerAt(double seconds) const;
 
-  /// The time of the background picture: before the take, when all moving objects are elsewhere.
+  /// The background picture is taken at this time: before the take, when all moving objects are elsewhere.
   static constexpr double kBackgroundSeconds = -6.3;
 
  private:
@@ -97,7 +98,7 @@ class StagedRoom {
   double flicker_ = 0, flicker_phase_ = 0;
 };
 
-/// Returns the share of everyday colours at this `scene`; the rest is the studio's.
+/// Returns the share of everyday colours at this value of `scene`; the rest is the studio's.
 double ColourShare(double scene);
 
 }  // namespace etude

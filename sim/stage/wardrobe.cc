@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-// The colours of the studio's performer (PerformerColours), and of the hair drawn on its face.
+// The colours of the studio's performer (PerformerColours), and of the hair that is drawn on the head.
 constexpr Rgb8 kStudioSkin{232, 168, 128}, kStudioTop{230, 92, 66}, kStudioBottom{150, 46, 88};
 constexpr Rgb8 kStudioShoes{240, 186, 76}, kStudioHair{66, 33, 20};
 
@@ -21,7 +21,7 @@ SurfacePaint Plain(const Hsv& colour) {
   return {.first = rgb, .second = rgb};
 }
 
-// The colours of a garment, and the second colour of its pattern.
+// The colour of a garment, and the second colour of its pattern.
 struct Dye {
   Hsv first, second;
 };
@@ -96,7 +96,7 @@ PartColours CodedSuit() {
                                  kLeftForearm, kLeftHand,      kHead,         kRightThigh, kRightShank,
                                  kRightFoot,   kRightUpperArm, kRightForearm, kRightHand};
   constexpr double kFirstHue = 250, kHues = 240;  // degrees: to 130
-  constexpr std::size_t kStep = 5;                // hues between consecutive limbs of kOrder
+  constexpr std::size_t kStep = 5;                // consecutive limbs of kOrder are this many hues apart
   PartColours suit{};
   for (std::size_t i = 0; i < kOrder.size(); ++i) {
     const auto hue = static_cast<double>(kStep * i % kOrder.size());

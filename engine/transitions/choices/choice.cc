@@ -17,13 +17,13 @@
 namespace etude {
 namespace {
 
-/// Statistics of all pairs of bridge frames within the budget, including those after the first match, which the search
-/// skips.
+/// Statistics of all pairs of bridge frames within the budget. They include the pairs after the first match, which the
+/// search itself skips.
 struct PairSurvey {
   AllowedFrames allowed;
   std::int64_t matching = 0;
   std::int64_t nearer = 0;          ///< matching pairs with a smaller distance than the taken pair
-  std::vector<RankedPair> nearest;  ///< for each frame that may be left, its nearest pair other than the taken one
+  std::vector<RankedPair> nearest;  ///< for each frame that may be left, its nearest pair other than the taken pair
 };
 
 PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
@@ -65,8 +65,8 @@ std::string WhyNone(const MotionLibrary& library, const TransitionRequest& reque
 
 /// Plans paper A's transition (section 3.5). Compares each bridge frame of the playing clip within the budget with
 /// those of the wanted clip, the front half before the rear half, and takes the first pair that matches. With
-/// Pick::kSmallest it takes the nearest matching pair of the front half, else of the rear half. Without a match the
-/// transition goes through an in-between.
+/// Pick::kSmallest it takes the nearest matching pair of the front half, or of the rear half if the front half has no
+/// match. Without any match the transition goes through an in-between.
 TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
@@ -87,7 +87,7 @@ TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionR
   return record;
 }
 
-/// Plans a transition at once into the wanted clip's first frame, regardless of the poses.
+/// Plans an immediate transition into the wanted clip's first frame, regardless of the poses.
 TransitionRecord PlanNow(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
   TransitionRecord record = DirectTransition(library, request, request.request_frame, 0, rules);
   record.branch = Branch::kNow;
@@ -95,8 +95,8 @@ TransitionRecord PlanNow(const MotionLibrary& library, const TransitionRequest& 
   return record;
 }
 
-/// Plans a transition from the playing clip's last frame into the wanted clip's first frame, regardless of the budget,
-/// like a player without bridging (paper A, section 1).
+/// Plans a transition from the playing clip's last frame into the wanted clip's first frame, regardless of the budget.
+/// A player without bridging does this (paper A, section 1).
 TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRequest& request,
                                 const MatchRules& rules) {
   const int end = library.tagged[request.from].FrameCount() - 1;
@@ -107,11 +107,11 @@ TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRe
   return record;
 }
 
-/// Plans the reference of unbroken motion, which ignores the request: the playing clip continues, and every join leaves
-/// it unchanged. The record has one transition point, from the request's frame to the same frame, so that measures
-/// evaluate unbroken motion at the same frames at which other choices change clips.
+/// Plans the reference of unbroken motion, which ignores the wanted clip: the playing clip continues, and every join
+/// leaves it unchanged. The record has one transition point, from the request's frame to the same frame. Measures
+/// therefore evaluate unbroken motion at the frames at which other choices change clips.
 ///
-/// The record has no segments if the request comes at the clip's last frame, because the clip cannot continue.
+/// If the request comes at the clip's last frame, the clip cannot continue, and the record has no segments.
 TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
   const TaggedClip& playing = library.tagged[request.from];
   const int frame = request.request_frame, last = playing.FrameCount() - 1;
@@ -129,9 +129,9 @@ TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequ
   return record;
 }
 
-/// Plans the method of games according to paper A (section 1: all their clips begin and end standing): it leaves at
+/// Plans the method of games according to paper A (section 1: all their clips begin and end standing). It leaves at
 /// once, tweens into a standing pose, and tweens from there into the wanted clip's first frame. It ignores the budget;
-/// the tweens' duration follows from their rules.
+/// the rules of tweens determine their duration.
 TransitionRecord PlanThroughStanding(const MotionLibrary& library, const TransitionRequest& request,
                                      const MatchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
@@ -151,7 +151,7 @@ TransitionRecord PlanThroughStanding(const MotionLibrary& library, const Transit
   record.segments = {{.clip = request.from, .first = request.request_frame, .last = request.request_frame, .own = {}},
                      {.clip = Segment::kOwnFrames, .first = 0, .last = last, .own = std::move(own)},
                      {.clip = request.to, .first = 0, .last = next.FrameCount() - 1, .own = {}}};
-  // The tweens begin and end at the clips' own frames, so the distances are those of a frame to itself.
+  // The tweens begin and end at the clips' own frames, so each transition point compares a frame with itself.
   const auto to_itself = [&](const Grades& grades) { return ComputeDistance(grades, grades, rules.weights); };
   record.distances = {to_itself(playing.grades[request.request_frame]), to_itself(next.grades.front())};
   record.wait_s = WaitOf(record.segments, playing.rate_hz);
@@ -171,7 +171,7 @@ TransitionRecord PlanBy(Library library, Request request, Rules rules, Values /*
   return Plan(library, request, rules);
 }
 
-/// Adapts the plan function of a choice with settings, which are read from `values`.
+/// Adapts the plan function of a choice with settings to a table row; the settings are read from `values`.
 template <auto Plan, auto Settings>
 TransitionRecord PlanWith(Library library, Request request, Rules rules, Values values) {
   return Plan(library, request, rules, Settings().Apply(values));
@@ -198,9 +198,10 @@ Choice Ranked(const char* name, const char* description, bool uses_fuzzy) {
           .plan = PlanWith<Plan, Settings>};
 }
 
-// This is a function so that the table is initialised after the strings it uses.
+// Returns the table of choices. The table is made on the first call, when the strings that it uses are initialised.
 std::span<const Choice> Table() {
   static const std::array kChoices = {
+      // Choices that search for good frames.
       Choice{.name = "fuzzy-bridge",
              .description = "paper A's: the first bridge frames that match, otherwise through an in-between",
              .matches_poses = true,
@@ -221,6 +222,7 @@ std::span<const Choice> Table() {
           .description = "the frames and the length of the join whose transition costs the least time and acceleration",
           .settings = PlayedSettings().Describe(),
           .plan = PlanWith<PlanPlayed, PlayedSettings>},
+      // Choices of fixed frames, for comparison.
       Choice{.name = "through-standing",
              .description = "leaves at once, and goes through a standing pose into the clip's first frame",
              .plan = PlanBy<PlanThroughStanding>},

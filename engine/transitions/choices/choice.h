@@ -13,18 +13,18 @@
 
 namespace etude {
 
-/// A rule that decides when one clip is left and where the other is entered, with the name that scenario files use.
-/// `values` holds one value per setting, in order; empty means the defaults.
+/// A rule that decides at which frame one clip is left and at which frame the other is entered. Scenario files use its
+/// name. `values` holds one value per setting, in order; empty means the defaults.
 struct Choice {
   std::string name;
-  std::string description;     ///< one line for users
-  bool matches_poses = false;  ///< true if it takes frames because they are similar; `false_smooth` applies only then
-  bool uses_fuzzy = false;     ///< true if the rules' weights and threshold apply
-  std::vector<NumberSetting> settings = {};  ///< its own settings, in addition to the rules of all fuzzy choices
-  /// Returns the frames that it may take; null for choices that do not compare poses.
+  std::string description;                   ///< one line for users
+  bool matches_poses = false;                ///< true if it takes similar frames; only then `false_smooth` is measured
+  bool uses_fuzzy = false;                   ///< true if the rules' weights and threshold apply
+  std::vector<NumberSetting> settings = {};  ///< settings of this choice, in addition to the rules of all fuzzy choices
+  /// Returns the frames that the choice may take; null for choices that do not compare poses.
   AllowedFrames (*allowed)(const MotionLibrary& library, const TransitionRequest& request,
                            std::span<const double> values) = nullptr;
-  /// Plans a transition. If there is no way, the record has no segments, and its `why` states the reason. The clip
+  /// Plans a transition. If none is possible, the record has no segments, and its `why` states the reason. The clip
   /// `request.to` must have at least two frames.
   TransitionRecord (*plan)(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                            std::span<const double> values) = nullptr;
@@ -36,7 +36,7 @@ std::vector<std::string> ChoiceNames();
 /// Returns the choice called `name`, or null if there is none.
 const Choice* FindChoice(std::string_view name);
 
-/// A method of getting from clip to clip: a choice of frames and a join, with their settings.
+/// A method of changing from clip to clip: a choice of frames and a join, with their settings.
 struct TransitionWay {
   const Choice* choice = nullptr;
   const JoinKind* join = nullptr;

@@ -17,12 +17,12 @@
 namespace etude {
 namespace {
 
-/// The pairs to rank, and the names of the cost that ranks them.
+/// The pairs to rank, and the name and unit of the cost that ranks them.
 struct Ranking {
   AllowedFrames allowed;
   std::string name;  ///< for example "point-cloud distance"
   std::string unit;  ///< for example "cm"
-  /// If true, only pairs that match by the rules are ranked; without one, the plan goes through an in-between.
+  /// If true, only pairs that match by the rules are ranked. If none matches, the plan goes through an in-between.
   bool gated = false;
 };
 
@@ -43,7 +43,7 @@ RankedPairs RankPairs(const AllowedFrames& allowed, FuzzyGate* gate, PairRows& c
   std::vector<int> passing = allowed.enter;
   for (int from : allowed.leave) {
     std::optional<RankedPair> best;
-    // Let the gate select the frames to enter; the nearest rejected one is kept to report it.
+    // Let the gate select the frames to enter. Keep the nearest rejected frame for the report.
     if (gate != nullptr) {
       passing.clear();
       for (const auto& [to, distance, matches] : gate->Compare(from)) {
@@ -66,7 +66,7 @@ RankedPairs RankPairs(const AllowedFrames& allowed, FuzzyGate* gate, PairRows& c
   return survey;
 }
 
-/// Takes the allowed pair of lowest cost, on a tie the earlier one.
+/// Takes the allowed pair with the lowest cost; of equal costs, the earlier pair.
 TransitionRecord PlanRanked(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const Ranking& ranking, PairRows& costs) {
   const std::int64_t pairs = ranking.allowed.Pairs();
@@ -130,7 +130,7 @@ TransitionRecord PlanByPointCloud(const MotionLibrary& library, const Transition
   return PlanRanked(library, request, rules, ranking, costs);
 }
 
-/// Returns the setting that all of these choices share.
+/// Returns the description of `least_play_s`, the setting that all of these choices have.
 template <typename Options>
 typename SettingTable<Options>::Row LeastPlay() {
   return {"least_play_s", &Options::least_play_s, 0, 60,

@@ -6,26 +6,27 @@
 
 namespace etude {
 
-// The choices that rank all pairs of frames allowed by the budget and by `least_play_s` (AllowedAnyFrames).
+// These choices rank all pairs of frames that the budget and `least_play_s` allow (AllowedAnyFrames).
 
 struct PointCloudOptions {
-  /// The length of motion in a point cloud, in seconds, centred on the frame. The default is that of Kovar, Gleicher
-  /// and Pighin, about a third of a second. A longer window also compares the motion before and after the pose; at 0
-  /// only the poses count.
+  /// The length of motion in a point cloud, in seconds, centred on the frame. The default, about a third of a second,
+  /// comes from Kovar, Gleicher and Pighin. A longer window also compares the motion before and after the pose; with 0,
+  /// only the poses are compared.
   double window_s = 1.0 / 3;
-  /// The length of the wanted clip that must be left to play, in seconds (default ours). Entering the clip's front half
-  /// is always allowed. A larger value leaves fewer pairs to choose from.
+  /// The minimum time that the wanted clip must still play after it is entered, in seconds (default ours). Entering the
+  /// clip's front half is always allowed. A larger value leaves fewer pairs to choose from.
   double least_play_s = 1;
 };
 const SettingTable<PointCloudOptions>& PointCloudSettings();
 
-/// Plans with the fuzzy gate over all frames, not only bridge frames, and ranks the passing pairs by the point-cloud
-/// distance (PointCloudRows). This refines paper A's measure. If no pair passes, the plan goes through an in-between.
+/// Plans with the fuzzy gate, which may pass any frame, not only bridge frames. Ranks the passing pairs by the
+/// point-cloud distance (PointCloudRows). This refines paper A's measure. If no pair passes, the plan goes through an
+/// in-between.
 TransitionRecord PlanFuzzyKovar(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                                 const PointCloudOptions& options = {});
 
-/// Plans by the smallest point-cloud distance of all pairs (Kovar, Gleicher and Pighin 2002), without fuzzy features.
-/// Their threshold is omitted, because a requested transition must take place.
+/// Takes the pair with the smallest point-cloud distance (Kovar, Gleicher and Pighin 2002), without fuzzy features. The
+/// paper's threshold is omitted, because a requested transition must take place.
 TransitionRecord PlanPointCloud(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                                 const PointCloudOptions& options = {});
 
@@ -39,16 +40,16 @@ TransitionRecord PlanMotionMatching(const MotionLibrary& library, const Transiti
                                     const MatchRules& rules, const MotionMatchingOptions& options = {});
 
 struct FuzzyWindowOptions {
-  /// The time before and after the frame over which distances are averaged, in seconds each. The default (ours) makes
-  /// the window twice that of point clouds.
+  /// Distances are averaged over this time before the frame and after it, in seconds each. The default (ours) makes the
+  /// window twice as long as that of point clouds.
   double reach_s = 1.0 / 3;
   double least_play_s = 1;  ///< as in PointCloudOptions
 };
 const SettingTable<FuzzyWindowOptions>& FuzzyWindowSettings();
 
-/// Plans by a fuzzy similarity between motions, which paper A leaves as future work: the fuzzy gate selects among all
-/// frames, and the mean fuzzy distance over `reach_s` before and after ranks the passing pairs. If no pair passes, the
-/// plan goes through an in-between.
+/// Plans by a fuzzy similarity between motions, which paper A leaves as future work. The fuzzy gate may pass any frame.
+/// The passing pairs are ranked by the mean fuzzy distance over `reach_s` before and after. If no pair passes, the plan
+/// goes through an in-between.
 TransitionRecord PlanFuzzyWindow(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules, const FuzzyWindowOptions& options = {});
 

@@ -47,7 +47,7 @@ void FuzzyWindowRows::Compute(int leave_frame, std::span<const int> enter_frames
 
 namespace {
 
-/// Returns the floor point below the hips, which becomes a clip's origin so that sums of squares keep their precision.
+/// Returns the floor point below the hips. It becomes a clip's origin, which keeps the precision of sums of squares.
 /// Heights are not shifted, because they are compared.
 glm::dvec3 OnFloor(const BodyPose& pose) { return {pose[Role::kHipCentre].x, 0, pose[Role::kHipCentre].z}; }
 
@@ -115,7 +115,7 @@ void PointCloudRows::Compute(int leave_frame, std::span<const int> enter_frames,
   for (std::size_t i = 0; i < enter_frames.size(); ++i) {
     const int enter = enter_frames[i];
     const Reach reach = ReachAround(leave_frame, playing_frames, enter, next_frames_, half_);
-    // Get the sums of both clouds' coordinates and of the products of their points.
+    // Compute the sums of both clouds' coordinates and of the products of their points.
     const int row = leave_frame + reach.after, column = enter + reach.after;
     while (products_.NextRow() <= row) AddFrame(products_.NextRow());
     const glm::dvec3 of_pair = products_.SumEndingAt(row, column, reach.Count());
@@ -125,7 +125,7 @@ void PointCloudRows::Compute(int leave_frame, std::span<const int> enter_frames,
     };
     const CloudSum p = of_cloud(playing_sums_, row - first_frame_), q = of_cloud(next_sums_, column);
     const double share = 1.0 / (static_cast<double>(kRoleCount) * reach.Count());  // weight of one point
-    // Closed form (Kovar): the best shift aligns the clouds' centroids, the best rotation maximises the remaining
+    // Kovar's closed form: the best shift aligns the clouds' centroids, and the best rotation maximises the remaining
     // correlation.
     const double along = of_pair[0] - (p.x * q.x + p.z * q.z) * share;
     const double across = of_pair[1] - (p.x * q.z - p.z * q.x) * share;

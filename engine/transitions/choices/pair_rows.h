@@ -14,8 +14,8 @@
 
 namespace etude {
 
-/// Computes one kind of cost for all pairs of a row, which belongs to one frame that may be left. Rows must be
-/// requested in rising order.
+/// Computes one kind of cost for pairs of frames, row by row; a row holds all pairs with one frame that may be left.
+/// Rows must be requested in rising order.
 class PairRows {
  public:
   virtual ~PairRows() = default;
@@ -23,9 +23,9 @@ class PairRows {
   virtual void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) = 0;
 };
 
-/// Keeps running sums along the diagonals of a table of two clips' frames, whose rows arrive one by one. A diagonal
-/// corresponds to two stretches of motion that run side by side; the sum over any stretch takes two look-ups. `Value`
-/// is a number or a vector of numbers.
+/// Keeps running sums along the diagonals of a table whose rows are frames of one clip and whose columns are frames of
+/// another. Rows arrive one by one. A diagonal pairs frames of two motions that run side by side, and the sum over any
+/// part of it takes two look-ups. `Value` is a number or a vector of numbers.
 template <class Value>
 class DiagonalSums {
  public:
@@ -49,8 +49,8 @@ class DiagonalSums {
   }
   int NextRow() const { return next_row_; }
 
-  /// Returns the sum of the `count` values that end at (row, column) along the diagonal, which must lie in the table.
-  /// Row − `count` must be a kept row or lie before the first.
+  /// Returns the sum of the `count` values on the diagonal that ends at (row, column), which must lie in the table. Row
+  /// − `count` must be a kept row or lie before the first row.
   Value SumEndingAt(int row, int column, int count) const { return At(row, column) - At(row - count, column - count); }
 
  private:
@@ -70,7 +70,7 @@ class DiagonalSums {
   std::vector<Value> sums_;  ///< a ring of rows
 };
 
-/// The number of frames before and after a pair of frames that exist in both clips, limited to half a window.
+/// The number of frames before and after a pair that exist in both clips, limited to half a window.
 struct Reach {
   int before = 0, after = 0;
 
@@ -81,7 +81,7 @@ inline Reach ReachAround(int frame_a, int frames_a, int frame_b, int frames_b, i
           .after = std::min({half, frames_a - 1 - frame_a, frames_b - 1 - frame_b})};
 }
 
-/// Computes equation 1 from one frame to many in parallel, bit-identical to ComputeDistance.
+/// Computes equation 1 from one frame to many frames with SIMD; bit-identical to ComputeDistance.
 class FuzzyRows {
  public:
   FuzzyRows(std::span<const Grades> frames, const FeatureWeights& weights);
@@ -94,11 +94,11 @@ class FuzzyRows {
   std::vector<FrameBlock> blocks_;
 };
 
-/// Computes, for each pair of a row, the mean of equation 1's distance over the frames around it, `reach` to each side
-/// as far as both motions go. Each pair of frames is compared only once for all windows.
+/// Computes, for each pair of a row, the mean of equation 1's distance over the frames around the pair, up to `reach`
+/// frames to each side, as far as both motions exist. Overlapping windows share the comparisons of frames.
 class FuzzyWindowRows : public PairRows {
  public:
-  /// The rows begin at `first_leave_frame`. The playing clip's grades must outlive this object.
+  /// Rows begin at `first_leave_frame`. The playing clip's grades must outlive this object.
   FuzzyWindowRows(std::span<const Grades> playing, std::span<const Grades> next, int first_leave_frame, int reach,
                   const FeatureWeights& weights);
   void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
@@ -111,20 +111,20 @@ class FuzzyWindowRows : public PairRows {
 };
 
 /// Computes the distance of two frames by Kovar, Gleicher and Pighin ("Motion graphs", 2002, section 3.1). The twenty
-/// joints of all frames around a frame form a point cloud. One cloud is rotated about the vertical and shifted on the
-/// floor so that it fits the other best (in closed form). All points have the same weight, and the cost is the root
-/// mean square of their distances in centimetres, so clouds that a clip's end cuts short are comparable.
+/// joints of all frames in a window form a point cloud. One cloud is rotated about the vertical and shifted on the
+/// floor to fit the other best (in closed form). All points have the same weight, and the cost is the root mean square
+/// of their distances in centimetres. A cloud that a clip's end cuts short is therefore comparable with others.
 ///
-/// In the paper one cloud begins and the other ends at the frame, because the clips are crossfaded there. Here the pair
-/// is in the middle of the clouds, because the clips are cut there.
+/// In the paper one cloud begins at its frame and the other ends there, because the clips are crossfaded. Here both
+/// clouds are centred on their frames, because the clips are cut there.
 class PointCloudRows : public PairRows {
  public:
-  /// The rows begin at `first_leave_frame`. `playing` must outlive this object.
+  /// Rows begin at `first_leave_frame`. `playing` must outlive this object.
   PointCloudRows(const BodyMotion& playing, const BodyMotion& next, int first_leave_frame, double window_s);
   void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
 
  private:
-  /// Sums of a cloud's coordinates over all frames before a given one.
+  /// The sum of all point coordinates in the frames before a given frame.
   struct CloudSum {
     double x = 0, z = 0, square = 0;
   };
@@ -139,7 +139,7 @@ class PointCloudRows : public PairRows {
   glm::dvec3 playing_origin_;
   std::vector<Block> blocks_;
   std::vector<CloudSum> playing_sums_, next_sums_;
-  /// Σ xx′ + zz′ (along), Σ xz′ − zx′ (across) and Σ yy′ (up) over the points of two frames.
+  /// Sums over the points of two frames: Σ xx′ + zz′ (along), Σ xz′ − zx′ (across) and Σ yy′ (up).
   DiagonalSums<glm::dvec3> products_;
 };
 

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Returns `count` + 1 frames of a clip from frame `first` on; the last frame is repeated after the clip's end.
+/// Returns `count` + 1 frames of a clip from frame `first` on. After the clip's end, the last frame is repeated.
 std::vector<BodyPose> FramesFrom(const BodyMotion& clip, int first, int count) {
   std::vector<BodyPose> frames;
   const int last = static_cast<int>(clip.poses.size()) - 1;
@@ -25,7 +25,7 @@ BodyPose FrameBeforeIn(const BodyMotion& clip, int frame) {
   return clip.poses.size() > 1 ? FrameBefore(clip.poses[0], clip.poses[1]) : clip.poses[0];
 }
 
-/// Returns the floor move with which the join planted-feet aligns the wanted clip at a pair.
+/// Returns the floor move by which the join planted-feet aligns the wanted clip at this pair.
 FloorMove FloorMoveOf(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair) {
   const std::size_t aligned = static_cast<std::size_t>(kAlignedSeconds * playing.rate_hz) + 1;
   const auto head = [&](const BodyMotion& clip, int first) {
@@ -34,8 +34,8 @@ FloorMove FloorMoveOf(const BodyMotion& playing, const BodyMotion& wanted, const
   return AlignOnPlantedFeet(head(playing, pair.leave), head(wanted, pair.enter), playing.rate_hz);
 }
 
-/// Returns the window of a pair as the join planted-feet would use it; `last` is the last frame of the wanted clip that
-/// counts as real.
+/// Returns the window that the join planted-feet would use at this pair. `last` is the last frame of the wanted clip
+/// that is used.
 JoinWindow WindowOfPair(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair,
                         const FloorMove& floor_move, int last, int frames) {
   JoinWindow window{.shown = {FrameBeforeIn(playing, pair.leave), playing.poses[pair.leave]},
@@ -97,7 +97,7 @@ double LargestNear(std::span<const double> values, int frame) {
 
 void CostMeter::Add(const BodyPose& shown) {
   if (count_ > 0) {
-    const std::size_t f = count_ - 1;  // index of `here_`, whose two neighbours are known now
+    const std::size_t f = count_ - 1;  // the index of `here_`; its neighbours on both sides are known by now
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const glm::dvec3 jump = SecondDifferenceOf(before_, here_, shown, j);
       const double least = std::max(own_[f][j], usual_) + worst_excess_, squared = glm::dot(jump, jump);
@@ -148,7 +148,8 @@ PairStage::PairStage(const MotionLibrary& library, const TransitionRequest& requ
     const std::size_t begin = static_cast<std::size_t>(first), most = clip.poses.size() - begin;
     return std::span(clip.poses).subspan(begin, std::min(static_cast<std::size_t>(count), most));
   };
-  // Prepare the search for support on both clips around the join. A shift on the floor does not change it.
+  // Prepare the search for support on both clips around the join. Shifting the wanted clip on the floor does not change
+  // its support.
   playing_ = around(playing, pair.leave - before_, before_ + frames + kAround);
   for (const BodyPose& pose : around(wanted, pair.enter, frames + kAround)) wanted_.push_back(floor_move.Apply(pose));
   const std::array clips = {SupportingClip{.poses = playing_, .begin = 0, .left_at = before_},
@@ -189,11 +190,11 @@ Burden PairStage::Rate(std::span<const BodyPose> played, const glm::dvec3& shift
   shown.insert(shown.end(), played.begin(), played.end());
   for (std::size_t f = played.size(); f < wanted_.size(); ++f) Shift(shift, shown.emplace_back(wanted_[f]));
   const int end = static_cast<int>(shown.size()) - 1, last = std::min(before_ + window_.Frames(), end);
-  // The mass centres that accelerations in these frames depend on.
+  // Compute the mass centres in the frames from which accelerations in the join are computed.
   constexpr int kReach = 3;
   std::vector<glm::dvec3> centres(shown.size());
   for (int f = std::max(before_ - kReach, 0); f <= std::min(last + kReach, end); ++f) centres[f] = MassCentre(shown[f]);
-  // Sum up what each frame asks of the ground.
+  // Add up, for each frame, missing support, the zero-moment point's distance, and gliding.
   constexpr double kFoot = 0.1;
   Burden burden;
   int run = 0;
@@ -210,13 +211,13 @@ Burden PairStage::Rate(std::span<const BodyPose> played, const glm::dvec3& shift
   return burden;
 }
 
-/// Returns the larger distance that the clips' own zero-moment points have in a frame of the join.
+/// Returns the larger of the distances that the zero-moment points of both clips have in a frame of the join.
 double PairStage::OwnBeside(int frame) const {
   return std::max(LargestNear(playing_beside_, pair_.leave + frame), LargestNear(wanted_beside_, pair_.enter + frame));
 }
 
-/// Returns how far the slowest of the supports moves over the floor up to a frame, or relative to the same joint of a
-/// clip; without supports, the slowest joint of the feet.
+/// Returns how far the slowest of `supports` moves from the frame before `frame` to `frame`, metres: over the floor or
+/// relative to the same joint of a clip, whichever is less. Without supports, uses the slowest joint of the feet.
 double PairStage::GlideAt(std::span<const BodyPose> shown, int frame, JointSet supports) const {
   if (supports.none()) {
     for (const LegRoles& leg : kLegs) supports.set(Index(leg.ankle)).set(Index(leg.foot));

@@ -15,14 +15,15 @@ namespace etude {
 constexpr std::array kWays = {JoinStyle::kDirect, JoinStyle::kFades};
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
 
-/// The larger of both motions' own second differences, in metres, per frame of the window and per joint. A motion that
-/// has ended has none.
+/// The second difference of each joint in each frame of the window, metres: the larger value of both motions. It is 0
+/// for a motion that has ended.
 using OwnAccelerations = std::vector<std::array<double, kRoleCount>>;
 
-/// Sums up the cost of a join's frames, which are added in order from the transition point on.
+/// Sums up the cost of a join. Its frames are added in order, from the transition point on.
 class CostMeter {
  public:
-  /// `usual` is MotionLibrary::usual_accelerations of the calmer clip. All must outlive this object.
+  /// `usual` is the entry of MotionLibrary::usual_accelerations for the calmer clip. All arguments must outlive this
+  /// object.
   CostMeter(const JoinWindow& window, const OwnAccelerations& own, double usual, const PlayedRates& rates)
       : window_(window), own_(own), usual_(usual), rates_(rates), before_(window.shown.before) {}
 
@@ -37,37 +38,38 @@ class CostMeter {
   const PlayedRates& rates_;
   BodyPose before_, here_;
   std::size_t count_ = 0;
-  double worst_excess_ = 0;  // the largest second difference of any joint beyond the motions' own, metres
-  double off_ = 0;           // deviation from the nearer clip, metres, summed over the frames
+  double worst_excess_ = 0;  // the largest second difference of any joint above those of the motions, metres
+  double off_ = 0;           // distance from the nearer clip's pose, metres, summed over the frames
 };
 
-/// Returns the distance by which both feet slide along the floor in a join, in metres. The weight of a foot decreases
-/// with its height and is 0 from 2.5 cm on (Zhang, Starke, Komura and Saito 2018).
+/// Returns how far both feet slide along the floor in a join, metres. The weight of a foot decreases with its height
+/// and is 0 from 2.5 cm on (Zhang, Starke, Komura and Saito 2018).
 double SlideOf(std::span<const BodyPose> played);
 
-/// What the ground must do for a join.
+/// How much of a join the ground could not support.
 struct Burden {
   int unsupported = 0;  ///< the longest run of frames in which FindSupport finds no support
-  double beside = 0;    ///< distance of the zero-moment point from the supports beyond 10 cm and the clips' own, m·s
-  double glide = 0;     ///< way of the slowest support beyond that of a clip's own joint, metres
+  double beside = 0;    ///< zero-moment point's distance from the supports above 10 cm and the clips' own, m·s
+  double glide = 0;     ///< how far the slowest support glides, beyond the same joint of a clip, metres
 };
 
-/// Holds the data that all joins of one pair share.
+/// Holds the data that all joins at one pair of frames share.
 class PairStage {
  public:
-  /// `last` is the last frame of the wanted clip that counts as real, `frames` the length of the longest join.
+  /// `last` is the last frame of the wanted clip that is used; `frames` is the length of the longest join.
   PairStage(const MotionLibrary& library, const TransitionRequest& request, const FramePair& pair, int last,
             int frames);
   PairStage(const PairStage&) = delete;
   PairStage& operator=(const PairStage&) = delete;
 
-  /// Returns the shift of the wanted clip in a join of `frames` frames that momentum places (CarriedShift).
+  /// Returns the shift of the wanted clip in a join of `frames` frames that places it by momentum (CarriedShift).
   glm::dvec3 ShiftFor(int frames) const;
-  /// Returns the window of a join of `frames` frames with the wanted clip moved by `shift`.
+  /// Returns the window of a join of `frames` frames; the wanted clip is moved by `shift`.
   JoinWindow WindowFor(int frames, const glm::dvec3& shift) const;
-  /// Returns a frame of a join of kLengths_s[length], `frames` frames, without planted feet and shift.
+  /// Returns one frame of a join of length kLengths_s[length] (`frames` frames), without planted feet and without
+  /// shift.
   const BodyPose& LimbsAt(std::size_t length, int frames, JoinStyle way, int frame);
-  /// Returns what the ground must do if the join shows `played`, then the wanted clip moved by `shift`.
+  /// Returns the burden of a join that shows `played`, then the wanted clip moved by `shift`.
   Burden Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const;
 
   const OwnAccelerations& own() const { return own_; }
@@ -91,11 +93,11 @@ class PairStage {
   std::span<const double> playing_beside_, wanted_beside_;  // MotionLibrary::beside_feet
   const int before_;                                        // number of frames of `playing_` before the pair's frame
   std::span<const BodyPose> playing_;                       // the playing clip around the join
-  std::vector<BodyPose> wanted_;                 // the wanted clip from the pair's frame on, aligned on the floor
-  std::optional<SupportFinder> support_finder_;  // in both clips
+  std::vector<BodyPose> wanted_;                            // the wanted clip from the pair on, aligned on the floor
+  std::optional<SupportFinder> support_finder_;             // finds supports in both clips
 };
 
-/// Moves a pose.
+/// Moves all joints of a pose by the same vector.
 inline void Shift(const glm::dvec3& by, BodyPose& pose) {
   for (glm::dvec3& joint : pose.joints) joint += by;
 }

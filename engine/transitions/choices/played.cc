@@ -16,18 +16,19 @@
 namespace etude {
 namespace {
 
-/// A clip that stands up or lies down. It can be entered from the playing clip, and later be left for the wanted clip.
+/// An intermediate clip, which stands up or lies down. It is entered from the playing clip and later left for the
+/// wanted clip.
 struct ThroughClip {
   int clip = 0;            ///< index in the library
-  std::vector<int> enter;  ///< its frames that may be entered, in rising order; all lie before those of `leave`
-  std::vector<int> leave;  ///< its frames from which the wanted clip may be entered, in rising order
+  std::vector<int> enter;  ///< its frames that may be entered, rising; all are before those of `leave`
+  std::vector<int> leave;  ///< its frames from which the wanted clip may be entered, rising
 };
 
 constexpr double kRunUp_s = 2.5;     // a clip may be entered at most this long before it changes its stance
 constexpr double kRunOut_s = 2.5;    // it may be left at most this long after the change
 constexpr double kMinShown_s = 0.3;  // minimum time that it is shown: the shortest join
 
-/// Answers which frames of a library clip can be joined to a request's allowed frames at either end.
+/// Finds the frames of a library clip that can be joined to a request's allowed frames, before or after.
 class Ends {
  public:
   Ends(const MotionLibrary& library, const TransitionRequest& request, const AllowedFrames& allowed)
@@ -64,8 +65,9 @@ class Ends {
   const AllowedFrames& allowed_;
 };
 
-/// Collects the frames of a clip around a change of stance: the frames up to `before` that may be entered, and those
-/// from `after` on that may be left, without gaps. At most `most_s` seconds of the clip are shown.
+/// Collects the frames of a clip around a change of stance. Frames up to `before` may be entered, and frames from
+/// `after` on may be left, each as far as an unbroken stretch can be joined. At most `most_s` seconds of the clip are
+/// shown.
 ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, int before, int after, double most_s) {
   const TaggedClip& tagged = library.tagged[clip];
   const auto frames = [&](double seconds) { return static_cast<int>(std::lround(seconds * tagged.rate_hz)); };
@@ -82,16 +84,16 @@ ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, 
   return way;
 }
 
-/// Finds the clip that changes the stance and whose ends are most similar to the allowed frames, by MotionFeatures.
-/// NeedsClip must be true of all pairs of `allowed`. The playing clip is searched, too. Returns nothing if no clip of
-/// the library changes the stance within `most_s` seconds.
+/// Finds a clip that changes the stance, and of several the clip whose frames at both ends are most similar, by
+/// MotionFeatures, to the allowed frames. NeedsClip must be true of all pairs of `allowed`. The playing clip is also
+/// searched. Returns nullopt if no clip of the library changes the stance within `most_s` seconds.
 std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const TransitionRequest& request,
                                            const AllowedFrames& allowed, double most_s) {
   const Ends ends(library, request, allowed);
   std::optional<ThroughClip> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (int clip = 0; clip < static_cast<int>(library.motions.size()); ++clip) {
-    int before = -1;  // the last frame that may be entered, or −1 if a frame that may be left followed
+    int before = -1;  // the last frame that may be entered; −1 after a frame that may be left
     for (int f = 0; f < library.tagged[clip].FrameCount(); ++f) {
       if (before >= 0 && ends.MayLeave(clip, f)) {
         ThroughClip way = WayAround(library, ends, clip, std::exchange(before, -1), f, most_s);
@@ -108,13 +110,14 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
 }
 
 constexpr int kPairs = 16;          // per round, one pair for each part of the wait
-constexpr int kRounds = 4;          // largest number of rounds; another round follows if the best join floats
-constexpr int kFloatingFrames = 4;  // number of consecutive unsupported frames at which a join floats
+constexpr int kRounds = 4;          // maximum number of rounds; another round follows while the best join floats
+constexpr int kFloatingFrames = 4;  // a join with this many consecutive unsupported frames floats
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part
 constexpr std::size_t kMaxCompared = 20'000;  // maximal number of pairs of frames whose features are compared
 
-/// Finds, for each part of the wait, the nearest pair that can be joined (NeedsClip), if there is one. In a long clip
-/// only every `stride`-th frame is compared. Pairs close to those in `tried` are skipped.
+/// Divides the wait into parts, and finds in each part the nearest pair that can be joined without a clip between
+/// (NeedsClip), if there is one. In a long clip only every `stride`-th frame is compared. Pairs close to those in
+/// `tried` are skipped.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                     const AllowedFrames& allowed, std::span<const FramePair> tried = {}) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];
@@ -122,12 +125,12 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
   const std::size_t stride = allowed.leave.size() * allowed.enter.size() / kMaxCompared + 1;
   const std::size_t parts = std::min<std::size_t>(kPairs, allowed.leave.size());
   std::vector<FramePair> pairs;
-  // Divide the frames that may be left into parts, and find the nearest pair of each part.
+  // Divide the frames that may be left into parts; find the nearest pair of each part.
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t begin = part * allowed.leave.size() / parts, end = (part + 1) * allowed.leave.size() / parts;
     std::optional<FramePair> best;
     double least = std::numeric_limits<double>::infinity();
-    // A pair near one that was tried in this part is skipped.
+    // Skip pairs near a pair that was already tried in this part.
     const auto is_tried = [&](int enter) {
       return std::ranges::any_of(tried, [&](const FramePair& pair) {
         return pair.leave >= allowed.leave[begin] && pair.leave <= allowed.leave[end - 1] &&
@@ -151,7 +154,7 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
   return pairs;
 }
 
-/// Plays transitions from the nearest pairs, and from further pairs while the best result floats. Returns the played
+/// Plays transitions at the nearest pairs and, while the best result floats, at further pairs. Returns the played
 /// joins, the best first; empty if no pair can be joined.
 std::vector<PlayedJoin> PlayNearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                         const PlayedRates& rates, const AllowedFrames& allowed, int last) {
@@ -178,8 +181,8 @@ PreferredJoin PreferredOf(const PlayedJoin& way, double rate_hz) {
 
 int LastFrameOf(const MotionLibrary& library, int clip) { return library.tagged[clip].FrameCount() - 1; }
 
-/// Plans a transition through a clip that stands up or lies down. It is used if no pair of allowed frames can be
-/// joined.
+/// Plans a transition through a clip that stands up or lies down, for requests in which no pair of allowed frames can
+/// be joined.
 TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules, const PlayedOptions& options, const AllowedFrames& allowed) {
   TransitionRecord record;
@@ -202,14 +205,15 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
     record.why = fmt::format("{}; and no clip shows such a movement within {:g} s", why, options.most_through_s);
     return record;
   }
-  // Choose the join into that clip.
+  // Choose the join into the intermediate clip.
   const TransitionRequest entering{request.from, request.request_frame, through->clip, request.budget_s};
   const PlayedRates rates = RatesOf(options);
   const PlayedJoin in =
       PlayNearestPairs(library, entering, rates, {allowed.leave, through->enter}, through->leave.back()).front();
   const int entered = in.pair.enter, shown = entered + in.frames;
   const double rate_hz = library.motions[through->clip].rate_hz;
-  // Choose the join out of it, after the first join is complete and before the clip has been shown too long.
+  // Choose the join out of the intermediate clip: after the first join is complete, and before the clip has been shown
+  // too long.
   std::vector<int> leave;
   for (int frame : through->leave) {
     const bool is_soon = frame - entered <= options.most_through_s * rate_hz;
@@ -258,7 +262,7 @@ const SettingTable<PlayedOptions>& PlayedSettings() {
 
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options) {
-  // Play the joins; if no pair can be joined, go through another clip.
+  // Play the joins. If no pair can be joined, go through an intermediate clip.
   const AllowedFrames allowed = AllowedEarlyFrames(library, request, options.most_skipped_s);
   const std::vector<PlayedJoin> ways =
       PlayNearestPairs(library, request, RatesOf(options), allowed, LastFrameOf(library, request.to));

@@ -7,48 +7,49 @@
 namespace etude {
 
 struct PlayedOptions {
-  /// The acceleration beyond the clips' own, in cm/frame², that costs as much as one second of waiting or blending. A
-  /// smaller value gives smoother, later and longer transitions.
+  /// The excess acceleration, in cm/frame² above the clips' own, that costs as much as one second of waiting or
+  /// blending. A smaller value gives smoother, later and longer transitions.
   double excess_per_s = 0.2;
-  /// The deviation from the nearer clip's pose, in cm integrated over seconds, that costs as much as one second.
+  /// The deviation from the nearer clip's pose, in cm integrated over seconds, that costs as much as one second of
+  /// waiting or blending.
   double invented_per_s = 5;
-  /// Maximal part of the wanted clip that may be skipped, seconds; never more than its first third.
+  /// The maximum time at the start of the wanted clip that may be skipped, seconds. At most the first third is ever
+  /// skipped.
   double most_skipped_s = 1.5;
-  /// Maximal time that a clip which stands up or lies down may be shown on the way, seconds.
+  /// The maximum time that an intermediate clip, which stands up or lies down, may be shown, seconds.
   double most_through_s = 4;
 };
 const SettingTable<PlayedOptions>& PlayedSettings();
 
-/// Plays candidate transitions and takes the one of lowest cost.
+/// Plays candidate transitions and takes the one with the lowest cost.
 ///
-/// Candidates: the wait is divided into sixteen parts, and the nearest pair of each part by MotionFeatures is taken
-/// from the pairs that the budget and `most_skipped_s` allow. Each pair is joined at several lengths from 0.3 to 1.2 s,
-/// as far as the wanted clip goes, both direct and by a fade (PlayMinimumJerk), with planted feet (PlantFeet), and with
-/// the wanted clip placed both by the feet and where the body's momentum carries it (CarriedShift). The cheapest
-/// candidates are played first, and only as long as they may be the best (PlayJoins).
+/// Candidates: the wait is divided into sixteen parts. From the pairs that the budget and `most_skipped_s` allow, the
+/// nearest pair of each part by MotionFeatures is taken. Each pair is joined at several lengths from 0.3 to 1.2 s, as
+/// far as the wanted clip goes. For each length there are direct joins and fades (PlayMinimumJerk), with planted feet
+/// (PlantFeet); each is placed once by the feet and once where the body's momentum carries it (CarriedShift). The
+/// cheapest candidates are played first, and only as long as they may be the best (PlayJoins).
 ///
 /// The cost in seconds is the sum of
 /// - the wait and the length of the join;
-/// - the largest acceleration of any joint beyond what either clip has at that time, and beyond the usual acceleration
-///   of the calmer clip, which is at least 9 m/s² (`excess_per_s`);
-/// - the deviation of the shown frames from those of the nearer clip, as the root mean square over joints, integrated
-/// over time
-///   (`invented_per_s`);
+/// - the largest acceleration of any joint above what either clip has at that time, and above the usual acceleration of
+///   the calmer clip, which is taken to be at least 9 m/s² (`excess_per_s`);
+/// - the deviation of the shown frames from the nearer clip's frames, as the root mean square over joints, integrated
+///   over time (`invented_per_s`);
 /// - one second for each 10 cm that feet slide;
 /// - 0.1 s for each frame in which no foot bears weight by FootPlan;
 /// - 6 s for each frame beyond two in the longest run of frames in which FindSupport finds no support;
-/// - while something supports the body, 6 s for each 10 cm of the zero-moment point's distance from the supports
-///   (ZeroMomentOffset) over a second, as far as it is more than 10 cm and more than in either clip at that time;
-/// - one second for each centimetre that the slowest support glides, beyond what a clip's own joint does there.
+/// - while something supports the body, 6 s for each 10 cm, over one second, of the zero-moment point's distance from
+///   the supports (ZeroMomentOffset), as far as it exceeds 10 cm and the distance in either clip at that time;
+/// - one second for each centimetre that the slowest support glides farther than a clip's own joint does there.
 ///
 /// Pairs are left out if their join would raise or lower the body without support (NeedsClip). If no other pair is
-/// allowed, the way leads, after the wait, through a clip that stands up or lies down (FindThroughClip); without such a
-/// clip in the library the record has no segments. The last segment of the record holds the preferred join
-/// (PreferredJoin).
+/// allowed, the transition goes, after the wait, through an intermediate clip that stands up or lies down
+/// (FindThroughClip); without such a clip in the library the record has no segments. The last segment of the record
+/// holds the preferred join (PreferredJoin).
 ///
-/// This choice is ours. It searches by the motion that results and not by similarity, after Kovar, Gleicher and Pighin
-/// 2002 and Bollo 2018. Support is computed as in the evaluation of transitions, but the evaluation's limits are not
-/// known here.
+/// This choice is ours. It searches by the resulting motion instead of similarity, after Kovar, Gleicher and Pighin
+/// 2002 and Bollo 2018. Support is computed as in the evaluation of transitions, but the choice does not know the
+/// evaluation's limits.
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options = {});
 

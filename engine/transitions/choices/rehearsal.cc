@@ -15,14 +15,14 @@
 namespace etude {
 namespace {
 
-constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², about the acceleration of free fall
-constexpr double kLimbShare = 0.6;     // the share of the limbs' cost that counts before the feet are planted
+constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², about free fall
+constexpr double kLimbShare = 0.6;     // the share of the limbs' cost that counts before feet are planted
 constexpr double kUnplanted_s = 0.1;   // cost of a frame in which no foot bears weight by FootPlan
 constexpr double kFloating_s = 6;      // cost of each frame beyond kHop in the longest run without support
 constexpr int kHop = 2;
-constexpr double kSlides_s = 10;   // cost of a metre that feet slide
-constexpr double kBeside_s = 60;   // cost of a metre between the zero-moment point and the supports, over a second
-constexpr double kGlides_s = 100;  // cost of a metre that the slowest support glides
+constexpr double kSlides_s = 10;   // cost of one metre that feet slide
+constexpr double kBeside_s = 60;   // cost of one metre of excess zero-moment distance during one second
+constexpr double kGlides_s = 100;  // cost of one metre that the slowest support glides
 constexpr int kMaxWithFeet = 60;   // maximal number of joins that are played with planted feet
 
 bool IsBetterWay(const PlayedJoin& a, const PlayedJoin& b) {
@@ -40,7 +40,7 @@ struct OpenWay {
       shown.reserve(window.next.size());
     }
 
-    const glm::dvec3 shift;  // of the wanted clip
+    const glm::dvec3 shift;  // moves the wanted clip
     const JoinWindow window;
     CostMeter meter;
     std::vector<BodyPose> shown = {};
@@ -48,7 +48,7 @@ struct OpenWay {
 
   bool HasLimbs() const { return limbs && static_cast<int>(limbs->shown.size()) > way.frames; }
 
-  PlayedJoin way;  // its cost is that of the frames played so far
+  PlayedJoin way;  // with the cost of the frames played so far
   std::unique_ptr<Limbs> limbs = {};
   bool has_feet = false;
 };
@@ -67,11 +67,11 @@ class Rehearsal {
         usual_(std::max(std::min(library.usual_accelerations[request.from], library.usual_accelerations[request.to]),
                         kAlwaysUsual)),
         stages_(pairs.size()) {
-    // List all joins of all pairs, with their time as a lower bound of the cost.
+    // List all joins of all pairs. Their time is a lower bound of their cost.
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       for (std::size_t length = 0; length < kLengths_s.size(); ++length) {
         const int frames = FramesOf(kLengths_s[length]);
-        // A join should end before the wanted clip does.
+        // Skip longer joins that the wanted clip cannot fill; keep the shortest one.
         if (frames > last - pairs[i].enter && length > 0) break;
         for (JoinStyle kind : kWays) {
           for (bool carried : {false, true}) {
@@ -87,7 +87,7 @@ class Rehearsal {
 
   std::vector<PlayedJoin> Play() {
     std::vector<PlayedJoin> ways;
-    // Expand the cheapest open join until the cheapest one is complete.
+    // Continue the cheapest open join until the cheapest join is complete.
     while (true) {
       std::ranges::pop_heap(open_, IsLater);
       OpenWay& open = open_.back();
@@ -119,7 +119,7 @@ class Rehearsal {
     return *stage;
   }
 
-  /// Plays more frames of a join without planted feet until it costs more than the next one.
+  /// Plays more frames of a join, without planted feet, until its cost exceeds the next join's cost.
   void PlayLimbs(OpenWay& open, double next_s) {
     PlayedJoin& way = open.way;
     PairStage& stage = StageOf(way);
@@ -128,15 +128,15 @@ class Rehearsal {
     while (!open.HasLimbs() && way.cost_s <= next_s) {
       const int frame = static_cast<int>(limbs.shown.size());
       BodyPose& pose = limbs.shown.emplace_back(stage.LimbsAt(way.length, way.frames, way.way, frame));
-      // The shift enters as the new motion does, along the quintic of minimum jerk.
+      // The shift grows along the minimum-jerk quintic, like the share of the new motion.
       if (way.carried) Shift(Smootherstep(static_cast<double>(frame) / way.frames) * limbs.shift, pose);
       limbs.meter.Add(pose);
       way.cost_s = Time(way) + kLimbShare * limbs.meter.Seconds();
     }
   }
 
-  /// Plays a join with planted feet and adds it to `ways`, unless it already costs as much as the best without
-  /// support.
+  /// Plays a join with planted feet and adds it to `ways`, unless its cost without support already reaches the best
+  /// join's cost.
   void PlayFeet(OpenWay& open, std::vector<PlayedJoin>& ways) {
     PlayedJoin& way = open.way;
     const PairStage& stage = StageOf(way);

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A frame of the playing clip and the frame of the wanted clip that takes its place.
+/// A frame of the playing clip, and the frame of the wanted clip that replaces it.
 struct FramePair {
   int leave = 0, enter = 0;
 };
@@ -17,7 +17,7 @@ struct FramePair {
 struct PlayedJoin {
   FramePair pair;
   std::size_t number = 0;  ///< index of the pair
-  std::size_t length = 0;  ///< index of its length among those tried
+  std::size_t length = 0;  ///< index of the join's length in kLengths_s
   int frames = 0;          ///< length of the join
   JoinStyle way = JoinStyle::kDirect;
   bool carried = false;  ///< PreferredJoin::carried
@@ -30,15 +30,15 @@ struct PlayedRates {
   double excess_per_s = 0, invented_per_s = 0;
 };
 
-/// Plays the joins of a request's clips at the given pairs (at least one), at every length, both direct and by a fade
-/// (PlayMinimumJerk), placed both by the feet and by momentum (CarriedShift). Returns the joins that were played with
+/// Plays the joins of a request's clips at the given pairs (at least one): at every length, direct and as a fade
+/// (PlayMinimumJerk), placed by the feet and by momentum (CarriedShift). Returns the joins that were played with
 /// planted feet (PlantFeet), the best first. Joins end by frame `last` of the wanted clip; only the shortest length may
 /// exceed it.
 ///
-/// It uses best-first search (Hart, Nilsson and Raphael 1968): it always continues the join with the lowest cost so
-/// far. That cost at first contains only the time, then the limbs frame by frame, then the feet and the support that
-/// FindSupport reports, so most joins are never played to their end. Planting the feet can raise or lower a cost, so
-/// before it only three fifths of the limbs' cost count.
+/// The method is best-first search (Hart, Nilsson and Raphael 1968): the join with the lowest cost so far is continued.
+/// That cost first contains only the time, then also the limbs, frame by frame, then the feet and the support that
+/// FindSupport reports. Most joins are therefore never played to their end. Planting the feet can raise or lower the
+/// cost, so only three fifths of the limbs' cost count before the feet are planted.
 std::vector<PlayedJoin> PlayJoins(const MotionLibrary& library, const TransitionRequest& request,
                                   const PlayedRates& rates, const std::vector<FramePair>& pairs, int last);
 

@@ -21,14 +21,14 @@ struct KeyPoint {
   bool matches = false;
 };
 
-/// Compares one clip of the library with all key poses, and counts the compared pairs in the record.
+/// Compares one clip of the library with all key poses, and adds the number of compared pairs to the record.
 class KeySearch {
  public:
   KeySearch(const MotionLibrary& library, int clip, const MatchRules& rules, TransitionRecord& record)
       : library_(library), clip_(library.tagged[clip]), rules_(rules), record_(record) {}
 
-  /// Returns the first of `frames` that matches a key, with the nearest such key; without a match, the nearest pair of
-  /// a frame in `all` and any key.
+  /// Returns the first of `frames` that matches a key, with the nearest of the keys that it matches. Without a match,
+  /// returns the nearest pair of a frame in `all` and any key.
   KeyPoint Find(std::span<const int> frames, std::span<const int> all) const {
     for (int frame : frames) {
       if (const KeyPoint key_point = MatchKeys(frame); key_point.matches) return key_point;
@@ -46,8 +46,8 @@ class KeySearch {
     return nearest;
   }
 
-  /// Returns the taken point, and the `frames` that are nearest to the same key, at most half of kMaxCandidates.
-  /// `from_frame` is the clip's frame.
+  /// Returns the taken point and those of `frames` that are nearest to the same key, at most half of kMaxCandidates.
+  /// Each candidate's `from_frame` is the clip's frame.
   std::vector<Candidate> ListCandidates(const KeyPoint& key_point, std::span<const int> frames) const {
     std::vector<Candidate> listed;
     for (int frame : frames) {
@@ -100,7 +100,8 @@ class KeySearch {
   TransitionRecord& record_;
 };
 
-/// Returns the frames from one key to another. If a limb would have to turn too far, they go through the first key.
+/// Returns the frames from one key to another. If a limb would have to rotate too far, they go through the hub, the
+/// first key.
 std::vector<BodyPose> MakeInBetween(const MotionLibrary& library, int from, int to, double rate_hz) {
   const InBetweenNet& net = library.in_betweens;
   const auto pose = [&](int key) { return library.motions[net.keys[key].clip].poses[net.keys[key].frame]; };
@@ -149,7 +150,7 @@ TransitionRecord ThroughInBetween(const MotionLibrary& library, const Transition
   const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
   const std::vector<int> exit_frames = BridgeFramesWithin(playing, window);
   const KeyPoint exit = exits.Find(exit_frames, FramesWithin(window));
-  // The frames are in rising order, so those of the front half come first.
+  // Frames rise, so those of the front half come first.
   const std::vector<int> entrance_frames = BridgeFramesWithin(next, EntryWindow(next));
   const KeyPoint entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
 

@@ -10,13 +10,13 @@ namespace etude {
 
 /// Plans a transition through an in-between, for requests without a matching pair of frames (paper A, section 3.5). The
 /// playing clip is left at the first bridge frame within the budget that matches a key pose of the in-betweens. The
-/// wanted clip is entered at the first bridge frame that matches a key pose, in the front half first. If a frame
-/// matches several keys, the nearest is taken. If no frame matches at one end, the frame nearest to a key is taken
-/// there; the transition is then forced, and its distance may exceed the threshold.
+/// wanted clip is entered at the first bridge frame that matches a key pose; its front half is searched first. If a
+/// frame matches several keys, the nearest key is taken. If no frame matches at one end, the frame nearest to any key
+/// is taken there; the transition is then forced, and its distance may exceed the threshold.
 ///
-/// A way always exists and takes at most the budget plus LongestInBetween. The record has no segments only if the
-/// library has no keys. The clip `request.to` must have at least two frames. `why_not` states why there is no direct
-/// way, and `pairs_seen` is the number of pairs that were compared to find that out.
+/// The transition takes at most the budget plus LongestInBetween. It always exists unless the library has no keys; the
+/// record then has no segments. The clip `request.to` must have at least two frames. `why_not` states why there is no
+/// direct transition; `pairs_seen` is the number of pairs that were compared before.
 TransitionRecord ThroughInBetween(const MotionLibrary& library, const TransitionRequest& request,
                                   const MatchRules& rules, const std::string& why_not, std::int64_t pairs_seen);
 

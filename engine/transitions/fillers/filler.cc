@@ -14,8 +14,8 @@ namespace {
 
 glm::dvec3 MeanVelocity(const Ends& ends) { return (ends.end - ends.start) / ends.seconds; }
 
-/// Fills each channel by itself. Channels are the root's position, and each joint's rotation vector relative to its
-/// last past rotation: there, slerp is a straight line.
+/// Fills each channel by itself. Channels are the root's position, and each joint's rotation vector relative to the
+/// joint's last past rotation. In these vectors, slerp is a straight line.
 template <typename RootLaw, typename Law>
 std::vector<TreePose> FillEach(const Gap& gap, const RootLaw& root_law, const Law& law) {
   const TreePose &before = gap.past[gap.past.size() - 2], &last = gap.past.back(), &next = gap.future.front();
@@ -23,13 +23,13 @@ std::vector<TreePose> FillEach(const Gap& gap, const RootLaw& root_law, const La
   std::vector<TreePose> filled(gap.frames, {glm::dvec3(0), std::vector<glm::dquat>(gap.tree.size())});
   Ends ends{.seconds = gap.Seconds()};
   const auto at = [&](const auto& any, std::size_t f) { return any(ends, static_cast<double>(f + 1) / gap.rate_hz); };
-  // The root.
+  // Fill the root's position.
   ends.start = last.root;
   ends.start_velocity = (last.root - before.root) * gap.rate_hz;
   ends.end = next.root;
   if (knows_velocity) ends.end_velocity = (gap.future[1].root - next.root) * gap.rate_hz;
   for (std::size_t f = 0; f < gap.frames; ++f) filled[f].root = at(root_law, f);
-  // The joints.
+  // Fill the joints' rotations.
   ends.start = glm::dvec3(0);
   for (std::size_t j = 0; j < gap.tree.size(); ++j) {
     const glm::dquat back = glm::conjugate(last.turns[j]);
@@ -37,7 +37,8 @@ std::vector<TreePose> FillEach(const Gap& gap, const RootLaw& root_law, const La
     ends.end = RotationVector(back * next.turns[j]);
     if (knows_velocity) {
       glm::dvec3 after = RotationVector(back * gap.future[1].turns[j]);
-      // RotationVector is at most π long: beyond half a turn, take the vector on this side.
+      // RotationVector is at most π long, so it flips beyond half a turn. Undo the flip: take the equivalent vector on
+      // the side of `ends.end`.
       if (glm::dot(after, ends.end) < 0 && glm::length(after) > kPi / 2) after -= 2 * kPi * glm::normalize(after);
       ends.end_velocity = (after - ends.end) * gap.rate_hz;
     }
@@ -46,8 +47,8 @@ std::vector<TreePose> FillEach(const Gap& gap, const RootLaw& root_law, const La
   return filled;
 }
 
-/// Interpolates between two quaternions as LAFAN1's code does (`quat_slerp`, then `quat_normalize`): linearly if they
-/// are near each other, else by slerp.
+/// Interpolates between two quaternions as LAFAN1's code does (`quat_slerp`, then `quat_normalize`): linearly between
+/// near quaternions, otherwise by slerp.
 glm::dquat Lafan1Between(const glm::dquat& from, glm::dquat to, double share) {
   double cosine = glm::dot(from, to);
   if (cosine < 0) {
@@ -73,7 +74,7 @@ std::vector<TreePose> Interpolate(const Gap& gap, std::span<const double> /*valu
   return filled;
 }
 
-/// Fills each channel by a law with the setting `half_life_s`.
+/// Fills each channel by a law that has the setting `half_life_s`.
 template <auto Law, double kFallback>
 std::vector<TreePose> FillByHalfLife(const Gap& gap, std::span<const double> values) {
   const double half_life_s = values.empty() ? kFallback : values[0];
@@ -83,7 +84,8 @@ std::vector<TreePose> FillByHalfLife(const Gap& gap, std::span<const double> val
 
 constexpr double kSpring_s = SpringOptions().half_life_s, kDead_s = DeadOptions().half_life_s;
 
-/// Dead blending whose velocities halve in 0.2 s over the floor, and sooner in heights and joints, which swing.
+/// Fills by dead blending. Velocities along the floor halve in 0.2 s, those of heights and joints sooner, because
+/// heights and joints swing.
 std::vector<TreePose> DeadBlend(const Gap& gap) {
   constexpr double kSwinging_s = 0.06;
   const auto swinging = [](const Ends& ends, double t) { return DeadBlendedAt(ends, t, kSwinging_s); };
@@ -133,7 +135,8 @@ glm::dvec3 LeastJerkAt(const Ends& ends, double seconds) {
     return ends.end +
            MinimumJerkAt({ends.start - ends.end, ends.start_velocity, *ends.end_velocity}, seconds, ends.seconds);
   }
-  // The optimal jerk is then proportional to (1 − s)², s = t / T. `shape` is its third integral, scaled to 1 at s = 1.
+  // With free end velocity, the optimal jerk is proportional to (1 − s)², s = t / T. `shape` is its third integral,
+  // scaled to 1 at s = 1.
   const double s = seconds / ends.seconds, left = 1 - s;
   const double shape = s * s * 5 / 3 - s * 5 / 6 + (1 - left * left * left * left * left) / 6;
   const glm::dvec3 missing = ends.end - ends.start - ends.start_velocity * ends.seconds;

@@ -7,11 +7,11 @@
 namespace etude {
 namespace {
 
-constexpr double kVelocity_s = 0.1;  // a velocity counts as the distance covered in this time
-constexpr double kReach_m = 0.3;     // a rotation counts as the distance moved by a point this far from its axis
+constexpr double kVelocity_s = 0.1;  // a velocity is weighted as the distance covered in this time
+constexpr double kReach_m = 0.3;     // a rotation is weighted as the path of a point this far from the axis
 
-/// Appends the features of a pose, in the root's frame: the joints' positions, the vertical direction, and the root's
-/// height. Direction and height weigh as much as one position of every joint.
+/// Appends the features of a pose in the root's frame: the joints' positions, the vertical direction, and the root's
+/// height. The vertical direction and the height together weigh as much as one position of every joint.
 void AppendSeen(const JointTree& tree, const TreePose& pose, std::vector<double>& seen) {
   std::vector<glm::dvec3> points;
   std::vector<glm::dquat> turns;
@@ -24,13 +24,13 @@ void AppendSeen(const JointTree& tree, const TreePose& pose, std::vector<double>
   seen.push_back(all * pose.root.y);
 }
 
-/// Returns the rotation about the vertical axis that comes nearest to a turn.
+/// Returns the rotation about the vertical axis that is nearest to `turn`.
 glm::dquat HeadingOf(const glm::dquat& turn) {
   const double length = std::hypot(turn.w, turn.y);
   return length > 0 ? glm::dquat(turn.w / length, 0, turn.y / length, 0) : glm::dquat(1, 0, 0, 0);
 }
 
-/// The root's displacement (m) and rotation (times kReach_m) from one frame to another, in the first one's root frame.
+/// The root's displacement (m) and rotation (times kReach_m) between two frames, in the root frame of the first.
 struct RootWay {
   glm::dvec3 way, turn;
   RootWay(const TreePose& from, const TreePose& to)
@@ -64,7 +64,7 @@ void GapLibrary::ForEachNear(const Gap& gap, double& limit, const Visit& visit) 
   const double joints = static_cast<double>(gap.tree.size()), per_step = kVelocity_s * gap.rate_hz;
   const double velocity_weight = per_step * per_step;
 
-  // Compare with every gap of every motion; a sum that exceeds the limit is abandoned.
+  // Compare with every gap of every motion; stop adding up a distance when it exceeds the limit.
   for (const Entry& entry : entries_) {
     if (!entry.motion.tree.IsLike(gap.tree) || entry.motion.rate_hz != gap.rate_hz) continue;
     const std::vector<TreePose>& poses = entry.motion.poses;
@@ -87,14 +87,14 @@ void GapLibrary::ForEachNear(const Gap& gap, double& limit, const Visit& visit) 
 void GapLibrary::AddMissed(const Gap& gap, const Near& near, Fill fill, double share, std::vector<TreePose>& filled) {
   const std::span<const TreePose> poses = near.entry->motion.poses;
   const std::size_t after = near.frame + gap.frames + 1;
-  // Fill the library's gap itself, whose truth is known.
+  // Fill the gap of the library with `fill`. Its true frames are known.
   const Gap own{.tree = gap.tree,
                 .past = poses.first(near.frame + 1),
                 .future = poses.subspan(after, std::min(gap.future.size(), poses.size() - after)),
                 .frames = gap.frames,
                 .rate_hz = gap.rate_hz};
   const std::vector<TreePose> guess = fill(own);
-  // Turn the errors to this gap's heading, and add them.
+  // Rotate the errors to this gap's heading, and add them.
   const glm::dquat heading = HeadingOf(gap.past.back().turns[0] * glm::conjugate(poses[near.frame].turns[0]));
   for (std::size_t f = 0; f < filled.size(); ++f) {
     const TreePose& truth = poses[near.frame + 1 + f];
@@ -122,7 +122,7 @@ std::vector<TreePose> GapLibrary::FillLikeNearest(const Gap& gap, Fill fill) con
 std::vector<TreePose> GapLibrary::FillLikeNear(const Gap& gap, Fill fill) const {
   constexpr double kWidth_m = 0.12, kFarthest_m = 3 * kWidth_m, kNothing = 2;
   const std::size_t apart = gap.frames / 2;
-  // Of gaps that overlap by more than half, keep the nearest.
+  // Of gaps that overlap by more than half, keep only the nearest.
   std::vector<Near> kept;
   double limit = kFarthest_m * kFarthest_m;
   ForEachNear(gap, limit, [&](const Near& near) {
@@ -130,7 +130,7 @@ std::vector<TreePose> GapLibrary::FillLikeNear(const Gap& gap, Fill fill) const 
     if (!overlaps) return kept.push_back(near);
     if (near.squared < kept.back().squared) kept.back() = near;
   });
-  // Average the errors with Gaussian weights, and an error of zero with weight kNothing.
+  // Average the errors with Gaussian weights, together with an error of zero that has the weight kNothing.
   const auto weight = [](const Near& near) { return std::exp(-near.squared / (2 * kWidth_m * kWidth_m)); };
   double weights = kNothing;
   for (const Near& near : kept) weights += weight(near);

@@ -15,12 +15,12 @@
 namespace etude {
 namespace {
 
-/// The joints of a leg in a file's tree. `tip` is the toes or, without them, the ankle: the point that stands.
+/// The joints of a leg in a file's tree. `tip`, the point that stands, is the toes or, without toes, the ankle.
 struct TreeLeg {
   int hip = -1, knee = -1, ankle = -1, tip = -1;
 };
 
-/// One frame of a tree in the world.
+/// The world positions and rotations of a tree's joints in one frame.
 struct Globals {
   Globals(const JointTree& tree, const TreePose& pose) { AppendGlobals(tree, pose, positions, turns); }
   const glm::dvec3& operator[](int joint) const { return positions[static_cast<std::size_t>(joint)]; }
@@ -30,43 +30,43 @@ struct Globals {
   std::vector<glm::dquat> turns;
 };
 
-/// One bit per frame of a gap, from the frame before it (0) to the one after it.
+/// A set of frames, one bit per frame: the frame before the gap (bit 0), the gap, and the frame after it.
 constexpr std::size_t kMaxFrames = 256;
 using Frames = std::bitset<kMaxFrames>;
 
-/// A place in which a foot stands from one frame to another; a foot that is in the air at an end of the gap has a
-/// stance of one frame there, which `bears` nothing.
+/// A period in which a foot stands at one place. If a foot is in the air at an end of the gap, it gets a stance of one
+/// frame there that does not bear weight (`bears` is false).
 struct Stance {
   int from = 0, to = 0;
   bool bears = true;
   glm::dvec3 tip{0};
 };
 
-/// The stances of a foot; a step leads from each to the next.
+/// The stances of one foot, in order. Between two stances the foot makes a step.
 struct Footfalls {
   std::vector<Stance> stances;
-  double cost = 0;  // m²: mean squared distance from the filled path, plus prices for steps, haste and stretch
+  double cost = 0;  // m²: mean squared distance from the filled path, plus prices for steps, speed and stretch
   Frames stands;
 };
 
-/// What is known of one foot before its steps are planned.
+/// The data of one foot from which its steps are planned.
 struct FootView {
   const glm::dvec3& End(std::size_t end) const { return end == 0 ? path.front() : path.back(); }
-  /// Returns the tip at an end of the gap, lowered to where it stands.
+  /// Returns the tip's position at an end of the gap, lowered to the surface on which the foot stands.
   glm::dvec3 Lowered(std::size_t end) const { return End(end) - glm::dvec3(0, raised[end], 0); }
 
   TreeLeg leg;
-  std::vector<glm::dvec3> path;    ///< its tip's positions as filled, from the frame before the gap to the one after it
-  std::vector<glm::dvec3> hips;    ///< its hip joint's positions likewise
-  glm::dvec3 velocity{0};          ///< its tip's before the gap, metres per second
-  std::array<bool, 2> stands{};    ///< at either end of the gap
-  double length = 0;               ///< from hip to tip, the leg stretched, metres
+  std::vector<glm::dvec3> path;    ///< its tip's filled positions, from the frame before the gap to the frame after it
+  std::vector<glm::dvec3> hips;    ///< its hip joint's positions in the same frames
+  glm::dvec3 velocity{0};          ///< its tip's velocity before the gap, metres per second
+  std::array<bool, 2> stands{};    ///< whether it stands before and after the gap
+  double length = 0;               ///< length of the stretched leg from hip to tip, metres
   std::array<double, 2> raised{};  ///< height of a standing tip above the lowest one around the gap, metres
 };
 
 constexpr double kLowest_m = 0.1, kRest_mps = 0.4, kLanded_m = 0.06, kPassing_m = 0.02, kTravels_mps = 0.5;
 
-/// Finds the legs and their paths; nothing if the tree lacks roles.
+/// Finds the legs and their paths; nullopt if the tree lacks roles.
 std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const Globals> frames) {
   using enum Role;
   std::array<FootView, 2> feet;
@@ -89,8 +89,8 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
                   glm::distance(first[leg.ankle], first[leg.tip]);
     foot.velocity = gap.rate_hz * (first[leg.tip] - before[leg.tip]);
   }
-  // The floor is the lowest position of both tips around the gap. A tip 2 to 12 cm above it belongs to a raised foot; a
-  // higher tip stands on another surface.
+  // Find the floor: the lowest position of both tips around the gap. A standing tip 2 to 12 cm above it belongs to a
+  // raised foot; a higher tip stands on another surface.
   double floor = std::numeric_limits<double>::infinity();
   const auto look = [&](const TreePose& pose) {
     const Globals frame(gap.tree, pose);
@@ -107,10 +107,11 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
       const double rise = foot.End(end).y - floor;
       foot.raised[end] = rise <= kSurface_m ? std::max(rise - kRaised_m, 0.0) : 0;
     }
-    // A foot stands at an end if its tip is near the lowest joint there and slow.
+    // A foot stands at an end of the gap if its tip is slow and near the height of the lowest joint there.
     const glm::dvec3 &first = frames.front()[tip], &last = frames.back()[tip];
     foot.stands[0] = first.y <= frames.front().Lowest() + kLowest_m && glm::length(foot.velocity) <= kRest_mps;
-    // With one future frame, only the height tells; a body that travels raises a foot only a little.
+    // With one future frame, the velocity is unknown and only the height decides. A body that travels raises a foot
+    // only a little.
     const glm::dvec3 after = knows_velocity ? Globals(gap.tree, gap.future[1])[tip] : last;
     const double highest = knows_velocity ? kLowest_m : speed > kTravels_mps ? kPassing_m : kLanded_m;
     foot.stands[1] = last.y <= frames.back().Lowest() + kLowest_m && last.y <= landed + highest &&
@@ -119,7 +120,8 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
   return feet;
 }
 
-/// Returns the height of a standing foot's tip at each end: its own, else the other's; nothing if none stands.
+/// Returns, for each end, the height of the foot's tip if the foot stands there, otherwise of the other foot's tip.
+/// Returns nullopt if no foot stands.
 std::optional<std::array<double, 2>> Floors(const FootView& foot, const FootView& other) {
   std::array<std::optional<double>, 2> known;
   for (std::size_t end = 0; end < 2; ++end) {
@@ -158,16 +160,16 @@ class FootPlanner {
  private:
   int Of(double seconds) const { return std::max(static_cast<int>(std::lround(seconds * rate_hz_)), 1); }
 
-  /// Adds all ways to continue after the last of `stances`, whose end is not known yet.
+  /// Adds all ways to continue after the last stance in `stances`, whose end is still open.
   void Extend(std::vector<Stance>& stances) {
     constexpr std::size_t kMaxSteps = 3;
     constexpr double kMinStance_s = 0.15;
     static constexpr std::array kStep_s = {0.27, 0.4, 0.53};
     Stance& stance = stances.back();
-    // The foot stays to the end of the gap.
+    // First way: the foot stays to the end of the gap.
     if (stance.bears && foot_.stands[1] && stances.size() == 1) End(stances, stance.from);
     if (stances.size() > kMaxSteps) return;
-    // Or it steps: at once if it is in the air, else after a stance of any length.
+    // Other ways: the foot steps, at once if it is in the air, otherwise after a stance of any length.
     const int grid = std::max(last_ / 15, 1);
     const int earliest = stance.bears ? stance.from + (stances.size() > 1 ? Of(kMinStance_s) : 0) : stance.from;
     for (int begin = earliest; begin < last_; begin += grid) {
@@ -196,7 +198,7 @@ class FootPlanner {
     }
   }
 
-  /// Extends the last stance to the end of the gap, where the foot stands, and keeps the footfalls.
+  /// Ends the footfalls at the end of the gap with a stance that begins at `from`, and keeps them.
   void End(std::vector<Stance> stances, int from) {
     stances.back() = {.from = from, .to = last_, .bears = true, .tip = foot_.Lowered(1)};
     if (stances.size() == 1) stances.front().tip = foot_.Lowered(0);
@@ -217,15 +219,15 @@ class FootPlanner {
     Footfalls made;
     made.stances = stances;
     const double share = 1.0 / (last_ + 1);
-    // The cost of a frame: squared distance from the filled path on the floor, and of the leg's stretch beyond its
-    // length.
+    // The cost of a frame is the squared distance from the filled path on the floor, plus the square of the leg's
+    // stretch beyond its length.
     const auto far = [&](int frame, const glm::dvec3& tip) {
       const double stretch =
           std::max(glm::distance(foot_.hips[static_cast<std::size_t>(frame)], tip) - foot_.length, 0.0);
       return share *
              (SquareOnFloor(tip, foot_.path[static_cast<std::size_t>(frame)]) + kPerStretch * stretch * stretch);
     };
-    // Add up the stances and the steps between them; fast and late steps cost more.
+    // Add up the costs of the stances and of the steps between them; fast and late steps cost more.
     for (std::size_t i = 0; i < stances.size(); ++i) {
       const Stance& stance = stances[i];
       for (int f = stance.from; f <= stance.to; ++f) {
@@ -243,7 +245,7 @@ class FootPlanner {
       const double haste = std::max(speed - kHaste_mps, 0.0), late = std::max(frames / rate_hz_ - kLong_s, 0.0);
       made.cost += kPerStep + kPerHaste * haste * haste + kPerLate * late;
     }
-    // A foot that never steps must not drift.
+    // Add a cost for drift if a foot never steps.
     if (stances.size() == 1) made.cost += kPerDrift * SquareOnFloor(stances[0].tip, foot_.path.back());
     found_.push_back(std::move(made));
   }
@@ -274,13 +276,13 @@ std::array<Footfalls, 2> PlanFeet(const std::array<std::vector<Footfalls>, 2>& f
   return {*best[0], *best[1]};
 }
 
-/// The wanted tip of a foot and the rotation of its ankle joint, in the world.
+/// The target of a foot's tip and the rotation of its ankle joint, in the world.
 struct FootPose {
   glm::dvec3 tip{0};
   glm::dquat turn{1, 0, 0, 0};
 };
 
-/// Returns the pose of a foot in each frame. `turns` are its ankle's rotations as filled.
+/// Returns the pose of a foot in each frame. `turns` are the filled rotations of the ankle.
 std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::span<const glm::dquat> turns,
                            double rate_hz) {
   const std::size_t count = foot.path.size();
@@ -294,14 +296,14 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
     const Stance& stance = falls.stances[i];
     for (int f = stance.from; f <= stance.to; ++f) poses[static_cast<std::size_t>(f)] = {stance.tip, turn_of(stance)};
     if (i == 0) continue;
-    // The step from the stance before: minimum jerk, with a free velocity if it ends in the air.
+    // Compute the step from the previous stance: minimum jerk, with a free end velocity if it ends in the air.
     const Stance& before = falls.stances[i - 1];
     const int frames = stance.from - before.to;
     const glm::dvec3 way = stance.tip - before.tip;
     Ends ends{.start = before.tip, .end = stance.tip, .seconds = frames / rate_hz};
-    if (!before.bears) ends.start_velocity = foot.velocity * glm::dvec3(1, 0.5, 1);  // a swing soon stops rising
+    if (!before.bears) ends.start_velocity = foot.velocity * glm::dvec3(1, 0.5, 1);  // the swing soon stops rising
     if (stance.bears) ends.end_velocity = glm::dvec3(0);
-    const double share = before.bears ? 1 : stance.bears ? 0.5 : 0;  // a foot in the air is lifted already
+    const double share = before.bears ? 1 : stance.bears ? 0.5 : 0;  // a foot in the air is already lifted
     const double lift = share * LiftFor(std::hypot(way.x, way.z));
     for (int f = before.to + 1; f < stance.from; ++f) {
       const double s = static_cast<double>(f - before.to) / frames, rest = s * (1 - s);
@@ -311,8 +313,7 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
       pose.turn = glm::slerp(turn_of(before), turn_of(stance), Smootherstep(s));
     }
   }
-  // A foot that never steps moves evenly from its place at one end to that at the other. A raised foot is lowered
-  // within kLower_s.
+  // A foot that never steps moves evenly between its places at both ends. A raised foot is lowered within kLower_s.
   constexpr double kLower_s = 0.2;
   for (std::size_t f = 0; f < count; ++f) {
     const double s = static_cast<double>(f) / last;
@@ -327,7 +328,7 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
   return poses;
 }
 
-/// Returns the rotation of a foot's ankle with the heel raised about the tip, as far as the leg needs to reach it.
+/// Returns the ankle's rotation with the heel raised about the tip, as far as the leg needs it to reach the foot.
 glm::dquat RaisedHeel(const FootPose& foot, const glm::dvec3& hip, const glm::dvec3& limb, double reach) {
   const glm::dvec3 heel = -(foot.turn * limb), to_hip = hip - foot.tip;
   const double length = glm::length(heel), far = glm::length(to_hip);
@@ -340,7 +341,7 @@ glm::dquat RaisedHeel(const FootPose& foot, const glm::dvec3& hip, const glm::dv
   return angle > 0 ? TurnOf(whole * (turn / angle)) * foot.turn : foot.turn;
 }
 
-/// Solves one leg of a pose for its foot.
+/// Solves one leg of a pose by inverse kinematics, to reach its foot.
 void SetLeg(const JointTree& tree, const TreeLeg& leg, const FootPose& foot, double reach, TreePose& pose) {
   const auto at = [](int joint) { return static_cast<std::size_t>(joint); };
   const Globals world(tree, pose);
@@ -352,7 +353,7 @@ void SetLeg(const JointTree& tree, const TreeLeg& leg, const FootPose& foot, dou
   const glm::dvec3 pole = CarriedOffset(KneeOffset(hip, knee, ankle), ankle - hip, target - hip) +
                           kForwards * UnitOr(turn * limb, glm::dvec3(0));
   const Leg solved = SolveLeg(hip, target, glm::distance(hip, knee), glm::distance(knee, ankle), pole);
-  // Turn thigh and shin by the smallest rotations, then the foot.
+  // Rotate thigh and shin by the smallest rotations, then the foot.
   const glm::dquat thigh = TurnOf(TurnBetween(knee - hip, solved.knee - hip));
   const glm::dquat shin = TurnOf(TurnBetween(thigh * (ankle - knee), solved.ankle - solved.knee)) * thigh;
   const auto parent = [&](int joint) {
@@ -369,7 +370,7 @@ void SetLeg(const JointTree& tree, const TreeLeg& leg, const FootPose& foot, dou
 
 void PlantGap(const Gap& gap, std::vector<TreePose>& filled) {
   if (gap.frames + 2 > kMaxFrames) return;
-  // Look at both ends and what is filled in between.
+  // Compute the world transforms of both ends and of the filled frames.
   std::vector<Globals> frames = {Globals(gap.tree, gap.past.back())};
   for (const TreePose& pose : filled) frames.emplace_back(gap.tree, pose);
   frames.emplace_back(gap.tree, gap.future.front());
@@ -384,7 +385,7 @@ void PlantGap(const Gap& gap, std::vector<TreePose>& filled) {
     if (plans[side].empty()) return;
   }
   const std::array<Footfalls, 2> falls = PlanFeet(plans, frames.size());
-  // Find the feet's poses, and how far the hips must be lowered.
+  // Compute the feet's poses, and how far the hips must be lowered.
   std::array<std::vector<FootPose>, 2> walks;
   std::array<double, 2> reach{};
   std::vector<double> drop(frames.size());

@@ -34,7 +34,7 @@ Inertialiser::Inertialiser(const JoinInput& input, DecayLaw law) : law_(std::mov
   for (const Bone& bone : AllBones()) {
     const LimbTurn before = TurnBetween(Limb(target.before, bone), Limb(shown.before, bone));
     const LimbTurn now = TurnBetween(Limb(target.now, bone), Limb(shown.now, bone));
-    // Near half a turn the rotation vector may flip its sign between two frames, which would give a wrong velocity.
+    // Beyond half a turn the rotation vector flips its sign between two frames, which would give a wrong velocity.
     const bool flipped = glm::dot(before, now) < 0 && glm::length(now) > 0.5 * kPi;
     limbs_[Index(bone.child)] = measure(flipped ? now : before, now);
   }
@@ -71,7 +71,7 @@ glm::dvec3 QuinticDecay(const Offset& offset, double seconds, const QuinticOptio
   if (x0 == 0) return glm::dvec3(0);
   const glm::dvec3 axis = offset.value / x0;
   const double v0 = std::min(glm::dot(offset.velocity, axis), 0.0);
-  // The parabola from x0 with slope v0 would come to rest at −2 x0/v0; Bollo allows the quintic 5/2 of that time.
+  // A parabola that starts at x0 with slope v0 comes to rest at −2 x0/v0; Bollo allows the quintic 5/2 of that time.
   const double t1 = v0 < 0 ? std::min(options.blend_s, -5 * x0 / v0) : options.blend_s;
   if (seconds >= t1) return glm::dvec3(0);
   const double a0 = std::max(0.0, (-8 * v0 * t1 - 20 * x0) / (t1 * t1));
@@ -101,7 +101,8 @@ const SettingTable<DeadOptions>& DeadSettings() {
 }
 
 Blend DeadBlending(const JoinInput& input, const DeadOptions& options) {
-  // The old motion's velocities, relative to the last frame shown: its offset from itself is zero.
+  // Continue the last shown frame with the old motion's velocities: for a target that stands still in that frame, the
+  // offset is zero and the offset's velocity is the old motion's.
   const DecayLaw law = [options](const Offset& offset, double seconds) {
     return DecayingWay(offset.velocity, seconds, options.half_life_s);
   };

@@ -18,15 +18,16 @@ Blend CutOver(const JoinInput& /*input*/, std::span<const double> /*values*/) {
 
 Blend SpringDefaults(const JoinInput& input, std::span<const double> /*values*/) { return InertialiseSpring(input); }
 
-/// The `begin` function of a table row: makes the join's own options from the values.
+/// Adapts a join with settings to the `begin` function of a table row; the settings are read from `values`.
 template <auto Begin, auto Settings>
 Blend BeginWith(const JoinInput& input, std::span<const double> values) {
   return Begin(input, Settings().Apply(values));
 }
 
-// This is a function so that the table is initialised after the strings it uses.
+// Returns the table of joins. The table is made on the first call, when the strings that it uses are initialised.
 std::span<const JoinKind> Table() {
   static const std::array kJoins = {
+      // Joins of papers and games.
       JoinKind{
           .name = "cut", .description = "paper A's: a cut; the next frame shown is the new clip's", .begin = CutOver},
       JoinKind{.name = "crossfade",
@@ -45,6 +46,7 @@ std::span<const JoinKind> Table() {
           .description = "the old motion goes on with decaying velocities while the new one fades in (Holden 2023)",
           .settings = DeadSettings().Describe(),
           .begin = BeginWith<DeadBlending, DeadSettings>},
+      // Our own joins.
       JoinKind{.name = "minimum-jerk",
                .description = "the offset decays along the minimum-jerk quintic, for any velocity",
                .settings = MinimumJerkSettings().Describe(),

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// Two successive frames: a body's pose and, by their difference, its velocity.
+/// Two successive frames. Their difference gives the velocity.
 struct PosePair {
   BodyPose before;
   BodyPose now;
@@ -36,19 +36,19 @@ struct JoinInput {
 /// Returns the pose to show `frames` ≥ 1 after the transition point; `target` is the new motion's frame at that time.
 using Blend = std::function<BodyPose(const BodyPose& target, int frames)>;
 
-/// The length of motion after the point that is used to align a join, in seconds.
+/// Joins are aligned over this length of motion after the point, in seconds.
 constexpr double kAlignedSeconds = 0.5;
 
-/// A kind of join, which connects two clips at a transition point, with the name that scenario files use. Every join
-/// keeps the limbs' lengths.
+/// A kind of join, which connects two clips at a transition point. Scenario files use its name. Every join keeps the
+/// lengths of limbs.
 struct JoinKind {
   std::string name;
   std::string description;  ///< one line for users
   std::vector<NumberSetting> settings = {};
   /// Begins a join. `values` holds one value per setting, in order; empty means the defaults.
   Blend (*begin)(const JoinInput& input, std::span<const double> values) = nullptr;
-  /// Returns the floor move that aligns the new motion with the old one. Both spans hold at least one frame, from the
-  /// point on. If it is null, AlignOnFloor aligns the two frames of the point.
+  /// Returns the floor move that aligns the new motion with the old one. Both spans hold the frames from the point on,
+  /// at least one. If `align` is null, AlignOnFloor aligns the two frames of the point.
   FloorMove (*align)(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) = nullptr;
 };
 

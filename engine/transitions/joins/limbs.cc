@@ -21,7 +21,7 @@ LimbTurn TurnBetween(const glm::dvec3& from, const glm::dvec3& to) {
 
 namespace {
 
-/// sin(a)/a and (1 − cos a)/a² of a squared angle.
+/// The factors sin(a)/a and (1 − cos a)/a² of Rodrigues' formula, for an angle a.
 struct TurnFactors {
   double sine = 1, versine = 0.5;
 };
@@ -45,7 +45,8 @@ TurnFactors SeriesOf(double squared) {
 }
 
 TurnFactors FactorsOf(double squared) {
-  // Within one radian the series end below rounding, and are faster than the trigonometric functions.
+  // Up to one radian, use power series: the omitted terms are below rounding, and series are faster than trigonometric
+  // functions.
   if (squared < 0.06) return SeriesOf<5>(squared);
   if (squared < 1) return SeriesOf<9>(squared);
   const double angle = std::sqrt(squared);
@@ -95,7 +96,7 @@ Leg SolveLeg(const glm::dvec3& hip, const glm::dvec3& ankle, double thigh, doubl
   const double across = std::sqrt(std::max(thigh * thigh - along * along, 0.0));
   Leg leg;
   leg.knee = hip + along * axis + across * DirectionOr(AcrossOf(pole, axis), AnyAcross(axis));
-  // The shin is rebuilt from its direction, so that rounding near a straight leg cannot change its length.
+  // Recompute the ankle from the shin's direction: near a straight leg, rounding must not change the shin's length.
   leg.ankle = leg.knee + shin * DirectionOr(hip + reach * axis - leg.knee, axis);
   return leg;
 }
@@ -116,12 +117,12 @@ std::vector<double> SmoothlyAbove(const std::vector<double>& needed) {
   const int count = static_cast<int>(needed.size());
   constexpr int kBlur = 2, kPasses = 2;
   const auto at = [&](const std::vector<double>& v, int i) { return v[std::clamp(i, 0, count - 1)]; };
-  // Take the running maximum, so that the blurred curve stays above `needed`.
+  // Take the running maximum, which keeps the blurred curve above `needed`.
   std::vector<double> curve(needed.size());
   for (int i = 0; i < count; ++i) {
     for (int k = -kBlur * kPasses; k <= kBlur * kPasses; ++k) curve[i] = std::max(curve[i], at(needed, i + k));
   }
-  // Blur it.
+  // Blur the curve.
   for (int pass = 0; pass < kPasses; ++pass) {
     const std::vector<double> sharp = curve;
     for (int i = 0; i < count; ++i) {
@@ -129,7 +130,7 @@ std::vector<double> SmoothlyAbove(const std::vector<double>& needed) {
       for (int k = -kBlur; k <= kBlur; ++k) curve[i] += at(sharp, i + k) / (2 * kBlur + 1);
     }
   }
-  // Ramp it to 0 at both ends.
+  // Ramp the curve to 0 at both ends.
   const double ramp = std::max(std::min(8.0, (count - 1) / 2.0), 1.0);
   for (int i = 0; i < count; ++i) {
     curve[i] *= Smootherstep(i / ramp) * Smootherstep((count - 1 - i) / ramp);

@@ -24,8 +24,8 @@ const SettingTable<MinimumJerkOptions>& MinimumJerkSettings() {
 glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s) {
   if (seconds >= blend_s) return glm::dvec3(0);
   const double s = seconds / blend_s, rest = 1 - s;
-  // The basis functions 1 − 10s³ + 15s⁴ − 6s⁵ and s − 6s³ + 8s⁴ − 3s⁵, factored by their triple root at s = 1; the
-  // second one is mirrored for the end velocity.
+  // Compute the basis functions 1 − 10s³ + 15s⁴ − 6s⁵ (position) and s − 6s³ + 8s⁴ − 3s⁵ (start velocity), factored by
+  // their triple root at s = 1. The basis function of the end velocity is the mirrored second one.
   const double s3 = s * s * s, rest3 = rest * rest * rest;
   return rest3 * ((1 + 3 * s + 6 * s * s) * movement.start + s * (1 + 3 * s) * blend_s * movement.start_velocity) -
          s3 * rest * (1 + 3 * rest) * blend_s * movement.end_velocity;
@@ -49,7 +49,7 @@ JoinWindow WindowOf(const JoinInput& input, int frames) {
 
 namespace {
 
-/// Makes the decay: the new motion plays, and the old motion's offset from it decays.
+/// Makes the decay of a window: the new motion plays, and the old motion's offset from it decays.
 Inertialiser DecayOf(const JoinWindow& window, int frames) {
   JoinInput input{.shown = window.shown,
                   .target = {window.target_before, window.next[0]},
@@ -58,7 +58,8 @@ Inertialiser DecayOf(const JoinWindow& window, int frames) {
                   .preferred = {},
                   .rate_hz = window.rate_hz};
   double direction = 1;
-  // Forward differences: frames after the point stand in for those before, so velocities change their sign.
+  // Use forward differences: the frames after the point replace those before, which reverses time, so velocities change
+  // their sign.
   if (window.old_frames > 0) {
     input.shown.before = window.old[1];
     input.target.before = window.next[1];
@@ -89,7 +90,7 @@ std::array<Movement, kRoleCount> MovementsOf(const JoinWindow& window, int frame
     const LimbTurn now = TurnBetween(limb, LimbOf(window.shown.now, bone));
     movements[Index(bone.child)] = movement([&](const BodyPose& pose) {
       const LimbTurn turn = TurnBetween(limb, LimbOf(pose, bone));
-      // Near half a turn the rotation vector may flip its sign between two frames, which would give a wrong velocity.
+      // Beyond half a turn the rotation vector flips its sign between two frames, which would give a wrong velocity.
       return glm::dot(turn, now) < 0 && glm::length(turn) > 0.5 * kPi ? now : turn;
     });
   }
@@ -126,7 +127,7 @@ BodyPose MinimumJerkPlay::At(int frame) const {
     }
     return pose;
   }
-  // A fade: both motions continue, and the new one takes over limb by limb.
+  // A fade: both motions play, and the new motion's share grows, limb by limb.
   const double share = Smootherstep(static_cast<double>(frame) / frames_);
   return PoseBetween(window_.old[frame], window_.next[frame], turns_.At(frame), share);
 }

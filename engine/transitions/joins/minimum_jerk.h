@@ -12,39 +12,40 @@
 namespace etude {
 
 struct MinimumJerkOptions {
-  /// The time until only the new motion is shown, in seconds, unless the choice of frames sets it (default ours). A
-  /// longer time reduces accelerations quadratically, but shows poses of neither clip for longer.
+  /// The time until only the new motion is shown, in seconds, unless the choice of frames sets it (default ours).
+  /// Accelerations fall with the square of this time, but poses that neither clip has are shown for longer.
   double blend_s = 0.5;
   int fades = 0;   ///< 1: use JoinStyle::kFades, unless the choice of frames decides
   int direct = 0;  ///< 1: use JoinStyle::kDirect, unless the choice of frames decides
 };
 const SettingTable<MinimumJerkOptions>& MinimumJerkSettings();
 
-/// A movement relative to its end: a translation in metres, or a limb's rotation vector in radians; velocities are per
-/// second.
+/// A movement relative to its end position: a translation in metres, or a limb's rotation vector in radians; velocities
+/// are per second.
 struct Movement {
   glm::dvec3 start{0}, start_velocity{0}, end_velocity{0};
 };
-/// Returns the position in a movement, relative to its end, `seconds` after its start: the quintic of minimum jerk
-/// (Flash and Hogan 1985) with the given velocities and zero accelerations at both ends. It is zero from `blend_s` on.
+/// Returns the position in a movement, relative to its end, `seconds` after its start. The curve is the quintic of
+/// minimum jerk (Flash and Hogan 1985), with the given velocities and zero accelerations at both ends. It is zero from
+/// `blend_s` on.
 glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s);
 
 /// The frames of a join, in the frame of the spliced motion.
 struct JoinWindow {
   PosePair shown;                       ///< the last two frames shown
   BodyPose target_before;               ///< the new motion's frame before the point
-  std::vector<BodyPose> old, next;      ///< both motions' own frames from the point on; same size, at least one
-  int old_frames = 0, next_frames = 0;  ///< number of frames after the point that exist; further ones repeat the last
+  std::vector<BodyPose> old, next;      ///< frames of both motions from the point on; same size, at least one
+  int old_frames = 0, next_frames = 0;  ///< number of real frames after the point; later frames repeat the last
   double rate_hz = kJudgedRateHz;
 
   int Frames() const { return static_cast<int>(next.size()) - 1; }
 };
 
-/// Returns the window of `frames` frames after the point; a motion that ends earlier holds its last frame.
+/// Returns the window of `frames` frames after the point. A motion that ends earlier holds its last frame.
 JoinWindow WindowOf(const JoinInput& input, int frames);
 
-/// Caches the rotations from the new motion's limbs to the old one's, which all fades of a window share. Each frame is
-/// computed on first use.
+/// Caches the rotations from the new motion's limbs to the old motion's limbs, which all fades of a window share. Each
+/// frame is computed on first use.
 class WindowTurns {
  public:
   explicit WindowTurns(const JoinWindow& window) : window_(window) {}
@@ -57,21 +58,21 @@ class WindowTurns {
 
 /// Computes the shown poses of a window, frame by frame. There are three kinds of join:
 /// - kDecays: the new motion plays, and limb by limb the old motion's offset from it decays with minimum jerk.
-///   Velocities are measured from the point to the next frame, so the first shown frame is the old motion's next one,
+///   Velocities are measured from the point to the next frame, so the first shown frame is the old motion's next frame,
 ///   and a jump of the new motion at the point has no effect. If the old motion has ended, velocities are measured up
 ///   to the point.
-/// - kFades: both motions play, and limb by limb the new one takes over, weighted by a minimum-jerk movement. This
+/// - kFades: both motions play, and the share of the new motion grows along a minimum-jerk curve, limb by limb. This
 ///   shows less of either motion's accelerations and more of the difference between them.
 /// - kDirect: every limb and the hip centre move with minimum jerk from the old motion's pose to the new motion's pose
-///   at the end of the join, with the motions' velocities at both ends. The motions' accelerations in between are not
-///   shown.
+///   at the end of the join, with the motions' velocities at both ends. Accelerations of the motions within the join
+///   are not shown.
 class MinimumJerkPlay {
  public:
-  /// Plays a join of `frames` frames, from 1 to the window's number. `window` and `turns` must outlive this object;
-  /// several fades of a window share its `turns`.
+  /// Plays a join of `frames` frames, from 1 to the window's number of frames. `window` and `turns` must outlive this
+  /// object; all fades of a window may share one `turns`.
   MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, JoinStyle way);
 
-  /// Returns the pose of a frame from 0 (the last one shown) to `frames`.
+  /// Returns the pose in a frame of the join, from 0 (the last frame shown before it) to `frames`.
   BodyPose At(int frame) const;
 
  private:
@@ -79,7 +80,7 @@ class MinimumJerkPlay {
   WindowTurns& turns_;
   const int frames_;
   std::optional<Inertialiser> decay_;
-  /// Movements relative to their ends: of a limb, its rotation vector, indexed by its child joint; of the root, its
+  /// Movements relative to their ends: each limb's rotation vector, indexed by the limb's child joint, and the root's
   /// position.
   std::optional<std::array<Movement, kRoleCount>> movements_;  ///< empty for a fade and a decay
 };
@@ -88,10 +89,10 @@ class MinimumJerkPlay {
 std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinStyle way);
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options);
-/// Returns the choice's preferred join, or else the one that the options describe. WindowOfJoin returns its window.
+/// Returns the choice's preferred join, or without one the join of the options. WindowOfJoin returns its window.
 PreferredJoin PreferredJoinOf(const JoinInput& input, const MinimumJerkOptions& options);
 JoinWindow WindowOfJoin(const JoinInput& input, const PreferredJoin& preferred);
-/// Shows the frames `played` of a window, then the new motion.
+/// Returns a blend that shows the frames `played` of a window, then the new motion.
 Blend ShowPlayed(std::vector<BodyPose> played);
 
 }  // namespace etude

@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-/// Fits a rotation and a shift on the floor by weighted least squares, which align the second point of each pair with
-/// the first.
+/// Fits a rotation about the vertical and a shift on the floor by weighted least squares. They align the second point
+/// of each pair with the first.
 class FloorFit {
  public:
   void Add(const glm::dvec3& onto, const glm::dvec3& point, double weight) {
@@ -22,7 +22,7 @@ class FloorFit {
     point_ += weight * pairs_.back().point;
   }
 
-  /// Returns the best rotation about the vertical.
+  /// Returns the best rotation about the vertical, radians.
   double Yaw() const {
     const glm::dvec2 onto = onto_ / weight_, point = point_ / weight_;
     double along = 0, across = 0;
@@ -34,7 +34,7 @@ class FloorFit {
     return std::atan2(across, along);
   }
 
-  /// Returns the move with rotation `yaw` and the shift that fits best after it.
+  /// Returns the move that rotates by `yaw` and then takes the shift that fits best.
   FloorMove Turned(double yaw) const {
     const glm::dvec2 onto = onto_ / weight_, point = point_ / weight_;
     const glm::dvec3 moved = FloorMove{.yaw = yaw}.Apply(glm::dvec3(point.x, 0, point.y));
@@ -54,7 +54,7 @@ class FloorFit {
 }  // namespace
 
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) {
-  // Fit hips and shoulders first; their rotation is the reference.
+  // Fit hips and shoulders first; the feet may rotate the body relative to this fit.
   FloorFit fit;
   constexpr double kTrunk = 0.05, kFeet = 0.1, kMaxTurn = Radians(30);
   for (Role role : {Role::kLeftHip, Role::kRightHip, Role::kLeftShoulder, Role::kRightShoulder}) {

@@ -19,7 +19,7 @@ double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hyp
 
 /// A set of frames of a window, one bit per frame.
 using Frames = std::uint64_t;
-constexpr int kMaxFrames = 63;  // steps are planned within these; a longer join uses only its first frames
+constexpr int kMaxFrames = 63;  // longer joins plan steps only in their first frames
 
 constexpr Frames Bit(int frame) { return Frames{1} << frame; }
 /// Returns the frames from `first` to `last`, both included; empty if last < first.
@@ -27,7 +27,7 @@ constexpr Frames Range(int first, int last) {
   return last < first ? 0 : (Bit(last) | (Bit(last) - 1)) & ~(Bit(std::max(first, 0)) - 1);
 }
 
-/// The contacts and slides of one foot in both motions of a window.
+/// The contacts of one foot in both motions of a window, and how far it slides.
 struct FootTracks {
   FootTracks(const JoinWindow& w, const LegRoles& l, const std::vector<bool>& old, const std::vector<bool>& next)
       : window(w), leg(l), frames(std::min(w.Frames(), kMaxFrames)) {
@@ -47,7 +47,7 @@ struct FootTracks {
   const LegRoles& leg;
   int frames = 0;  ///< number of frames in which steps are planned
   Frames old_stands = 0, next_stands = 0;
-  /// Metres that the foot slid while it stood, before each frame.
+  /// For each frame, how far the foot slid while it stood in the frames before, metres.
   std::array<double, kMaxFrames + 2> old_slid{}, next_slid{};
 };
 
@@ -57,7 +57,7 @@ struct StepOption {
   Frames stands = 0;  // the frames in which the foot bears weight
 };
 
-/// Returns the minimum-jerk movement that takes the toe's offset between the motions to zero in a step.
+/// Returns the minimum-jerk movement of a step: the toe's offset between the motions goes to zero.
 Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
   const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
   const auto change = [&](const BodyPose& before, const BodyPose& after) {
@@ -74,8 +74,8 @@ Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootSte
   return movement;
 }
 
-/// Returns the cost of a foot's behaviour outside its step, in centimetres per frame². A foot that stays or waits stops
-/// or starts abruptly; a foot that follows its clip slides as the clip's foot does while it stands.
+/// Returns the cost of a foot's behaviour before and after its step, in centimetres per frame². A foot that keeps a
+/// position stops or starts abruptly; a foot that follows its clip slides as the clip's standing foot does.
 double StandingPrice(const FootTracks& foot, const FootStep& step) {
   constexpr double kSliding = 0.3;  // weight of a slid centimetre
   const auto &old = foot.window.old, &next = foot.window.next;
@@ -94,14 +94,14 @@ double StandingPrice(const FootTracks& foot, const FootStep& step) {
   return price;
 }
 
-/// Returns the step with its lift, cost and supporting frames. The cost is the sum of the peak accelerations of
-/// minimum-jerk movements for the offset, the velocity and the lift, and of StandingPrice.
+/// Returns the step with its lift, cost and supporting frames. The cost is the sum of StandingPrice and of the peak
+/// accelerations of the minimum-jerk movements for the offset, the velocity and the lift.
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
   constexpr double kCm = 100;
   StepOption option{.step = step};
   const Movement movement = MovementOf(foot.window, foot.leg, step);
   const double travel = std::hypot(movement.start.x, movement.start.z), length = step.end - step.begin;
-  // A foot that is in the air during the whole step is already lifted by the motions themselves.
+  // If the foot is in the air during the whole step, the motions themselves already lift it.
   const bool stands = ((foot.old_stands | foot.next_stands) & Range(step.begin, step.end)) != 0;
   option.step.lift = stands ? LiftFor(travel) : 0;
   const double peak = (5.8 * glm::length(movement.start) + 12 * option.step.lift) / (length * length) +
@@ -113,29 +113,30 @@ StepOption Priced(const FootTracks& foot, const FootStep& step) {
   return option;
 }
 
-/// Returns the last of `frames` that is at most `frame`; −1 if there is none.
+/// Returns the last of `frames` that is at most `frame`; −1 without such a frame.
 int LastUpTo(Frames frames, int frame) { return std::bit_width(frames & Range(0, frame)) - 1; }
-/// Returns the first of `frames` that is at least `frame`; kNoFrame if there is none.
+/// Returns the first of `frames` that is at least `frame`; kNoFrame without such a frame.
 int FirstFrom(Frames frames, int frame) {
   const Frames later = frames & ~Range(0, frame - 1);
   return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
 }
 
-/// Returns the frame whose position a foot may keep until `frame`: the first frame of its current stance, else the last
-/// frame of the stance before; −1 if there is none.
+/// A foot may keep the position of an earlier frame until `frame`. Returns that frame: the first of its current stance,
+/// otherwise the last of the stance before; −1 without a stance.
 int StaysFrom(Frames stands, int frame) {
   const int stood = LastUpTo(stands, frame);
   return stood == frame ? LastUpTo(~stands, frame) + 1 : stood;
 }
-/// Returns the frame whose position a foot may take from `frame` on: the last frame of its current stance (at most
-/// `last`), else the first frame of the next one; kNoFrame if there is none.
+/// A foot may take the position of a later frame from `frame` on. Returns that frame: the last of its current stance
+/// (at most `last`), otherwise the first of the next stance; kNoFrame without a stance.
 int WaitsUntil(Frames stands, int frame, int last) {
   const int lands = FirstFrom(stands, frame);
   return lands == frame ? std::min(FirstFrom(~stands, frame) - 1, last) : lands;
 }
 
-/// Returns the possible steps of a foot, which begin and end at tenths of the window. As variants, the foot may keep
-/// the position of its last stance before the step, take that of its next stance after the step, or both.
+/// Returns the possible steps of a foot, which begin and end at tenths of the window. In variants of a step, the foot
+/// keeps the position of its last stance before the step, takes the position of its next stance after the step, or
+/// both.
 std::vector<StepOption> OptionsOf(const FootTracks& foot) {
   constexpr int kParts = 10, kMinStepFrames = 8;
   const int frames = foot.frames, shortest = std::min(frames, kMinStepFrames);
@@ -170,7 +171,7 @@ struct LegPath {
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {
   const BodyPose& old = window.old[std::min({frame, step.begin, step.stays_from})];
-  // Before the step the old motion's leg is shown, or its stance is kept; after it, the new motion's.
+  // Before the step, show the old motion's leg or its kept stance; after the step, the new motion's.
   const BodyPose& next = window.next[std::max(frame, step.waits_until)];
   const glm::dvec3 from = old[leg.foot] - old[leg.ankle], to = next[leg.foot] - next[leg.ankle];
   if (frame <= step.begin) return {old[leg.ankle], from};
@@ -180,12 +181,12 @@ LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& st
   glm::dvec3 toe = next[leg.foot] + MinimumJerkAt(MovementOf(window, leg, step), (frame - step.begin) / window.rate_hz,
                                                   (step.end - step.begin) / window.rate_hz);
   toe.y += step.lift * 64 * rest * rest * rest;
-  // Rotate the foot backwards from its new direction, so that it keeps the new length.
+  // Rotate the foot from its new direction back towards its old one; this keeps the new length.
   const glm::dvec3 limb = Turned(to, (1 - Smootherstep(s)) * TurnBetween(to, from));
   return {toe - limb, limb};
 }
 
-/// Returns how far a leg may reach: as far as the motions' own legs do, slightly less in the middle of the join,
+/// Returns how far a leg may reach: as far as the legs of both motions, slightly less in the middle of the join,
 /// because the knee of an almost straight leg moves abruptly.
 double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   const double s = static_cast<double>(frame) / window.Frames();
@@ -198,9 +199,9 @@ double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   return std::min(std::max(own, kEasy * whole), whole) - kGiven * 64 * rest * rest * rest;
 }
 
-/// Returns a leg's pole (SolveLeg), turned about the leg, to a share of 0 … 1, until it points at most 60° to a side.
-/// One that points backwards turns outwards, so that the legs keep apart. (Depth sensors show straight legs as
-/// overextended; a leg that bends more must not bend that way.)
+/// Rotates a leg's pole (see SolveLeg) about the leg until it points at most 60° to a side; `share` (0 to 1) is how
+/// much of this rotation is applied. A pole that points backwards turns outwards, which keeps the legs apart. (Depth
+/// sensors show straight legs as overextended; a leg that bends more must not bend that way.)
 glm::dvec3 BentForwards(const glm::dvec3& pole, const glm::dvec3& line, const glm::dvec3& forwards, bool is_left,
                         double share) {
   constexpr double kSide = Radians(60), kInwards = Radians(-120);
@@ -221,7 +222,7 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
   const auto carried = [&](const BodyPose& own) {
     return CarriedOffset(KneeOffset(own[leg.hip], own[leg.knee], own[leg.ankle]), own[leg.ankle] - own[leg.hip], line);
   };
-  // A straight leg does not show where its knee points, so forwards is assumed.
+  // A straight leg does not show where its knee points; assume forwards.
   constexpr double kForwards = 1e-3;
   const glm::dvec3 own = glm::mix(carried(old), carried(next), share) + kForwards * Facing(pose);
   const double s = static_cast<double>(frame) / window.Frames();
@@ -284,7 +285,7 @@ int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
     }
   }
   constexpr double kRounding = 1e-9;
-  if (farthest < kRounding) return unplanted_frames;  // the join changes nothing
+  if (farthest < kRounding) return unplanted_frames;  // the plan changes no foot
   // Lower the body and solve each leg for its path.
   drop = SmoothlyAbove(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {

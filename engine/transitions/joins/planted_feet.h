@@ -19,31 +19,31 @@ constexpr std::array<LegRoles, 2> kLegs = {
     LegRoles{Role::kLeftHip, Role::kLeftKnee, Role::kLeftAnkle, Role::kLeftFoot},
     LegRoles{Role::kRightHip, Role::kRightKnee, Role::kRightAnkle, Role::kRightFoot}};
 
-/// The step that takes a foot from the old motion's path to the new one's. Before the step the foot follows the old
-/// motion or keeps the position of its last stance there; after the step it follows the new motion or takes the
-/// position of its next stance there.
+/// The step that takes a foot from the old motion's path to the new motion's path. Before the step the foot follows the
+/// old motion, or keeps the position of its last stance there. After the step it follows the new motion, or already
+/// takes the position of its next stance there.
 struct FootStep {
   bool keeps = false;  ///< true if the foot stands in neither motion; its path is not changed
   int begin = 0;       ///< frames after the point
   int end = 1;
   double lift = 0;            ///< height in the middle of the step, metres
-  int stays_from = kNoFrame;  ///< the foot keeps its position in the old motion from this frame until the step begins
-  int waits_until = -1;       ///< the foot takes its position in the new motion at this frame from the step's end on
+  int stays_from = kNoFrame;  ///< from this frame until the step, the foot keeps its position in the old motion
+  int waits_until = -1;       ///< from the step until this frame, the foot has this frame's position in the new motion
 
   static constexpr int kNoFrame = 1 << 30;
 };
 /// The steps of both feet, indexed by side.
 struct FootPlan {
   std::array<FootStep, 2> steps;
-  int unplanted_frames = 0;  ///< number of frames in which a foot stands in one of the motions, but none by this plan
+  int unplanted_frames = 0;  ///< frames in which a foot stands in one of the motions, but no foot stands by this plan
 };
 
 /// Plans a step for each foot within the window (ours). It prefers long steps, because they need little acceleration,
-/// and steps one after the other, because one foot then supports the body while the other moves.
+/// and steps that do not overlap, because one foot then supports the body while the other moves.
 FootPlan PlanSteps(const JoinWindow& window);
 
-/// Moves the feet of `played` (from PlayMinimumJerk) to their paths, and lowers the pelvis if a leg is too short. Limbs
-/// keep their lengths, and the first frame does not change. Returns FootPlan::unplanted_frames.
+/// Moves the feet of `played` (from PlayMinimumJerk) to the paths of the planned steps, and lowers the pelvis if a leg
+/// is too short. Limbs keep their lengths, and the first frame does not change. Returns FootPlan::unplanted_frames.
 int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played);
 
 /// Joins by MinimumJerk with PlantFeet. The new motion is aligned by AlignOnPlantedFeet.

@@ -15,17 +15,17 @@ std::span<const BodyPose> FramesOf(const Segment& segment, std::span<const BodyM
   return segment.clip == Segment::kOwnFrames ? std::span(segment.own) : std::span(clips[segment.clip].poses);
 }
 
-/// A segment with the floor move that aligns it with the spliced motion.
+/// A segment and the floor move that aligns it with the spliced motion.
 struct PlacedSegment {
   std::span<const BodyPose> frames;
   int first = 0;
-  bool is_own = false;  // true if the choice made its frames
+  bool is_own = false;  // true if the choice made these frames itself
   FloorMove floor_move;
   Blend blend;
 
   BodyPose At(int frame) const { return floor_move.Apply(frames[frame]); }
   BodyPose Shown(int frame) const { return blend(At(frame), frame - first); }
-  /// Returns the frame before `frame`; before a clip's first frame the speed is assumed constant.
+  /// Returns the frame before `frame`. Before a clip's first frame the velocity is assumed to be constant.
   BodyPose Before(int frame) const {
     if (frame > 0) return At(frame - 1);
     return frames.size() > 1 ? FrameBefore(At(0), At(1)) : At(0);
@@ -48,8 +48,8 @@ struct PlacedSegment {
   }
 };
 
-/// Moves the segment `next`, which follows `old` at its frame `left`, where the body's momentum carries it in a join of
-/// `frames` frames. A clip that has ended stands.
+/// Moves the segment `next`, which follows frame `left` of `old`, to where the body's momentum carries it in a join of
+/// `frames` frames. A clip that has ended has no velocity.
 void Carry(const PlacedSegment& old, int left, int frames, PlacedSegment& next) {
   if (frames == 0) return;
   const int last = static_cast<int>(next.frames.size()) - 1, end = std::min(next.first + frames, last);
@@ -62,8 +62,8 @@ void Carry(const PlacedSegment& old, int left, int frames, PlacedSegment& next) 
   next.floor_move.z += shift.z;
 }
 
-/// Returns the floor move for the segment `next`, which follows `old` at its frame `left`. Frames that a choice made
-/// are aligned at the first one.
+/// Returns the floor move for the segment `next`, which follows frame `left` of `old`. If a choice made the frames
+/// itself, only their first frame is aligned.
 FloorMove Lay(const JoinKind& join, const PlacedSegment& old, int left, const PlacedSegment& next, double rate_hz) {
   if (join.align == nullptr || next.is_own) return AlignOnFloor(next.frames[next.first], old.At(left));
   const std::size_t count = static_cast<std::size_t>(rate_hz * kAlignedSeconds);
@@ -108,7 +108,7 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     if (join.align != nullptr && preferred && preferred->carried) {
       Carry(old, left, static_cast<int>(std::lround(preferred->blend_s * rate_hz)), next);
     }
-    // The gap at the point is that of the clips, not of the joined motion, so that it depends only on the choice of
+    // Measure the gap at the point between the clips, not in the joined motion; it then depends only on the choice of
     // frames.
     const PlacedPoint point{.frame = static_cast<int>(shown.size()) - 1,
                             .leaving_before = old.Before(left),
@@ -116,7 +116,7 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
                             .arriving = next.At(entered),
                             .arriving_after = next.At(entered + 1)};
 
-    // Begin the join, and show the segment's frames through it.
+    // Begin the join, and pass the segment's frames through it.
     const JoinInput input{
         .shown = {point.frame > 0 ? shown[point.frame - 1] : point.leaving_before, shown[point.frame]},
         .target = {next.Before(entered), point.arriving},
@@ -127,14 +127,14 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     next.blend = join.begin(input, join_settings);
     for (int frame = entered + 1; frame <= segments[i].last; ++frame) shown.push_back(next.Shown(frame));
     splice.points.push_back(point);
-    // Keep the own frames of a clip between the first and the last, for the measures.
+    // Keep, for the measures, the clip's own frames of every segment between the first and the last.
     if (i + 1 < segments.size()) {
       std::vector<BodyPose>& between = splice.between.emplace_back();
       if (!next.is_own) between = next.Own(entered - 1, frames.size());
     }
     old = std::move(next);
   }
-  // Keep the own frames of the last segment, for the measures.
+  // Keep, for the measures, the clip's own frames of the last segment.
   for (int frame = segments.back().first; frame <= segments.back().last; ++frame)
     splice.wanted.push_back(old.At(frame));
   return splice;

@@ -12,28 +12,29 @@ namespace etude {
 /// A transition point in the frame of the spliced motion.
 struct PlacedPoint {
   int frame = 0;                      ///< index in the spliced motion: the last frame of the old segment
-  BodyPose leaving_before, leaving;   ///< the old segment's frames before the point and at it
-  BodyPose arriving, arriving_after;  ///< the new segment's frames at the point and after it
+  BodyPose leaving_before, leaving;   ///< the old segment's frame before the point, and its frame at the point
+  BodyPose arriving, arriving_after;  ///< the new segment's frame at the point, and its frame after it
 };
 
-/// A motion that is composed of clips.
+/// A motion composed of clips.
 struct Splice {
   BodyMotion motion;
   std::vector<PlacedPoint> points;  ///< in order
-  /// The last segment's own frames from its first shown one on, aligned but without the join. The first of them
-  /// corresponds to the last point's frame.
+  /// The last segment's own frames, aligned but without the join, from its first shown frame on. The first of them
+  /// corresponds to the frame of the last point.
   std::vector<BodyPose> wanted;
-  /// The own frames of each clip between the first and the last, likewise; empty for frames that a choice made.
+  /// The own frames, aligned but without the join, of each segment between the first and the last; empty for frames
+  /// that a choice made.
   std::vector<std::vector<BodyPose>> between;
 };
 
-/// Returns the frame before the first one, assuming constant velocity.
+/// Returns the frame before `first` by linear extrapolation from `first` and `second`.
 BodyPose FrameBefore(const BodyPose& first, const BodyPose& second);
 
 /// Plays the first segment's clip from its start (not from the request) to the segment's end, then the other segments
-/// to the end of the last one. Every segment is rotated and moved on the floor (yaw, x, z) so that it continues where
-/// the previous one ended, unless it is in place. There must be at least two segments, each with at least one frame to
-/// play. `join_settings` holds the values for JoinKind::begin.
+/// to the end of the last one. Every segment is rotated and moved on the floor (yaw, x, z) to continue where the
+/// previous segment ended, unless it is already in place (Segment::in_place). There must be at least two segments, each
+/// with at least one frame to play. `join_settings` holds the values for JoinKind::begin.
 Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment> segments, const JoinKind& join,
                       std::span<const double> join_settings = {});
 

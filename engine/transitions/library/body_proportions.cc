@@ -55,15 +55,15 @@ std::vector<double> FootHeights(const BodyMotion& motion) {
   return heights;
 }
 
-/// Returns the floor's height. It is the 5th percentile, because a single bad frame would determine the minimum. There
-/// must be at least one height.
+/// Returns the floor's height: the 5th percentile of `heights`, because a single bad frame can change the minimum.
+/// There must be at least one height.
 double FloorHeight(std::vector<double> heights) {
   const auto fifth_percentile = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
   std::nth_element(heights.begin(), fifth_percentile, heights.end());
   return *fifth_percentile;
 }
 
-/// Gives the body new limb lengths, at any height above the floor.
+/// Gives the body new limb lengths; its height above the floor is not corrected.
 void Rescale(const BodyProportions& proportions, BodyMotion& motion) {
   if (motion.poses.empty()) return;
   const double own_height = StandingHipHeight(motion.poses.front());
@@ -71,7 +71,7 @@ void Rescale(const BodyProportions& proportions, BodyMotion& motion) {
   for (BodyPose& pose : motion.poses) pose = Rebuild(proportions, pose, scale);
 }
 
-/// Groups the indices of the clips by person.
+/// Groups the indices of the clips by the person who performs them.
 std::vector<std::vector<std::size_t>> ByPerson(std::span<const BodyMotion> motions) {
   std::vector<std::vector<std::size_t>> people;
   for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -104,7 +104,7 @@ BodyPose StandingPose(const BodyProportions& proportions) {
   for (const Bone& bone : AllBones()) {
     const double length = proportions.limb_lengths[Index(bone.child)];
     glm::dvec3 limb = length * DirectionAtRest(bone.child);
-    // The feet point down to the floor.
+    // Point the feet down to the floor.
     if (bone.child == kLeftFoot || bone.child == kRightFoot) {
       const double drop = std::clamp(pose[bone.parent].y, 0.0, length);
       limb = {0, -drop, std::sqrt(length * length - drop * drop)};
@@ -117,7 +117,7 @@ BodyPose StandingPose(const BodyProportions& proportions) {
 void PerformBy(const BodyProportions& proportions, std::span<BodyMotion> motions) {
   const std::vector<std::vector<std::size_t>> people = ByPerson(motions);
   for (BodyMotion& motion : motions) Rescale(proportions, motion);
-  // Put each person's clips on the floor together.
+  // Put the clips of each person on the floor together.
   for (const std::vector<std::size_t>& clips : people) {
     std::vector<double> heights;
     for (std::size_t clip : clips) std::ranges::copy(FootHeights(motions[clip]), std::back_inserter(heights));

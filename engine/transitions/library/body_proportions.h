@@ -19,20 +19,19 @@ struct BodyProportions {
 /// `pose` must have a length above 0.
 BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_height);
 
-/// Returns the body at rest above the origin, facing +Z, with straight limbs, hanging arms and soles on the floor.
+/// Returns the body at rest: above the origin, facing +Z, with straight limbs, hanging arms, and soles on the floor.
 BodyPose StandingPose(const BodyProportions& proportions);
 
-/// Lets a body of these proportions perform the motions. Paper A's clips all show one character; recorded
-/// clips come from many people, and a transition between two bodies would be visible at any pose.
+/// Transfers the motions to a body of these proportions. Paper A's clips all show one character; recorded clips come
+/// from many people, and a transition between two bodies would be visible at any pose.
 ///
-/// Every limb keeps its direction and gets its new length. Travel and hip height scale with the legs. Then the clips
-/// are shifted vertically so that the lower foot is on or below the floor in 5 % of the frames. Clips with equal leg
-/// lengths (to 0.1 mm, in the first frame) belong to one person and are shifted together, so that a person who only
-/// sits in one clip sits as high there as after sitting down in another. A clip whose feet would then be below the
-/// floor, which can happen with the new limb lengths, is shifted separately. A limb of zero length in the source takes
-/// its parent limb's direction.
+/// Every limb keeps its direction and gets its new length. Travel and hip height are scaled with the legs. Then the
+/// clips are shifted vertically until the lower foot is on or below the floor in 5 % of the frames. Clips with equal
+/// leg lengths (to 0.1 mm, in the first frame) belong to one person and are shifted together: a person who sits in one
+/// clip and sits down in another has the same height in both. If the new limb lengths put a clip's feet below the
+/// floor, this clip is shifted separately. A limb of zero length in the source takes its parent limb's direction.
 void PerformBy(const BodyProportions& proportions, std::span<BodyMotion> motions);
-/// Returns the motions as PerformBy changes them.
+/// Returns copies of the motions, changed by PerformBy.
 std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions);
 
 }  // namespace etude

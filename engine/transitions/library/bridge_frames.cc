@@ -11,8 +11,8 @@ namespace {
 
 using enum Role;
 
-/// Returns the neck's unit direction in the trunk's frame (left, up, front), so that the head counts as still if the
-/// whole body turns.
+/// Returns the neck's unit direction in the trunk's frame (left, up, front). In this frame the head counts as still if
+/// the whole body turns.
 glm::dvec3 NeckInTrunk(const BodyPose& pose) {
   const glm::dvec3 none(0);
   const glm::dvec3 up = UnitOr(pose[kShoulderCentre] - pose[kHipCentre], none);
@@ -22,7 +22,7 @@ glm::dvec3 NeckInTrunk(const BodyPose& pose) {
   return {glm::dot(neck, left), glm::dot(neck, up), glm::dot(neck, glm::cross(left, up))};
 }
 
-/// Keeps in each class the frames of smallest difference, on a tie the earlier one.
+/// Keeps, in each class, the frames with the smallest differences; of equal ones, the earlier.
 std::vector<int> KeepMostAlike(const std::vector<int>& frames, const TaggedClip& clip,
                                const std::vector<FrameRating>& ratings, int most_per_class) {
   std::map<Tags, std::vector<int>> classes;
@@ -81,8 +81,8 @@ std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double stand
 
 namespace {
 
-/// Sums over the frames of one class, from which the mean squared distance of any frame to them is computed in constant
-/// time.
+/// Sums over the frames of one class. From them, the mean squared distance of any frame to the class is computed in
+/// constant time.
 struct Sums {
   int frames = 0;
   Grades grades{}, squares{};
@@ -96,13 +96,13 @@ struct Sums {
   }
 };
 
-/// The frames with the same ten tags.
+/// A class: all frames with the same ten tags.
 struct PoseClass {
   Sums all;
   std::map<int, Sums> by_clip;
 };
 
-/// Returns the mean of d² over the class's frames outside `own`: Σ w (a² − 2 a E[x] + E[x²]).
+/// Returns the mean of d² over the frames of a class, without those in `own`: Σ w (a² − 2 a E[x] + E[x²]).
 double MeanSquareDistance(const Grades& frame, const Sums& all, const Sums& own, const FeatureWeights& weights) {
   const double others = all.frames - own.frames;
   double sum = 0;

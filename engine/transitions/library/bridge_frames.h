@@ -16,10 +16,10 @@ struct HeadRule {
   double max_turn_speed = Radians(60);  ///< radians per second, of the neck relative to the trunk
 };
 
-/// Returns for each frame whether the head is still enough.
+/// For each frame, returns true if the head is still enough.
 std::vector<bool> FindQuietHeads(const BodyMotion& motion, const HeadRule& rule = {});
 
-/// A clip as the search sees it: grades and tags of every frame, and the bridge frames.
+/// A clip prepared for the search: grades and tags of every frame, and the bridge frames.
 struct TaggedClip {
   double rate_hz = kJudgedRateHz;
   std::vector<Grades> grades;      ///< one per frame
@@ -34,24 +34,24 @@ struct TaggedClip {
 struct TagRules {
   Memberships memberships = PaperMemberships();
   HeadRule head;
-  int min_clips = 2;  ///< minimum number of clips that contain a bridge frame's ten tags together; ours
-  /// The maximum number of bridge frames of a clip with the same ten tags; those of smallest difference to the other
-  /// clips are kept (RateFrames). 0 keeps all: paper A asks for "those of smallest difference", but also for as many as
-  /// possible.
+  int min_clips = 2;  ///< minimum number of clips that contain the ten tags of a bridge frame; ours
+  /// The maximum number of bridge frames with the same ten tags in one clip. Those with the smallest differences from
+  /// the other clips are kept (RateFrames). 0 keeps all: paper A asks for "those of smallest difference", but also for
+  /// as many as possible.
   int most_per_class = 0;
   FeatureWeights weights = PaperWeights();  ///< weights of that difference
 };
 
 /// Selects the bridge frames of a library (algorithms A4): frames whose ten tags occur together in enough clips and
-/// whose head is quiet, at most `most_per_class` per class. `standing_hip_height` is that of the body that performs all
+/// whose head is quiet, at most `most_per_class` per class. `standing_hip_height` belongs to the body that performs all
 /// clips, in metres.
 std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height,
                                  const TagRules& rules = {});
 
-/// The frequency of a frame's pose in a library, and how well the frame represents it (paper A, section 3.4: bridge
-/// frames are frequent poses, "those of smallest difference").
+/// How frequent a frame's pose is in a library, and how well the frame represents this pose (paper A, section 3.4:
+/// bridge frames are frequent poses, "those of smallest difference").
 struct FrameRating {
-  int clips = 0;   ///< number of clips in which the frame's ten tags occur together, including its own
+  int clips = 0;   ///< number of clips, including its own, in which the frame's ten tags occur together
   int frames = 0;  ///< number of frames of the library with these tags
   /// The root mean square of the distances (equation 1) to the frames with the same tags in other clips. It estimates
   /// the distance of a transition within the class. 0 if no other clip has these tags.

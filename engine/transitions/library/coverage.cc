@@ -10,7 +10,8 @@
 namespace etude {
 namespace {
 
-/// Returns the longest wait for the next of `frames` (in rising order), in seconds, if the clip is repeated at its end.
+/// Returns the longest wait for the next of `frames` (in rising order), in seconds, in a clip that is repeated at its
+/// end.
 std::optional<double> WorstWait(std::span<const int> frames, const TaggedClip& clip) {
   if (frames.empty()) return std::nullopt;
   int worst = frames.front() + clip.FrameCount() - frames.back();
@@ -18,7 +19,7 @@ std::optional<double> WorstWait(std::span<const int> frames, const TaggedClip& c
   return (worst - 1) / clip.rate_hz;
 }
 
-/// Returns the number of frames from which none of `frames` is reached within the budget.
+/// Returns the number of the clip's frames after which none of `frames` follows within the budget.
 int CountLate(std::span<const int> frames, const TaggedClip& clip, double budget_s) {
   int late = 0;
   auto next = frames.begin();
@@ -33,7 +34,7 @@ double ShareOf(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Returns the coverage of a clip of which these frames, and these bridge frames, match.
+/// Returns the coverage of a clip from its matching frames and its matching bridge frames.
 ClipCoverage CoverageOf(const TaggedClip& clip, std::span<const int> frames, std::span<const int> bridge_frames,
                         double budget_s) {
   if (clip.FrameCount() == 0) return {};
@@ -46,7 +47,7 @@ ClipCoverage CoverageOf(const TaggedClip& clip, std::span<const int> frames, std
 std::vector<int> AllFrames(const TaggedClip& clip) { return FramesWithin({0, clip.FrameCount() - 1}); }
 std::vector<int> BridgeFrames(const TaggedClip& clip) { return clip.bridge_frames; }
 
-/// Returns for each clip the participating frames that match a participating frame of any other clip.
+/// Returns, for each clip, the participating frames that match a participating frame of any other clip.
 std::vector<std::vector<int>> MatchesAnywhere(std::span<const TaggedClip> clips, const MatchRules& rules,
                                               std::vector<int> (*participating)(const TaggedClip&),
                                               const OnProgress& on_progress) {
@@ -64,7 +65,7 @@ std::vector<std::vector<int>> MatchesAnywhere(std::span<const TaggedClip> clips,
   }
   starts.push_back(static_cast<int>(grades.size()));
   const GradeIndex index(std::exchange(grades, {}), rules.weights, std::exchange(tags, {}));
-  // Ask for each frame in time order.
+  // Search a match for each frame in time order.
   std::vector<std::vector<int>> matches(clips.size());
   int hint = 0;
   for (std::size_t c = 0; c < clips.size(); ++c) {
@@ -90,11 +91,13 @@ Coverage::Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, c
       if (options.on_progress) options.on_progress(phase * all + done, phases * all);
     };
   };
+  // Compare every clip with all other clips together.
   const auto of_all = MatchesAnywhere(clips, rules, AllFrames, progress_of(0));
   const auto of_bridges = MatchesAnywhere(clips, rules, BridgeFrames, progress_of(1));
   for (std::size_t c = 0; c < clips.size(); ++c) {
     any_.push_back(CoverageOf(clips[c], of_all[c], of_bridges[c], options.budget_s));
   }
+  // Compare pairs of clips, if required, or only the clips leading into the wanted ones.
   if (options.with_pairs) {
     CoverageOptions of_pairs = options;
     of_pairs.on_progress = progress_of(2);
@@ -120,7 +123,7 @@ void Coverage::ComputePairs(std::span<const TaggedClip> clips, const MatchRules&
     all.emplace_back(clip.grades, clip.tags, AllFrames(clip), rules);
     bridges.emplace_back(clip.grades, clip.tags, clip.bridge_frames, rules);
   }
-  // Compare it with every other one.
+  // Compare each clip with every other clip.
   pairs_.resize(clips.size() * clips.size());
   for (int from = 0; from < ClipCount(); ++from) {
     for (int to = 0; to < ClipCount(); ++to) {

@@ -11,22 +11,22 @@
 
 namespace etude {
 
-/// How the frames of one clip lead on: into one other clip, or into any other clip of a library.
+/// How well the frames of one clip lead into one other clip, or into any other clip of a library.
 struct ClipCoverage {
-  double frame_share = 0;   ///< share of all frames that match a frame there
-  double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame there
-  /// The longest wait from any frame to the next matching bridge frame, in seconds, if the clip is repeated at its end;
-  /// empty if there is no such bridge frame.
+  double frame_share = 0;   ///< share of all frames that match a frame of the other clip
+  double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame of the other clip
+  /// The longest wait from any frame to the next matching bridge frame, in seconds, in a clip that is repeated at its
+  /// end; empty without a matching bridge frame.
   std::optional<double> worst_wait_s;
-  /// The share of frames from which no matching bridge frame is reached within the budget and before the clip's end, so
-  /// that a transition goes through an in-between.
+  /// The share of frames after which no matching bridge frame follows within the budget and before the clip's end. A
+  /// transition from such a frame goes through an in-between.
   double in_between_share = 0;
 };
 
-/// The choice of the coverages to compute. Those of pairs cost time and memory that grow with the square of the library.
+/// Selects the coverages to compute. The time and memory for pairs grow with the square of the library's size.
 struct CoverageOptions {
   double budget_s = 1;             ///< maximal wait before a transition, seconds
-  bool with_pairs = true;          ///< computes Coverage::Of
+  bool with_pairs = true;          ///< also compute Coverage::Of
   std::vector<int> wanted = {};    ///< clips for which WithoutWayInto is computed; all if `with_pairs`
   OnProgress on_progress = {};     ///< gets the number of clips compared; each counts once per kind of comparison
 };
@@ -37,14 +37,14 @@ class Coverage {
   Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, const CoverageOptions& options = {});
 
   int ClipCount() const { return static_cast<int>(any_.size()); }
-  /// Returns how a clip leads into any other clip.
+  /// Returns how well a clip leads into any other clip.
   const ClipCoverage& IntoAny(int from) const { return any_[static_cast<std::size_t>(from)]; }
   bool HasPairs() const { return !pairs_.empty(); }
-  /// Returns how clip `from` leads into another clip. Only with `with_pairs`.
+  /// Returns how well clip `from` leads into clip `to`. Requires CoverageOptions::with_pairs.
   const ClipCoverage& Of(int from, int to) const { return pairs_[Pair(from, to)]; }
 
-  /// Returns the clips without a bridge frame that matches one of clip `wanted`. Paper A (section 3.5) demands that
-  /// every move has one into the corrective clip.
+  /// Returns the clips that have no bridge frame matching a bridge frame of clip `wanted`. Paper A (section 3.5)
+  /// demands that every move has one into the corrective clip.
   const std::vector<int>& WithoutWayInto(int wanted) const { return without_.at(wanted); }
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 using enum Role;
 
-/// The largest slope of Smootherstep, which is in its middle.
+/// The largest slope of Smootherstep, at its middle.
 constexpr double kPeakSlope = 1.875;
 
 /// Returns the frame of the upper body, with the axes left, up and front.
@@ -27,8 +27,8 @@ glm::dquat TrunkFrame(const BodyPose& pose) {
   return glm::quat_cast(glm::dmat3(left, up, glm::cross(left, up)));
 }
 
-/// Returns true if a limb's direction is interpolated in the trunk's frame: that of arms and head is; that of hips and
-/// legs is not, because feet would slide whenever the body bends.
+/// Returns true if a limb's direction is interpolated in the trunk's frame. This holds for arms and head, but not for
+/// hips and legs, because feet would slide whenever the body bends.
 bool GoesWithTrunk(Role child) {
   return child == kHead || (Index(child) >= Index(kLeftShoulder) && Index(child) <= Index(kRightHand));
 }
@@ -48,7 +48,7 @@ double LongestTween(const TweenRules& rules) { return std::max(rules.shortest_s,
 glm::dvec3 Tween::Turn::At(double part) const { return angle > 0 ? glm::angleAxis(part * angle, axis) * start : start; }
 
 Tween::Turn Tween::MakeTurn(const glm::dvec3& from, const glm::dvec3& to) {
-  // For opposite directions the axis is undefined; then limbs swing sideways, about the body's forward axis.
+  // For opposite directions the axis is undefined. Let limbs then swing sideways, about the body's forward axis.
   const glm::dvec3 fallback = UnitOr(glm::dvec3(0, 0, 1) - from.z * from, {0, 1, 0});
   return {.start = from, .axis = UnitOr(glm::cross(from, to), fallback), .angle = AngleBetween(from, to)};
 }
@@ -117,7 +117,7 @@ namespace {
 
 using Key = InBetweenNet::Key;
 
-/// Returns the frames that may become keys, the most typical frame of the most frequent pose first.
+/// Returns the frames that may become keys. The most typical frame of the most frequent pose comes first.
 std::vector<Key> RankForKeys(std::span<const TaggedClip> tagged, const FeatureWeights& weights) {
   const bool has_bridge_frames =
       std::any_of(tagged.begin(), tagged.end(), [](const TaggedClip& clip) { return !clip.bridge_frames.empty(); });

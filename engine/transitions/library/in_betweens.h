@@ -13,19 +13,19 @@ namespace etude {
 
 /// The speed limits of a tween. They are ours, because paper A does not specify the speed of its in-between.
 struct TweenRules {
-  /// Maximal angular velocity of any limb (reached half-way), radians per second, > 0.
+  /// The maximum angular velocity of any limb (reached half-way), radians per second, > 0.
   double turn_speed = Radians(360);
   double shortest_s = 0.3;  ///< minimum duration of a tween, seconds
-  /// Radians; two keys with a larger rotation of a limb are connected through the hub.
+  /// If a limb rotates farther than this between two keys, radians, the keys are connected through the hub.
   double widest_turn = Radians(120);
 };
 
-/// Returns the longest duration of a tween in seconds; a limb rotates by at most half a turn.
+/// Returns the longest duration of a tween in seconds: a limb then rotates by half a turn, the maximum.
 double LongestTween(const TweenRules& rules);
 
 /// The motion between two poses of one body. Limbs rotate and keep their lengths; the directions of arms and head are
 /// interpolated in the trunk's frame. The foot that bears the weight stays in place, and the height of the lowest joint
-/// is interpolated. The motion begins at `from`; `to` is rotated and moved on the floor to fit.
+/// is interpolated. The motion begins at `from`; `to` is rotated and moved on the floor to fit `from`.
 class Tween {
  public:
   Tween(const BodyPose& from, const BodyPose& to);
@@ -37,7 +37,7 @@ class Tween {
 
  private:
   struct Turn {
-    glm::dvec3 start{0}, axis{0};  ///< unit vectors, in the trunk's frame for arms and head, else in the world frame
+    glm::dvec3 start{0}, axis{0};  ///< unit vectors; arms and head: in the trunk's frame, others: in the world
     double angle = 0;
     glm::dvec3 At(double part) const;
   };
@@ -51,8 +51,8 @@ class Tween {
   std::array<double, kRoleCount> lengths_from_{}, lengths_to_{};
 };
 
-/// Returns samples of a tween, from `from` to the aligned `to`, with zero velocity and acceleration at both ends. Their
-/// number follows from the rules' speed.
+/// Returns samples of a tween, from `from` to the aligned `to`, with zero velocity and acceleration at both ends. The
+/// rules' speed determines their number.
 std::vector<BodyPose> SampleTween(const Tween& tween, double rate_hz, const TweenRules& rules);
 
 /// Appends a tween from the last of `frames` (at least one) to the aligned `to`.
@@ -65,9 +65,9 @@ struct InBetweenRules {
   TweenRules tween;
 };
 
-/// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14). It is built of bridge frames, so that it can
-/// be joined to any two clips. Ours is a star: key poses from all over the library, with tweens from any of them to any
-/// other, directly or through a hub.
+/// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14). It consists of bridge frames and can
+/// therefore be joined to any two clips. Ours is a star: key poses from all over the library, with tweens from any key
+/// to any other, directly or through a hub.
 struct InBetweenNet {
   /// A bridge frame from which in-betweens are built.
   struct Key {
@@ -79,8 +79,8 @@ struct InBetweenNet {
 };
 
 /// Chooses the keys of a library's in-betweens. It goes through the bridge frames from the most frequent pose to the
-/// rarest, within each pose from the most typical frame on, and makes a frame a key if no key is within the threshold.
-/// In a library without bridge frames all frames are candidates. The library must have at least one frame.
+/// rarest, and within each pose from the most typical frame on. A frame becomes a key if no key is within the
+/// threshold. In a library without bridge frames all frames are candidates. The library must have at least one frame.
 InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules = {});
 
 /// Returns the longest duration of an in-between in seconds: two tweens, each rounded up to whole frames.

@@ -78,7 +78,7 @@ std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const B
     for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) frames.push_back(FeaturesAt(motion, f));
   }
   const std::array<double, kVectorCount> spreads = Spreads(computed);
-  constexpr double kNoSpread = 1e-9;  // smaller than this is rounding, not movement
+  constexpr double kNoSpread = 1e-9;  // smaller values are rounding errors, not movement
   for (auto& frames : computed) {
     for (MotionFeatures& features : frames) {
       for (std::size_t i = 0; i < kMotionFeatureCount; ++i) {

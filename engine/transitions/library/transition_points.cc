@@ -9,7 +9,7 @@
 namespace etude {
 
 FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s) {
-  constexpr double kRounding = 1e-9;  // so that 4.1 s are 123 frames, although 4.1 · 30 is rounded below 123
+  constexpr double kRounding = 1e-9;  // tolerance; 4.1 · 30 is rounded below 123, but 4.1 s are 123 frames
   const int wait = static_cast<int>(std::floor(budget_s * playing.rate_hz + kRounding));
   return {request, std::min(request + wait, playing.FrameCount() - 1)};
 }
@@ -35,7 +35,7 @@ bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b,
 
 std::optional<TransitionPoint> FindTransitionPoint(const TaggedClip& playing, FrameWindow window,
                                                    const TaggedClip& next, const MatchRules& rules) {
-  // The frames are in rising order, so those of the front half come first.
+  // Frames rise, so those of the front half come first.
   const std::vector<int> entering = BridgeFramesWithin(next, EntryWindow(next));
   const auto rank = [&](const TransitionPoint& point) {
     return std::tuple(!next.InFrontHalf(point.to), point.distance.value);

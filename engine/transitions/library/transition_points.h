@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A transition point: frame `from` of the playing clip, which frame `to` of the next clip replaces.
+/// A transition point: frame `to` of the next clip replaces frame `from` of the playing clip.
 struct TransitionPoint {
   int from = 0;
   int to = 0;
@@ -24,21 +24,21 @@ struct FrameWindow {
   bool Contains(int frame) const { return first <= frame && frame <= last; }
 };
 
-/// Returns the frames within the waiting budget: from `request` to `request` + `budget_s` seconds, limited to the clip.
+/// Returns the frames within the budget: from `request` to `request` + `budget_s` seconds, limited to the clip.
 FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s);
-/// Returns the frames that may be entered: all except the last, which has no next frame.
+/// Returns the frames that may be entered: all except the last, after which the clip shows nothing.
 FrameWindow EntryWindow(const TaggedClip& next);
 
 /// Returns the frames of a window in rising order.
 std::vector<int> FramesWithin(FrameWindow window);
 std::vector<int> BridgeFramesWithin(const TaggedClip& clip, FrameWindow window);
 
-/// Returns true if two frames match under the rules.
+/// Returns true if frame `frame_a` of `a` and frame `frame_b` of `b` match under the rules.
 bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b, const MatchRules& rules);
 
-/// Searches as paper A does (algorithms A5): each bridge frame of `playing` in the window is compared with the bridge
-/// frames of `next` that may be entered, those of the front half first, because entering a clip near its end looks
-/// unnatural. Returns nothing if no pair matches.
+/// Searches as in paper A (algorithms A5). Each bridge frame of `playing` in the window is compared with the bridge
+/// frames of `next` that may be entered. Frames of the front half come first, because entering a clip near its end
+/// looks unnatural. Returns nullopt if no pair matches.
 std::optional<TransitionPoint> FindTransitionPoint(const TaggedClip& playing, FrameWindow window,
                                                    const TaggedClip& next, const MatchRules& rules);
 

@@ -37,8 +37,8 @@ MatchClip::MatchClip(std::span<const Grades> grades, std::span<const Tags> tags,
 /// Finds the frames of one clip that match frames of another.
 ///
 /// The query frames are processed in time order, and motion is smooth. By the triangle inequality, the distance to a
-/// block of targets can shrink from one query to a later one by at most the summed distance between the queries. So a
-/// block is compared again only when that sum has become large enough.
+/// block of targets can shrink from one query to a later one by at most the summed distance between the queries. A
+/// block is therefore compared again only when that sum has become large enough.
 class PairSearch {
  public:
   PairSearch(const MatchClip& from, const MatchClip& to, const MatchRules& rules)
@@ -67,7 +67,7 @@ class PairSearch {
     double reach;  // distance at the last comparison plus `travelled_` at that time
   };
 
-  /// Collects the target blocks that may hold a match of a frame in `asking`.
+  /// Collects the target blocks that may hold a match of a query frame in the box `asking`.
   void FindNearBlocks(const GradeBox& asking) {
     near_.clear();
     const double limit = SquaredLimit(rules_.threshold);
@@ -83,7 +83,7 @@ class PairSearch {
 
   /// Returns a lower bound of the distance from the current query frame to any frame of the block.
   double LeastDistance(const NearBlock& near) const {
-    // The margin is larger than the rounding errors of distances and their sums, and too small to cause needless
+    // The margin is larger than the rounding errors of distances and their sums, but too small to cause many needless
     // comparisons.
     constexpr double kRounding = 1e-9, kTiniest = 1e-150;
     const double rest = near.reach - travelled_ - kRounding * (near.reach + travelled_) - kTiniest;
@@ -93,16 +93,16 @@ class PairSearch {
   bool HasMatch(std::size_t asking) {
     for (std::size_t i = 0; i < near_.size(); ++i) {
       if (LeastDistance(near_[i]) >= rules_.threshold || !CompareBlock(asking, near_[i])) continue;
-      // The next frame is similar, so it is compared with this block first.
+      // Compare this block first for the next frame, which is similar.
       std::swap(near_[0], near_[i]);
       return true;
     }
     return false;
   }
 
-  /// Returns true if the query matches a frame of the block.
+  /// Returns true if the query frame `asking` matches a frame of the block.
   bool CompareBlock(std::size_t asking, NearBlock& near) const {
-    // Distances up to twice the threshold are computed; they tell for how many queries the block can be skipped.
+    // Compute distances up to twice the threshold; they determine for how many queries the block can be skipped.
     const double farthest = 2 * rules_.threshold;
     const int start = near.block * kBlockLanes;
     const BlockResult result =

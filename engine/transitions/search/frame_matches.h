@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A clip prepared for the comparison of its frames with those of other clips.
+/// A clip prepared for comparing its frames with those of other clips.
 class MatchClip {
  public:
   /// Prepares a clip. `grades` and `tags` have one entry per frame; tags are read only if `rules.within_class`.
@@ -24,7 +24,7 @@ class MatchClip {
   friend class PairSearch;
 
   std::vector<int> frames_;
-  std::vector<Grades> grades_;  // per frame of `frames_`, as the next two
+  std::vector<Grades> grades_;  // per frame of `frames_`, like the next two members
   std::vector<Tags> tags_;      // empty if classes do not matter
   std::vector<double> steps_;   // distance to the frame before
   std::vector<GradeBox> boxes_;  // one per sixteen of `frames_`
@@ -35,9 +35,9 @@ class MatchClip {
   std::vector<BoxBlock> target_boxes_;  // target_boxes_[i] holds the boxes of targets_[16 i] …
 };
 
-/// Returns the frames of `from` that match (d < threshold) a frame of `to`, in rising order. The last frame of `to` is
-/// never a match, because it has no next frame. `rules` must be those of both clips; `rules.pick` has no effect. The
-/// result is exact: that of a loop over `ComputeDistance`.
+/// Returns the frames of `from` that match (d < threshold) a frame of `to`, in rising order. The last frame of `to`
+/// never matches, because no frame follows it. `rules` must be the rules with which both clips were prepared;
+/// `rules.pick` has no effect. The result is exactly that of a loop over `ComputeDistance`.
 std::vector<int> FindMatchingFrames(const MatchClip& from, const MatchClip& to, const MatchRules& rules);
 
 }  // namespace etude

@@ -1,4 +1,4 @@
-// This file is compiled once for every vector instruction set of x86-64 CPUs; the best one is chosen at run time
+// This file is compiled once for every vector instruction set of x86-64 CPUs; the best version is chosen at run time
 // (engine/kinematics/solvers/README.md explains why Highway is used).
 #include "engine/transitions/search/grade_blocks.h"
 
@@ -11,7 +11,7 @@
 #define HWY_TARGET_INCLUDE "engine/transitions/search/grade_blocks.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// This is included after foreach_target.h, once per target.
+// This header must be included after foreach_target.h.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,8 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, kBlockLanes / 2>;
 using Vec = hn::Vec<Tag>;
 
-/// Sums up the weighted squares of the differences `gap(term, lane)`, for the vector of lanes that begins at `lane`, in
-/// the same order as `ComputeDistance`. It does not use MulAdd, which rounds once where CPUs without it round twice. It
+/// Sums up the weighted squares of the differences `gap(term, lane)` for the vector of lanes that begins at `lane`, in
+/// the order of `ComputeDistance`. MulAdd is not used: it rounds once, while CPUs without it round twice. The function
 /// stops when all lanes exceed the limit, because the sums never decrease.
 template <class Gap>
 HWY_INLINE BlockResult SumSquares(const GradeMetric& metric, double limit, const Gap& gap) {
@@ -93,7 +93,7 @@ HWY_EXPORT(Distances);
 HWY_EXPORT(Bounds);
 
 GradeMetric::GradeMetric(const FeatureWeights& feature_weights) : weights(feature_weights) {
-  // SumSquares may stop early only because partial sums never decrease, which negative weights would break.
+  // Negative weights are not allowed: SumSquares stops early because partial sums never decrease.
   for ([[maybe_unused]] double weight : weights) assert(weight >= 0);
   for (std::size_t k = 0; k < kFeatureCount; ++k) first_term[k] = FirstTermOf(AllFeatures()[k]);
   first_term[kFeatureCount] = kTermCount;
@@ -149,8 +149,8 @@ void SetBlockTarget(const std::string& target) {
 }
 
 double SquaredLimit(double distance) {
-  // The square root and the square are each rounded by at most half a unit in the last place, or by the smallest
-  // denormal near zero.
+  // The slack covers the rounding of the square root and of the square, each by at most half a unit in the last place,
+  // or by the smallest denormal near zero.
   constexpr double kSlack = 1 + 4 * std::numeric_limits<double>::epsilon();
   return distance * distance * kSlack + std::numeric_limits<double>::denorm_min();
 }

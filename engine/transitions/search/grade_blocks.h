@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// The number of frames, or boxes of frames, that are compared together.
+/// The number of frames, or of boxes of frames, that are compared together.
 constexpr int kBlockLanes = 16;
 using BlockLanes = std::array<double, kBlockLanes>;
 
@@ -28,7 +28,7 @@ struct GradeBox {
 
   void Include(const GradeBox& other);
 };
-/// Returns the box of at least one frame.
+/// Returns the box of these frames, of which there must be at least one.
 GradeBox BoxOf(std::span<const Grades> frames);
 
 /// Sixteen boxes, stored term by term. They are rounded outwards to single precision, because reading them dominates
@@ -42,12 +42,13 @@ struct alignas(64) BoxBlock {
 
 /// Returns the number of blocks for `count` frames.
 constexpr int BlocksFor(std::size_t count) { return static_cast<int>((count + kBlockLanes - 1) / kBlockLanes); }
-/// Returns the bits of a block's used lanes if `count` frames are left from its first lane on.
+/// Returns a bit mask of a block's used lanes. `count` is the number of frames from the block's first lane to the last
+/// frame of all.
 constexpr std::uint32_t LanesOf(int count) { return count >= kBlockLanes ? 0xffff : (1u << count) - 1; }
 
 /// The constants of equation 1: the terms and the weight of each feature.
 struct GradeMetric {
-  /// Makes the metric from weights ≥ 0.
+  /// Makes the metric from weights, which must be ≥ 0.
   explicit GradeMetric(const FeatureWeights& feature_weights);
 
   FeatureWeights weights;
@@ -55,7 +56,7 @@ struct GradeMetric {
   std::array<std::size_t, kFeatureCount + 1> first_term{};
 };
 
-/// The squares of sixteen distances, and which of them are within the limit.
+/// The squares of sixteen distances, and a mask of those within the limit.
 struct BlockResult {
   alignas(64) BlockLanes squared;  ///< valid for the lanes in `kept`; the other sums may be incomplete
   std::uint32_t kept = 0;          ///< bit i is set if lane i is at most the limit
@@ -68,20 +69,20 @@ void ForEachLane(std::uint32_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
-/// Returns d² of `query` and every frame of the block. The values are bit-identical to those whose square root
-/// `ComputeDistance` returns, on every CPU.
+/// Returns d² between `query` and every frame of the block. On every CPU, the values are bit-identical to those of
+/// which `ComputeDistance` returns the square root.
 BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit);
 
-/// Returns a lower bound of d² between any frame in `query` and any frame in each box (rounded outwards). It never
-/// exceeds the d² of such a pair as `ComputeDistance` rounds it, because both use the same operations in the same
-/// order, and rounding is monotonic.
+/// For each box (rounded outwards), returns a lower bound of d² between any frame in `query` and any frame in the box.
+/// The bound never exceeds d² as `ComputeDistance` rounds it, because both use the same operations in the same order,
+/// and rounding is monotonic.
 BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit);
 
-/// Returns a limit on d² that is not exceeded by any frame whose rounded distance is at most `distance`.
+/// Returns a limit for d²: a frame whose rounded distance is at most `distance` never exceeds the limit.
 double SquaredLimit(double distance);
 
-/// BlockTargets returns the vector instruction sets of this CPU, the best first. SetBlockTarget chooses one of them, or
-/// the best if the name is unknown. Both are for tests and benchmarks.
+/// For tests and benchmarks: BlockTargets returns the vector instruction sets of this CPU, the best first.
+/// SetBlockTarget chooses one of them, or the best if the name is unknown.
 std::vector<std::string> BlockTargets();
 void SetBlockTarget(const std::string& target);
 

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// A frame and its coordinate along the axis of a split.
+/// A frame's index and its coordinate along the axis of a split.
 struct Placed {
   double at;
   int frame;
@@ -32,7 +32,7 @@ class Splitter {
     const std::size_t axis = WidestAxis(order);
     const std::span<Placed> placed(placed_.data(), order.size());
     for (std::size_t i = 0; i < order.size(); ++i) placed[i] = {frames_[order[i]][axis], order[i]};
-    // The left side gets a power of two of blocks, so that each block, and each group of sixteen blocks, is a subtree.
+    // The left side gets a power of two of blocks. Each block, and each group of sixteen blocks, is then a subtree.
     const std::size_t blocks = (order.size() + kBlockLanes - 1) / kBlockLanes;
     const std::size_t left = std::bit_ceil(blocks) / 2 * kBlockLanes;
     std::ranges::nth_element(placed, placed.begin() + static_cast<std::ptrdiff_t>(left), {},
@@ -73,8 +73,8 @@ class Splitter {
   std::vector<Placed> placed_;
 };
 
-/// Returns the indices of all frames in the order of a k-d tree: each `kBlockLanes` consecutive frames form a block of
-/// near frames, each sixteen blocks form a node, and so on. Within a block the frames are in time order.
+/// Returns the indices of all frames in the order of a k-d tree: each `kBlockLanes` consecutive indices are a block of
+/// near frames, each sixteen blocks a node, and so on. Within a block the frames are in time order.
 std::vector<int> OrderForBlocks(std::span<const Grades> frames, const GradeMetric& metric) {
   std::vector<int> order(frames.size());
   std::iota(order.begin(), order.end(), 0);
@@ -99,7 +99,7 @@ GradeIndex::GradeIndex(std::span<const Grades> frames, const FeatureWeights& wei
     blocks_[i / kBlockLanes].Set(static_cast<int>(i % kBlockLanes), frames[order_[i]]);
     if (!tags.empty()) tags_.push_back(tags[order_[i]]);
   }
-  // Build the tree upwards. `below` holds the nodes of one level; those of the first are the frame blocks.
+  // Build the tree upwards. `below` holds the nodes of the level below; at first these are the frame blocks.
   std::vector<Node> below;
   const auto add_to_last = [](std::vector<Node>& nodes, std::size_t number, const Node& child) {
     if (number % kBlockLanes == 0) {
@@ -143,7 +143,7 @@ std::int64_t GradeIndex::Bytes() const {
 
 bool GradeIndex::HasMatch(const Query& query, int& hint) const {
   if (blocks_.empty() || !(query.threshold > 0)) return false;
-  // Consecutive frames are similar, so the block of the last match usually holds the next one.
+  // Try the block of the last match first: consecutive frames are similar.
   if (hint >= 0 && hint < static_cast<int>(blocks_.size()) && HasMatchIn(hint, query)) return true;
   return HasMatchBelow(static_cast<int>(levels_.size()) - 1, 0, query, hint);
 }
@@ -169,7 +169,7 @@ bool GradeIndex::HasMatchBelow(int level, int node, const Query& query, int& hin
     hint = node;
     return true;
   }
-  // Collect the children that may hold a match, without those that hold frames of the query's own clip only.
+  // Collect the children that may hold a match. Skip children that hold only frames of the query's own clip.
   const Level& of = levels_[level];
   const int first = node * kBlockLanes;
   const int count = std::min(kBlockLanes, static_cast<int>(of.first_frames.size()) - first);
@@ -182,7 +182,7 @@ bool GradeIndex::HasMatchBelow(int level, int node, const Query& query, int& hin
     if (of.first_frames[child] >= query.own_first && of.last_frames[child] < query.own_end) return;
     children[children_count++] = {bounds.squared[lane], child};
   });
-  // The nearest child is the most likely one to hold a match.
+  // Search the nearest child first, because it most likely holds a match.
   std::sort(children.begin(), children.begin() + children_count);
   return std::any_of(children.begin(), children.begin() + children_count,
                      [&](const auto& child) { return HasMatchBelow(level - 1, child.second, query, hint); });

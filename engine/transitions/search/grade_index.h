@@ -10,34 +10,34 @@
 
 namespace etude {
 
-/// An exact index over the fuzzy grades of all frames of a library. It answers whether a frame matches a frame of any
-/// other clip. The answers are those of a loop over `ComputeDistance`.
+/// An index over the fuzzy grades of all frames of a library. It finds whether a frame matches a frame of any other
+/// clip. The answer is exactly that of a loop over `ComputeDistance`.
 class GradeIndex {
  public:
-  /// A frame that looks for a match.
+  /// A frame for which a match is searched.
   struct Query {
     const Grades& grades;
     double threshold = 0;          ///< a frame matches if its distance is smaller
-    int own_first = 0;             ///< the frames own_first … own_end − 1 belong to its own clip and never match
+    int own_first = 0;             ///< frames own_first … own_end − 1 belong to the query's own clip and never match
     int own_end = 0;
     const Tags* tags = nullptr;    ///< if not null, only frames with the same ten tags match
   };
 
-  /// Indexes at most 2³¹ − 1 `frames` with `weights` ≥ 0. Frames of one clip must be consecutive. `tags`, one per frame,
-  /// may be empty if no query asks for them. It copies frames and tags.
+  /// Indexes at most 2³¹ − 1 `frames`, with `weights` ≥ 0. Frames of one clip must be consecutive. `tags` has one entry
+  /// per frame, or is empty if no query has tags. Frames and tags are copied.
   GradeIndex(std::span<const Grades> frames, const FeatureWeights& weights, std::span<const Tags> tags = {});
 
   int FrameCount() const { return static_cast<int>(order_.size()); }
   /// Returns the memory in use, in bytes.
   std::int64_t Bytes() const;
 
-  /// Returns true if any frame matches. `hint` is read and updated: where the last match of a similar frame was found.
-  /// Any value gives the same answer; begin with 0.
+  /// Returns true if any frame matches. `hint` is read and updated: it holds the block of the last match, which helps a
+  /// search for a similar frame. Every value gives the same answer; begin with 0.
   bool HasMatch(const Query& query, int& hint) const;
 
  private:
-  /// A level of the tree, with one node per sixteen nodes of the level below (on the lowest level: per sixteen frame
-  /// blocks).
+  /// A level of the tree. One node stands for sixteen nodes of the level below, or on the lowest level for sixteen
+  /// frame blocks.
   struct Level {
     std::vector<BoxBlock> boxes;  ///< boxes of each node's children
     std::vector<int> first_frames, last_frames;  ///< of each child

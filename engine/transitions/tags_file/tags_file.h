@@ -21,15 +21,15 @@ struct TaggedFrame {
   int frame = 0;  ///< index in its clip, from 0
   Tags tags{};
   Grades grades{};
-  int clips = 1;          ///< number of the library's clips in which its ten tags occur together
-  double difference = 0;  ///< to the frames with the same tags in other clips (FrameRating)
+  int clips = 1;          ///< number of clips of the library in which its ten tags occur together
+  double difference = 0;  ///< FrameRating::difference: to frames with the same tags in other clips
 
   friend bool operator==(const TaggedFrame&, const TaggedFrame&) = default;
 };
 
 /// The entry of one clip in a tags file.
 struct ClipTags {
-  std::string name, source;  ///< the clip's name in tables, and the source it is loaded from
+  std::string name, source;  ///< the clip's name in tables, and the name from which it is loaded
   int frames = 0;
   double rate_hz = kJudgedRateHz;
   std::vector<TaggedFrame> bridge_frames;  ///< in rising order
@@ -48,7 +48,7 @@ struct KeyTag {
 /// The contents of a tags file: the bridge frames of a library, and the rules that found them.
 struct BridgeTags {
   std::string system;              ///< the fuzzy system's name
-  std::string memberships_digest;  ///< sixteen hexadecimal digits, of its membership functions
+  std::string memberships_digest;  ///< digest of the membership functions: sixteen hexadecimal digits
   FeatureWeights weights{};        ///< S of equation 1
   double threshold = kPaperThreshold;
   bool within_class = false;
@@ -64,22 +64,22 @@ struct BridgeTags {
 /// Returns a digest that identifies a set of membership functions.
 std::string MembershipsDigest(const FuzzySystem& system);
 
-/// Collects the tags of a library that was made with `tag_rules` and `system`. `sources` holds one entry per clip.
+/// Collects the tags of a library that was made with `tag_rules` and `system`. `sources` has one entry per clip.
 BridgeTags CollectTags(const TaggedLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
                        const TagRules& tag_rules, const MatchRules& match_rules);
 
-/// The maximal size of a tags file in bytes; a larger file is rejected before memory is allocated.
+/// The maximum size of a tags file in bytes. Larger files are rejected before memory is allocated.
 constexpr std::size_t kMaxTagsFileBytes = 512'000'000;
 
-/// Writes the tags as XML of docs/schemas/bridge-tags.xsd. The same tags give the same bytes, and numbers have the
-/// fewest digits that are read back exactly. Returns an error for names that XML cannot hold (invalid UTF-8, control
+/// Writes the tags as XML by docs/schemas/bridge-tags.xsd. The same tags give the same bytes. Numbers have the fewest
+/// digits that are read back exactly. Returns an error for names that XML cannot hold (invalid UTF-8, control
 /// characters).
 Result<std::string> WriteTagsFile(const BridgeTags& tags);
 
-/// Reads what WriteTagsFile writes, bit for bit; error messages name it `file`. It validates the text against the
-/// schema and checks its consistency: frames lie within their clips and rise, times and tags follow from frames and
-/// grades, clip names are unique, keys are bridge frames. A document type declaration is an error, and no entity is
-/// loaded or expanded.
+/// Reads the output of WriteTagsFile, bit for bit; error messages name it `file`. The text is validated against the
+/// schema and checked for consistency: frame numbers rise and lie within their clips, times follow from frames, tags
+/// follow from grades, clip names are unique, keys are bridge frames. A document type declaration is an error, and no
+/// entity is loaded or expanded.
 Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file);
 
 /// The result of comparing two sets of tags.
@@ -89,8 +89,8 @@ struct TagsComparison {
   int bridge_frames = 0;                 ///< number of bridge frames in both
 };
 
-/// Compares the tags of a file with the tags that its clips have now. Rules, clips, frames and keys must be equal;
-/// grades and differences must agree to 10⁻⁹.
+/// Compares the tags of a file with the current tags of its clips. Rules, clips, frames and keys must be equal; grades
+/// and differences must agree to 10⁻⁹.
 TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now);
 
 }  // namespace etude

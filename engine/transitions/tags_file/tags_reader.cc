@@ -20,8 +20,8 @@
 namespace etude {
 namespace {
 
-/// Reads an XML document element by element and validates each element against a schema first. It loads nothing outside
-/// the text, expands no entities, and rejects a document type declaration.
+/// Reads an XML document element by element, and validates it against a schema. It loads nothing outside the text,
+/// expands no entities, and rejects a document type declaration.
 class XmlReader {
  public:
   static Result<XmlReader> Open(std::string_view text, std::string_view schema, const std::string& file);
@@ -29,7 +29,7 @@ class XmlReader {
   XmlReader& operator=(XmlReader&&) noexcept;
   ~XmlReader();
 
-  /// Goes to the next start of an element; returns false at the end of a valid document.
+  /// Goes to the next start tag; returns false at the end of a valid document.
   Result<bool> Next();
   /// Element returns the element's name; Attribute returns the value of one of its attributes, or "" if it is missing.
   std::string Element() const;
@@ -63,7 +63,7 @@ int LineOf(std::string_view text, std::size_t at) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
-/// Rejects documents that libxml2 would expand or would need quadratic time for.
+/// Rejects documents that would make libxml2 expand entities or take quadratic time.
 Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     return Fail({file, 0, 0}, "is empty; etude bridge writes tags files");
@@ -71,8 +71,8 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
   if (const std::size_t at = text.find("<!DOCTYPE"); at != std::string_view::npos) {
     return Fail({file, LineOf(text, at), 0}, "a document type declaration; allowed: none (entities are not expanded)");
   }
-  // The limit allows two names of 4096 bytes written as &quot; entities. It is needed because libxml2 takes quadratic
-  // time in the number of a tag's attributes.
+  // libxml2 takes quadratic time in the number of a tag's attributes, so tags are limited. The limit allows two names
+  // of 4096 bytes whose characters are all written as &quot; entities.
   constexpr std::size_t kMaxTagBytes = 65536;
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t next = std::min(text.find('<', start + 1), text.size());
@@ -98,11 +98,10 @@ struct XmlReader::State {
   std::string text;  // the text that the reader reads
   std::optional<Error> complaint;
   XmlPtr<xmlSchema, xmlSchemaFree> schema;
-  XmlPtr<xmlTextReader, xmlFreeTextReader> reader;  // declared after the schema, so that it is destroyed before it
+  XmlPtr<xmlTextReader, xmlFreeTextReader> reader;  // declared after the schema, and therefore destroyed before it
 
-  /// The error handler of libxml2. Only the first error is kept, because later ones may follow from it. Warnings count
-  /// as errors, because no tags file causes one. It is a template because the handler's type changed: the error is
-  /// const since libxml2 2.12.
+  /// The error handler of libxml2. Only the first error is kept, because it may cause the later ones. Warnings count as
+  /// errors, because no tags file causes one. This is a template because libxml2 2.12 made the handler's error const.
   template <typename ErrorPointer>
   static void Complain(void* self, ErrorPointer error) {
     State& state = *static_cast<State*>(self);
@@ -110,8 +109,8 @@ struct XmlReader::State {
     const int line = error->line > 0 ? error->line : state.Line();
     state.complaint = Error{{state.file, line, 0}, OneLine(error->message)};
   }
-  /// Starts to read the text from its beginning. The encoding is fixed, so that a document type declaration cannot be
-  /// hidden by another encoding.
+  /// Starts to read the text from its beginning. The encoding is fixed, because another encoding could hide a document
+  /// type declaration.
   void Start() {
     reader.reset(xmlReaderForMemory(text.data(), static_cast<int>(text.size()), nullptr, "UTF-8", XML_PARSE_NONET));
     if (reader) Listen();
@@ -134,8 +133,8 @@ Result<XmlReader> XmlReader::Open(std::string_view text, std::string_view schema
   state->text = text;
   state->schema = Compile(schema);
   RETURN_IF_ERROR(CheckBeforeParsing(text, file));
-  // The text is parsed twice, first without the schema, because libxml2 2.9 crashes if a syntax error or a warning
-  // occurs during validation.
+  // Parse the text twice, first without the schema: libxml2 2.9 crashes if a syntax error or a warning occurs during
+  // validation.
   state->Start();
   int read = 1;
   while (state->reader && read == 1 && !state->complaint) read = xmlTextReaderRead(state->reader.get());
@@ -177,13 +176,12 @@ Place XmlReader::Where() const {
   return {state_->file, static_cast<int>(xmlGetLineNo(node)), 0};
 }
 
-/// Fills BridgeTags element by element. The schema guarantees that all elements are there, in order and of the right
-/// kind.
+/// Fills BridgeTags element by element. The schema guarantees the presence, order and kind of all elements.
 class TagsReader {
  public:
   explicit TagsReader(XmlReader& xml) : xml_(xml) {}
 
-  /// Reads the current element into the tags. Returns the first complaint about it.
+  /// Reads the current element into the tags. Returns the first error in it.
   Result<void> ReadElement() {
     const std::string element = xml_.Element();
     if (element == "fuzzy-system") {
@@ -214,7 +212,7 @@ class TagsReader {
   BridgeTags Take() { return std::move(tags_); }
 
  private:
-  /// Records a complaint unless the element already has one.
+  /// Records an error, unless the element already has one.
   template <typename... Args>
   void Complain(fmt::format_string<Args...> format, Args&&... args) {
     if (!complaint_) complaint_ = Error{xml_.Where(), fmt::format(format, std::forward<Args>(args)...)};
@@ -251,7 +249,7 @@ class TagsReader {
 
   void ReadFrame() {
     ClipTags& clip = tags_.clips.back();
-    // Read the numbers and the grades.
+    // Read the numbers and the grades of a frame.
     TaggedFrame frame;
     frame.frame = Whole("frame");
     frame.clips = Whole("clips");

@@ -36,7 +36,7 @@ class XmlWriter {
   static void Free(xmlTextWriter* writer) { xmlFreeTextWriter(writer); }
 
   std::unique_ptr<xmlBuffer, void (*)(xmlBuffer*)> buffer_;
-  // Declared after the buffer, so that it is destroyed before it.
+  // This member is declared after the buffer, and therefore destroyed before it.
   std::unique_ptr<xmlTextWriter, void (*)(xmlTextWriter*)> writer_;
 };
 

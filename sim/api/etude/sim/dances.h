@@ -13,15 +13,15 @@ namespace etude::sim {
 /// Returns the names of the songs that come with Etude.
 ETUDE_API std::vector<std::string> SongNames();
 
-/// A dance that is part of Etude, and its moves as they look when they are danced right.
+/// A dance that is part of Etude, with its moves as they look if danced right.
 struct BuiltinDance {
   Dance dance;
   std::vector<TaughtMove> moves;
 };
-/// Throws engine::BadInput for an unknown song.
+/// Returns the dance of a song. Throws engine::BadInput for an unknown song.
 ETUDE_API BuiltinDance DanceOfSong(const std::string& song);
 
-/// Returns the body that performs the clips of scenarios; use it to get the same results as a scenario's cells.
+/// Returns the body that performs the clips of scenarios. Use it to get the results that a scenario's cells have.
 ETUDE_API engine::BodyProportions ScenarioProportions();
 
 }  // namespace etude::sim

@@ -14,8 +14,8 @@
 namespace etude::sim {
 
 struct StudioOptions {
-  /// The furnishing of the room, 0 to 1. At 0 it is a bare studio with a person of capsules in warm colours, at 1 a
-  /// lived-in room with a dressed person.
+  /// How furnished the room is, 0 to 1. At 0 it is a bare studio with a person of capsules in warm colours; at 1 it is
+  /// a lived-in room with a dressed person.
   double scene = 0;
   std::uint64_t seed = 1;  ///< of the room, its objects and the person's clothes
 };
@@ -25,20 +25,19 @@ struct Picture {
   Mask person;  ///< 1 where the person is visible
 };
 
-/// Returns two cameras side by side, as people set them up in front of a body that performs this motion: 640 × 480
-/// pixels, with nearly parallel axes, a few centimetres from the exact positions (random, by `seed`), and with the
-/// motion in both pictures as far as the lenses allow. Throws BadInput for a baseline that is not 0.05 to 2 m, and for
-/// a motion without frames.
+/// Returns two cameras side by side, placed as a person would place them in front of a body that performs this motion:
+/// 640 × 480 pixels, nearly parallel axes, a few centimetres from the exact positions (random, by `seed`). The motion
+/// is in both pictures as far as the lenses allow. Throws BadInput for a baseline that is not 0.05 to 2 m, and for a
+/// motion without frames.
 ETUDE_API std::vector<NamedCamera> StereoCameras(const BodyMotion& motion, double baseline_m = 0.6,
                                                  std::uint64_t seed = 1);
 
-/// A room in which a person moves in front of cameras without errors, which take each picture in an instant. The same
-/// picture is always drawn alike. Only one thread at a time may draw, even with different studios.
+/// A room in which a person moves in front of ideal cameras, which take each picture in an instant and without errors.
+/// A picture always has the same bytes. Only one thread at a time may draw, even with different studios.
 class ETUDE_API Studio {
  public:
   /// Throws BadInput for a motion without frames, no cameras, pictures of more than 4096 pixels a side, a lens with
-  /// distortion, or a scene out of range. It also throws if drawing is impossible; OSMesa or EGL is loaded when it is
-  /// needed.
+  /// distortion, or a scene out of range. Also throws if drawing is impossible: OSMesa or EGL is loaded on first use.
   Studio(const BodyMotion& motion, std::span<const NamedCamera> cameras, const StudioOptions& options = {});
   Studio(Studio&&) noexcept;
   Studio& operator=(Studio&&) noexcept;
@@ -46,7 +45,7 @@ class ETUDE_API Studio {
 
   /// Takes the picture of a frame of the motion. Throws BadInput if the camera or the frame does not exist.
   Picture Shoot(std::size_t camera, std::size_t frame) const;
-  /// Takes a picture from before the person came in. Objects that move are at other positions in it.
+  /// Takes a picture before the person enters the room. Moving objects are at other positions in it.
   Picture ShootEmpty(std::size_t camera) const;
 
  private:

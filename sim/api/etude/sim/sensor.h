@@ -12,15 +12,15 @@ namespace etude::sim {
 /// A Kinect-like sensor and its position. The same options and motion give the same reports on every machine.
 struct SensorOptions {
   std::string sensor = "v2";  ///< "v1", "v2", or the text of a sensor file, as `etude sensor fit` writes it
-  /// Factor on every error and probability, 0 to 10; at 0 hidden joints are inferred correctly.
+  /// A factor on every error and probability, 0 to 10. At 0, hidden joints are inferred correctly.
   double strength = 1;
   double distance_m = 2.75;  ///< along the floor from the middle of the body's motion; 0.5 to 10
   double turn = 0;           ///< radians about that middle; 0 is on its +Z side, π/2 on its +X side
   double height_m = 1;       ///< above the floor, 0.1 to 3; the sensor looks at the middle, one metre above the floor
-  std::uint64_t seed = 1;    ///< of every die
+  std::uint64_t seed = 1;    ///< the seed of all random numbers
 };
 
-/// Returns what the sensor would report of a body with this motion: one report per frame, positions in the world.
+/// Returns the reports of a sensor that watches a body with this motion: one report per frame, positions in the world.
 /// Throws BadInput for options out of range, a motion without frames, a rate that is not positive, and positions that
 /// are not finite.
 ETUDE_API SkeletonStream SenseSkeleton(const BodyMotion& motion, const SensorOptions& options = {});
