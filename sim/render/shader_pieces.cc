@@ -63,7 +63,7 @@ const char* const kRoomInFront = R"glsl(
 uniform sampler2D kept_room;
 uniform float farthest;
 
-// True if the room hides that depth.
+// Returns true if the room hides that depth.
 bool IsBehindRoom(float depth) {
   return texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0).a / farthest <= depth / farthest;
 }
@@ -173,13 +173,13 @@ float Hash(ivec3 cell) {
   return float((h ^ (h >> 15u)) & 0xffffu) / 65535.0;
 }
 
-// 1 in every other half of `period`; `blur` is the width of a pixel there.
+// Returns 1 in every second half of `period`, 0 in the others, smoothed over `blur`, the width of a pixel there.
 float Bands(float place, float period, float blur) {
   float edge = clamp(2.0 * blur / period, 0.001, 0.5);
   return smoothstep(0.5 - edge, 0.5 + edge, abs(2.0 * fract(place / period) - 1.0));
 }
 
-// A dark line of half width `half_width` at 0.
+// Returns the brightness of a dark line at 0 with half width `half_width`.
 float Line(float place, float half_width, float blur) {
   return (1.0 - smoothstep(half_width, half_width + blur, abs(place))) * half_width / (half_width + 0.5 * blur);
 }
