@@ -79,7 +79,7 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
   return file;
 }
 
-/// Makes a clip file of a motion that is a body already; the notes say where it comes from and what was changed.
+/// Makes a clip file of a motion that is a body already; `notes` says where the motion comes from and what was changed.
 ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path,
                     std::vector<std::string> notes) {
   ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
@@ -147,8 +147,8 @@ Result<double> BidsRate(const std::string& file, CappedReader& reader) {
   return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
 }
 
-/// Reads an array of joints, whose rate the file does not tell. `said` describes how the array was turned to Y up; it
-/// ends the note.
+/// Makes a clip file from an array of joints; the array itself states no frame rate. `said` describes how the array was
+/// turned to Y up; the note ends with it.
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                              const std::string& path, const OpenOptions& options, const std::string& said = "") {
   std::string note;
@@ -212,7 +212,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
     return FileOfArray(array, layout, path, options);
   }
-  // Motion-BIDS: rows of numbers, whose names and rate are in two files beside.
+  // Motion-BIDS: a table of numbers; two files beside it hold the columns' names and the rate.
   constexpr std::string_view kBidsEnd = "_motion.tsv";
   if (path.ends_with(kBidsEnd)) {
     const std::string stem = path.substr(0, path.size() - kBidsEnd.size());

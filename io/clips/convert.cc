@@ -31,7 +31,7 @@ bool ParseSeconds(std::string_view text, double& seconds) {
   return seconds >= 0;
 }
 
-// The same limit as for BVH files that are read, bytes.
+// The maximum size of a resampled clip, bytes; reading a BVH file has the same limit.
 constexpr double kMaxResampledBytes = 1e9;
 
 /// Converts a clip of another unit and up axis to metres and Y up.
@@ -164,7 +164,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (format == MotionFormat::kBids) converted.files = WriteMotionBids(motion, name, options.version);
     if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
     if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(motion);
-    // The rest pose of a body with its own proportions is the canonical stance, scaled to its limb lengths.
+    // The rest pose of a body with its own proportions is the canonical stance scaled to its limb lengths.
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
     if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest);
     if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);

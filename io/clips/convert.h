@@ -23,9 +23,9 @@ Result<TimeSpan> ParseTimeSpan(const std::string& text);
 /// Returns this part of a clip, or the whole clip without a span. An open end is the end of the clip.
 Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span);
 
-/// kBids is a folder of files.
+/// The formats that can be written. kBids (Motion-BIDS) is a folder of files; every other format is one file.
 enum class MotionFormat { kBvh, kGlb, kTrc, kCsv, kC3d, kNpz, kMot, kBids };
-/// Returns the format of a file by the extension of its name. It is never kBids.
+/// Returns the format of a file by the extension of its name, never kBids. Fails on an unknown extension.
 Result<MotionFormat> FormatOfName(const std::string& path);
 
 /// The figure that performs a converted motion.
@@ -42,12 +42,12 @@ struct ConvertOptions {
   std::string version = "";  ///< the program's version, for formats that store it
 };
 
-/// The bytes of the converted file, and what was done, in plain words.
+/// A converted file, and a description of the conversion for users.
 struct Converted {
   std::string bytes;
   BidsFiles files = {};  ///< for kBids, instead of `bytes`
   std::string note;      ///< "own skeleton", "as a body: Plug-in Gait", …
-  /// Every change that was made to the file's content; each once, also for several clips.
+  /// Every change that was made to the file's content. A change that concerns several clips is listed once.
   std::vector<std::string> changes;
 };
 

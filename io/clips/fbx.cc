@@ -157,7 +157,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
           "joints whose pre-rotations, post-rotations and orders are left out, because RotationActive is not set: {}",
           inactive));
     }
-    constexpr double kLong = 0.1;  // seconds; between closer keys, no curve goes far from a straight line
+    constexpr double kLong = 0.1;  // seconds; between keys that are closer, every curve is nearly a straight line
     if (const double apart = std::strtod(said->c_str() + name + 1, nullptr); apart > kLong) {
       remarks.push_back(
           fmt::format("its keys are up to {:.2f} s apart: between them joints go the shortest way at an "
@@ -172,7 +172,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     const std::string why = said->size() < 2 ? kReaderFailed : said->substr(1, kMaxMessageBytes);
     return Fail({path}, "{}{}", why, said->size() > 1 + kMaxMessageBytes ? " …" : "");
   }
-  // The child ended without an answer: tell limits that were reached from a crash.
+  // The child ended without an answer: distinguish an exceeded limit from a crash.
   const int status = child_->Wait();
   child_.reset();
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;

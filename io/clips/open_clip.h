@@ -27,19 +27,19 @@ struct SourceClip {
   std::optional<MadeBody> made = {};  ///< set if the clip is a body already: it is in metres, with Y up
   std::vector<std::string> remarks = {};  ///< repairs made while reading the file; UnderstandClip appends them to the
                                           ///< body's note
-  std::optional<JointMapOverrides> roles = {};  ///< as in ClipFile::roles; those of OpenOptions have priority
-  std::shared_ptr<const MarkerMotion> shown = {};  ///< as in ClipFile::shown; null for other clips
+  std::optional<JointMapOverrides> roles = {};  ///< ClipFile::roles; the roles in OpenOptions have priority
+  std::shared_ptr<const MarkerMotion> shown = {};  ///< this clip's entry of ClipFile::shown; null if there is none
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all
-/// animations of a glTF, or the animation named behind '#'. That name may leave out the prefix that exporters write
-/// ("Jump" for "Armature|Jump"). Fails if no such animation exists, and lists those that do. `options` may override the
-/// frame rate of files, and help to find the ground.
+/// animations of a glTF, or the animation named after '#'. The name may omit the prefix that exporters write ("Jump"
+/// for "Armature|Jump"). Fails if the animation does not exist, and lists the animations of the file. `options` may
+/// override the frame rate, and helps to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
-/// Reads the only clip that a reference names. Fails if it names several, and lists them.
+/// Reads the only clip that a reference names. Fails if the reference names several clips, and lists them.
 Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& options);
 
-/// A clip with its roles found and its body's motion.
+/// A clip, the roles of its joints, and the motion of its body.
 struct OpenedClip {
   SourceClip source;
   JointMap map;

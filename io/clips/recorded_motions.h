@@ -27,8 +27,8 @@ class RecordedMotions {
   /// Returns true if a file's text begins as a recording does.
   virtual bool IsRecording(std::string_view text) const = 0;
 
-  /// Reads the motions of a recording; each clip has its track's name. `path` is for complaints. Motions of joints that
-  /// are not the twenty are read as markers, by `options`.
+  /// Reads the motions of a recording; each clip has its track's name. `path` is for complaints. A motion of other
+  /// joints than the twenty is read as markers, with `options`.
   virtual Result<ClipFile> Read(const std::string& text, const std::string& path, const OpenOptions& options) const = 0;
 
   /// Returns the name of the track that the recorded method made.

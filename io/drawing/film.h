@@ -48,8 +48,8 @@ class FilmWorkers {
 
  private:
   struct Worker {
-    /// The socket carries single bytes. The process sends "drawn"; we send "data is there", or without a feed "a slot
-    /// is free".
+    /// The socket carries single bytes. The drawing process sends a byte for "drawn"; this process sends a byte for
+    /// "data is there", or without a feed for "a slot is free".
     std::optional<ForkedCopy> copy;
     int fed = 0, taken = 0;  ///< frames of this process: how many have got their data, and how many were returned
   };
@@ -139,7 +139,7 @@ class Scene {
 /// if `watch` stopped it; there is no file then.
 Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
                           const FilmWatch& watch, const std::filesystem::path& sound = {});
-/// Does the same without sound, for frames that are drawn from the data of `feed`.
+/// Works like EncodeFrames without sound, for frames that are drawn from the data of `feed`.
 Result<bool> EncodeFedFrames(const FilePath& path, int frames, int rate_hz, FrameFeed feed,
                              const FilmWorkers::Draw& draw, const FilmWatch& watch);
 

@@ -17,7 +17,7 @@ constexpr glm::dvec3 kTarget{0, 0.92, 0};
 constexpr double kBorder = 0.07;
 constexpr double kGridSpacing = 0.5;
 constexpr double kGridLine = 0.008;
-// Between these distances from the origin, in metres, the floor fades into the backdrop, and the shadow with it.
+// Between these distances from the origin, in metres, the floor and the shadow fade into the backdrop.
 constexpr double kFadeFrom = 1.2, kFadeTo = 2.4;
 constexpr glm::vec3 kFloorPaint{0.205, 0.226, 0.248};
 constexpr glm::vec3 kGridPaint{0.36, 0.40, 0.43};

@@ -14,7 +14,8 @@
 
 namespace etude {
 
-/// The part of the camera's view that must be visible, as tangents from its axis: x right, y down.
+/// The part of the camera's view that must be visible. Points are tangents of the angles from the viewing axis: x to
+/// the right, y down.
 struct ViewBounds {
   glm::dvec2 low{1e9};
   glm::dvec2 high{-1e9};

@@ -22,7 +22,7 @@ struct TableColumn {
 
 struct TableCell {
   TableCell() = default;
-  /// `markup` replaces the text on the page.
+  /// `markup`, if not "", replaces the text on the page.
   template <std::convertible_to<std::string_view> Text>
   TableCell(const Text& words, std::optional<double> value = {}, std::string markup = {})
       : text(std::string_view(words)), number(value), html(std::move(markup)) {}
@@ -40,7 +40,8 @@ struct TableCell {
 
 struct TableRow {
   std::vector<TableCell> cells = {};  ///< as many as the table has columns; none in a row that begins a group
-  std::string group = {};             ///< the heading of the rows that follow, across all columns; "" in all other rows
+  std::string group = {};             ///< the heading of the rows that follow, across all columns; "" in every other
+                                      ///< row
   /// An HTML comment that the page holds instead of the row; other writers leave it out.
   std::string mark = {};
   std::string attributes = {};  ///< HTML attributes of the row, or of the group: " class=\"taken\""

@@ -208,7 +208,7 @@ std::optional<long> FrameNumber(const Json& id) {
 
 constexpr long kMaxFrames = 1'000'000;
 
-/// Sorts numbered frames into a film.
+/// Puts numbered frames in order and returns them as a film.
 Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, const FilmOfKeypoints& of,
                              const Place& place) {
   PeopleOfFilm film;

@@ -78,8 +78,8 @@ struct ExecPlan {
   const char* path;
   char* const* argv;
   char* const* envp;
-  int input, output, errors;  ///< descriptors; errors −1 = it shares ours
-  int report;                 ///< a pipe to which it writes the errno if it fails
+  int input, output, errors;  ///< descriptors; `errors` is −1 if the child shares ours
+  int report;                 ///< a pipe to which the child writes the errno of a failure
   int parent;                 ///< a pidfd of this process
   bool limited, contained;
   std::string user_map, group_map;
@@ -138,7 +138,8 @@ bool SetUpNamespaces(const ExecPlan& child) {
   ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   for (std::size_t i = 0; i < child.texts.size(); ++i) {
     const int wanted = STDERR_FILENO + 1 + static_cast<int>(i);
-    // The texts were opened after three pipes, so each number is higher than its copy's: none is overwritten too early.
+    // The texts were opened after three pipes, so each has a higher number than its target, and no target overwrites a
+    // text that is still to be copied.
     if (::dup2(child.texts[i].number(), wanted) < 0 || ::lseek(wanted, 0, SEEK_SET) != 0) GiveUp(child, errno);
   }
   ::execve(child.path, child.argv, child.envp);
@@ -340,7 +341,7 @@ std::size_t ChildProcess::UnreadBytes() const {
 }
 
 bool ChildProcess::Receive(std::size_t max_line_bytes) {
-  SendOn();  // also if it has closed its input: there may be output to read
+  SendOn();  // also if the child has closed its input: its output may still hold lines
   buffer_.erase(0, line_start_);
   scanned_ -= line_start_;
   line_start_ = 0;

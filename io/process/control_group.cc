@@ -59,7 +59,7 @@ bool MakePlaceOf(const fs::path& own) {
   return false;
 }
 
-/// Removes the groups whose makers have ended. The kernel refuses it for groups that still contain processes.
+/// Removes the groups whose makers have ended. The kernel refuses to remove groups that still contain processes.
 void RemoveLeftGroups(const fs::path& place) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {

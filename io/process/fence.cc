@@ -34,9 +34,9 @@ constexpr double kNameBytes = 700, kInodeBytes = 900;  // bytes per temporary fi
 
 /// Folders that every program sees: the system's programs and libraries.
 constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt", "/nix"};
-/// The system's settings that every program sees: those of loaders, interpreters and libraries. It lists what is
-/// allowed, so that files with secrets, users or the machine's identity stay hidden, even if they are added later. "*"
-/// at the end matches any rest of the name.
+/// The system's settings that every program sees: those of loaders, interpreters and libraries. All other settings stay
+/// hidden, so that secrets, lists of users and the machine's identity are hidden even if they are added later. "*" at
+/// the end matches any rest of the name.
 constexpr const char* kSettings = "/etc";
 constexpr std::array kShownSettings = {
     "ld.so.*",       "alternatives",   "localtime",     "timezone",  "locale.alias",
@@ -79,7 +79,7 @@ void Add(std::vector<std::string>& words, std::initializer_list<std::string> mor
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// Returns changes to the closed environment that remove what names our folders or the user.
+/// Returns changes to the closed environment that remove the names of our folders and of the user.
 std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
   std::string folders;
   const char* variable = ::getenv("PATH");
@@ -145,8 +145,8 @@ std::vector<fs::path> KeptFromUsers() {
   return kept;
 }
 
-/// The first process in a fence: a shell that waits for the program. It replaces bubblewrap's own, whose memory holds
-/// our folders' names and could be read by programs inside.
+/// The first process in a fence: a shell that waits for the program. It replaces bubblewrap's own first process:
+/// programs inside could read its memory, which holds our folders' names.
 constexpr const char* kFirstProcess = R"(exec 3>&2 2>/dev/null; (exec "$@" 2>&3 3>&-); exit $?)";
 
 /// Returns the first line that a command in the fence prints, or the error of the fence; "" if there is none in time.

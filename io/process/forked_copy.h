@@ -47,7 +47,7 @@ class ForkedCopy {
 /// Writes all bytes to a socket. Returns false if the other end is closed.
 bool SendAll(int socket, std::string_view bytes);
 
-/// Reads exactly `size` bytes from a socket. Returns false if the other end is closed before.
+/// Reads exactly `size` bytes from a socket. Returns false if the other end is closed earlier.
 bool ReceiveAll(int socket, char* bytes, std::size_t size);
 
 }  // namespace etude

@@ -34,7 +34,7 @@ struct Refusal {
 };
 
 constexpr auto kRefused = std::to_array<Refusal>({
-    // Memory that cannot be measured, and resources that are counted per user or machine.
+    // Refuse memory that cannot be measured, and resources that are counted per user or per machine.
     {SYS_memfd_create, ENOSYS},
     {SYS_memfd_secret, ENOSYS},
     {SYS_shmget, ENOSYS},
@@ -59,7 +59,7 @@ constexpr auto kRefused = std::to_array<Refusal>({
     {SYS_clone3, ENOSYS},
     // io_uring performs the operations above without system calls.
     {SYS_io_uring_setup, ENOSYS},
-    // The user's keys, and information about other processes.
+    // Refuse the user's keys, and information about other processes.
     {SYS_add_key, ENOSYS},
     {SYS_request_key, ENOSYS},
     {SYS_keyctl, ENOSYS},
@@ -110,7 +110,7 @@ std::string SystemCallFilter() {
     Add(families, {SkipUnless(BPF_JEQ, static_cast<std::uint32_t>(family), 1), kAllow});
   families.push_back(Refuse(EAFNOSUPPORT));
   for (const auto number : {SYS_socket, SYS_socketpair}) AddCall(filter, number, families);
-  // Large pipes, and locks and leases that CountLocks cannot attribute to a process.
+  // Refuse large pipes, and locks and leases that CountLocks cannot attribute to a process.
   AddCall(filter, SYS_fcntl,
           {LoadArgument(1), SkipUnless(BPF_JEQ, F_SETPIPE_SZ, 1), Refuse(EPERM), SkipUnless(BPF_JEQ, F_OFD_SETLK, 1),
            Refuse(EINVAL), SkipUnless(BPF_JEQ, F_OFD_SETLKW, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, F_SETLEASE, 1),
@@ -121,12 +121,12 @@ std::string SystemCallFilter() {
            Refuse(EINVAL), kAllow});
   AddCall(filter, SYS_close_range,
           {LoadArgument(2), SkipUnless(BPF_JSET, CLOSE_RANGE_UNSHARE, 1), Refuse(EINVAL), kAllow});
-  // Descriptor tables: shared by the threads of one process, and by no other process.
+  // Allow descriptor tables that the threads of one process share; refuse those shared between processes.
   AddCall(filter, SYS_clone,
           {LoadArgument(0), BPF_STMT(BPF_ALU | BPF_AND | BPF_K, CLONE_THREAD | CLONE_FILES),
            SkipUnless(BPF_JEQ, CLONE_THREAD, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, CLONE_FILES, 1), Refuse(EINVAL),
            kAllow});
-  // Huge pages.
+  // Refuse huge pages.
   constexpr std::uint32_t kCollapse = 25;  // MADV_COLLAPSE
   AddCall(filter, SYS_madvise,
           {LoadArgument(2), SkipUnless(BPF_JEQ, MADV_HUGEPAGE, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, kCollapse, 1),

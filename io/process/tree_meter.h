@@ -29,12 +29,12 @@ struct ElapsedTime {
   double wall_s = 0;
 };
 
-/// Returns true if a tree starves the one who measures it: an expensive measurement has waited for most of its time,
-/// while the tree used more than half of all cores.
+/// Returns true if a tree of processes starves the process that measures it: an expensive measurement has spent most of
+/// its time waiting, while the tree used more than half of all cores.
 bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores);
 
-/// Measures the resources of a tree of processes by repeated sampling, for machines without control groups: each page
-/// once, however many processes share it, plus the kernel's memory for the processes.
+/// Measures the resources of a tree of processes by repeated sampling, for machines without control groups: it counts
+/// each page once, however many processes share it, and adds the kernel's memory for the processes.
 ///
 /// A sample reads two small files per process, about 30 µs. They give an upper bound on memory, which usually suffices.
 /// Expensive files are read only if the bound is near the limit, or less often. A tree that starves us gets the lowest
@@ -97,7 +97,8 @@ class TreeMeter {
   std::vector<double> bounds_mb_;  ///< the private memory of each process, shared pages included
   TreeLoad load_;
   double page_tables_mb_ = 0, tcp_mb_ = 0;
-  /// The most shared pages that any one process maps, MB: now, and the minimum and maximum since SampleMappings.
+  /// The memory of shared pages of the process that maps the most, MB: now, and the minimum and maximum since
+  /// SampleMappings.
   double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
   std::size_t mappings_ = 0;                      ///< number of mappings that were read
   std::map<std::uint64_t, SharedMemory> shared_;  ///< by inode

@@ -24,7 +24,7 @@ struct LoadedStreams {
   std::vector<NamedStream> streams;
   std::vector<Error> refused;  ///< files of folders and patterns that could not be read; a file that is named directly
                                ///< makes the load fail
-  int passed_over = 0;         ///< files of folders that are no recordings
+  int passed_over = 0;         ///< number of files in folders that are not recordings
 };
 /// Loads recordings. Fails if there are none, and if `clips` gives a joint map, a unit or an axis but no reference is a
 /// clip.
