@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-// Names the file with the comparisons that the page leaves out.
+// The name, in words, of the file with the comparisons that the page leaves out.
 constexpr std::string_view kAllComparisons = "the CSV file of comparisons in report/tables";
 
 /// The texts of one comparison's table cells, not yet escaped.
@@ -101,7 +101,8 @@ std::string Legend(const ScenarioSummary& scenario) {
       with_baselines, FormatCount(static_cast<long long>(rivals)));
 }
 
-/// For every condition, visits its comparisons with baselines, then those with the strongest other method.
+/// Calls `visit` for every comparison of every condition: first those with baselines, then those with the strongest
+/// other method.
 template <typename Visit>
 void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -133,10 +134,11 @@ std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   return all;
 }
 
-/// Returns comparisons as an HTML table, grouped by metric. Writes at most `left` rows and subtracts them from `left`.
+/// Returns comparisons as an HTML table, grouped by metric. Writes at most `left` rows, and reduces `left` by their
+/// number.
 std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> shown, std::size_t& left) {
   const bool swept = scenario.conditions.size() > 1;
-  // Columns; the condition has one only if something is swept.
+  // Add the columns; a condition column only if something is swept.
   Table table{.label = "Comparisons", .style = "data", .columns = {{"Methods"}}};
   if (swept) table.columns.push_back({"Condition"});
   const auto number = [](const char* head, bool is_detail) {
@@ -165,7 +167,7 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   return TableHtml(table);
 }
 
-/// Returns "holds", or the reason why there is no common verdict.
+/// Returns "holds", or the reason why the conditions have no common verdict.
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;

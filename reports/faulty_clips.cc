@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::string_view kTask = "plausibility", kWithin = "within_limits";
 
-/// The clips that show faults, and those that could not be judged.
+/// The clips that show faults, and the clips that could not be judged.
 struct FaultyClips {
-  Table table;           ///< those beyond their limits first, those that could not be judged last
-  std::string sentence;  ///< how many there are; empty if the run has no clips
-  std::size_t rows = 0;  ///< rows that the table would have without `most`
+  Table table;           ///< clips beyond their limits first, clips that could not be judged last
+  std::string sentence;  ///< the number of these clips in words; empty if the run has no clips
+  std::size_t rows = 0;  ///< the number of rows without the limit `most`
 };
 
-/// Collects these clips; the table has at most `most` of them.
+/// Collects the faulty clips of a run; the table has at most `most` rows.
 FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
   FaultyClips found;
   std::vector<TableRow> beyond, others, unjudged;

@@ -26,13 +26,14 @@ std::string FindingText(const MethodFinding& finding) {
                      finding.why_open.empty() ? "" : EscapeMarkdown(fmt::format(" Open: {}.", finding.why_open)));
 }
 
-/// Returns the answer against the baseline and, if it is another method, against the strongest other one.
+/// Returns the answer against the baseline and, if the strongest other method is not the baseline, the answer against
+/// it.
 std::string AnswerText(const ScenarioFindings& findings) {
   std::string text = FindingText(findings.answer) + "\n";
   return HasOtherRival(findings) ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;
 }
 
-/// Returns what the worlds are and one sentence on each method; "" if the scenario describes neither.
+/// Returns the description of the worlds and one sentence on each method; "" if the scenario describes neither.
 std::string WhatIsComparedText(const ScenarioSummary& scenario) {
   std::string text = scenario.description.empty() ? "" : "\n" + EscapeMarkdown(scenario.description) + "\n";
   if (scenario.descriptions.empty()) return text;

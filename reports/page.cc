@@ -29,7 +29,8 @@ constexpr const char* kMetric = "mpjpe_mm";
 
 std::string Millimetres(std::optional<double> mm) { return mm ? FormatNumber(*mm) : std::string(kNoValue); }
 
-/// Returns what a take measures: error, or agreement if its reference may come from the same keypoints.
+/// Returns the name of the quantity that a take measures: "error", or "agreement" if its reference may come from the
+/// same keypoints.
 std::string MeasureOf(const RealTake& take) { return take.recovery == "keypoints" ? "agreement" : "error"; }
 
 void AddRealRows(const RealTake& take, Table& table) {
@@ -57,12 +58,12 @@ void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table&
   }
 }
 
-// A second defence, in addition to escaping: the page may load nothing but the motions beside it.
+// A second defence besides escaping: the page may load nothing but the motions beside it.
 constexpr std::string_view kPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'self' file:; img-src data:; media-src "
     "data:";
 
-// Returns only the styles that the page uses.
+// Returns the styles that the page uses.
 std::string Styles(const RunData& run) {
   const bool shows_curves = std::ranges::any_of(run.scenarios, [&](const ScenarioSummary& scenario) {
     return ShowsPaperA(scenario) || ShowsPaperB(run, scenario) || ShowsPairs(scenario);
@@ -120,7 +121,7 @@ std::string HowToRead() {
                      kHowToRead, kSigns, kComparisonLegend);
 }
 
-/// Returns how much of a large run the pictures show; "" if they show all of it.
+/// Returns a sentence on how much of a large run the pictures show; "" if they show all of it.
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(

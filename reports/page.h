@@ -14,7 +14,7 @@ namespace etude {
 /// captures of real films, shown beside the simulated ones.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
 
-/// Returns the page's verdicts as a short Markdown text, for a pull request or a release note.
+/// Returns the verdicts of the page as a short Markdown text, for a pull request or a release note.
 std::string WriteMarkdown(const RunData& run);
 
 /// Returns one scenario as LaTeX floats for plain pdflatex with the package booktabs. For each condition they show

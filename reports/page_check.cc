@@ -16,7 +16,8 @@ constexpr std::size_t kMaxDigits = 4;  // of a width or height, so that pictures
 /// An element that may stand between marks, and its allowed attributes.
 struct Element {
   std::string_view name;
-  std::vector<std::string_view> attributes = {};  ///< "class=film" is fixed; "alt=" takes what IsAllowedValue allows
+  std::vector<std::string_view> attributes = {};  ///< "class=film" allows this value only; "alt=" allows every value
+                                                  ///< that IsAllowedValue accepts
   bool is_void = false;                           ///< has no closing tag
 };
 
@@ -61,7 +62,8 @@ bool IsAllowedValue(std::string_view name, std::string_view value) {
                              [&](const char* type) { return IsData(value, type); });
 }
 
-/// Removes ' name="value"' or ' name' from the front of `tag`. Returns whether it is allowed; nothing if malformed.
+/// Removes ' name="value"' or ' name' from the front of `tag`. Returns true if the element allows this attribute;
+/// nothing if the text is malformed.
 std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element) {
   tag.remove_prefix(1);
   const std::size_t end = std::min(tag.find_first_of("= "), tag.size());
@@ -97,7 +99,7 @@ const Element* FindOpened(std::string_view tag, Elements elements) {
   return &*found;
 }
 
-/// Returns true if a text consists of these elements alone and closes each that it opens.
+/// Returns true if a text consists only of these elements, and closes each element that it opens.
 bool HoldsOnly(std::string_view html, Elements elements) {
   std::vector<std::string_view> open;
   for (std::size_t at = html.find('<'); at != std::string_view::npos; at = html.find('<', at)) {

@@ -26,8 +26,8 @@ constexpr double kRowTitleSize = 14, kSmallSize = 12;
 constexpr double kPlateRowHeight = kTitleRoom + kPictureHeight + kCaptionRoom;
 constexpr Paint kVeil{0.04, 0.05, 0.06, 0.55};
 
-/// Returns the rectangle of the whole picture that puts the person's part onto a canvas of kPictureWidth ×
-/// kPictureHeight.
+/// Returns the rectangle in which to draw the whole picture so that the part with the person fills a canvas of
+/// kPictureWidth × kPictureHeight.
 Box PanelOf(const CapturePanel& capture, std::size_t camera) {
   const Box& crop = capture.CropOf(camera);
   const Intrinsics& in = capture.CameraOf(camera).intrinsics;

@@ -17,7 +17,8 @@ namespace etude {
 namespace {
 
 constexpr double kSecondsPerDoubling = 0.7;
-constexpr double kMinRaceSeconds = 4, kMaxRaceSeconds = 8;  // seconds
+constexpr double kMinRaceSeconds = 4, kMaxRaceSeconds = 8;  // without the time for which the first and the last state
+                                                            // are held
 
 constexpr Paint kGrid{0.24, 0.27, 0.29, 1};
 constexpr Paint kGoal{0.55, 0.82, 0.50, 1};
@@ -26,7 +27,8 @@ constexpr double kTitleSize = 18, kTickSize = 17;
 constexpr double kPlotLeft = 64, kPlotRight = 28, kPlotTop = 44, kPlotBottom = 54;
 // The largest iteration that the axis can label: the digits of a larger decade would not fit into an int.
 constexpr int kMaxLabelledIteration = 100'000'000;
-// Errors far below the goal are irrelevant, and rounding noise would extend the axis without limit.
+// The vertical axis ends this many decades below the goal: smaller errors are irrelevant, and rounding noise would
+// extend the axis without limit.
 constexpr int kMaxDecadesBelowGoal = 2;
 
 }  // namespace
@@ -140,14 +142,14 @@ void ErrorPlot::DrawCurve(Canvas& canvas, const Frame& frame, const ErrorCurve& 
 
 namespace {
 
-// Pictures are drawn this much larger and then shrunk, which smooths the edges.
+// Pictures are drawn larger by this factor and then shrunk, which smooths the edges.
 constexpr double kDetail = 1.5;
-// The share of the panel's width, on its left, for the text.
+// The part of the panel's width, at its left, that is reserved for text.
 constexpr double kWordsShare = 0.34;
-// The bodies are turned from the front, so that near and far limbs can be distinguished.
+// The bodies are turned by this angle from the front, so that near and far limbs can be distinguished.
 constexpr double kTurn = Radians(25);
-// Metres, about a tenth of a pixel. If no joint moves farther, as in many of the last iterations, the last picture is
-// shown again.
+// The smallest visible motion of a joint, metres; about a tenth of a pixel. If no joint moves farther, as in many of
+// the last iterations, the last picture is shown again.
 constexpr double kVisible = 0.0005;
 constexpr Paint kGhostRim{0.90, 0.93, 0.95, 0.55};
 constexpr Paint kMarkShadow{0.05, 0.06, 0.07, 0.8};
@@ -187,7 +189,7 @@ void DrawMarks(Canvas& canvas, const std::vector<std::pair<glm::dvec2, glm::dvec
   }
 }
 
-// Errors far below the goal are all written alike.
+// All errors far below the goal are written as "< 0.001".
 std::string ShortNumber(double value) { return value < 0.001 ? "< 0.001" : FormatNumber(value); }
 
 double LargestShift(const BodyPose& a, const BodyPose& b) {

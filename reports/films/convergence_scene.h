@@ -45,8 +45,8 @@ struct ErrorCurve {
 /// A plot of errors over iterations, both axes logarithmic, that is drawn up to the current iteration.
 class ErrorPlot {
  public:
-  /// Plots errors. `suffix` follows a value (" cm"), and `goal` > 0 is drawn as a line. Every curve must have a value;
-  /// without curves, only the title is drawn.
+  /// Plots errors. `suffix` is the unit that follows a value (" cm"); a `goal` above 0 is drawn as a line. Every curve
+  /// must have a value; without curves, only the title is drawn.
   ErrorPlot(std::string title, std::string suffix, double goal, std::vector<ErrorCurve> curves, const RaceClock& clock);
 
   /// Draws the part of the curves up to `iteration`.
@@ -65,14 +65,14 @@ class ErrorPlot {
   int lowest_ = 0, highest_ = 0;  ///< decades at the lower and upper edge
 };
 
-/// The stage on which both methods of a race are seen: one camera that contains every pose of both, with the true pose
-/// as a ghost. The left side is free for text.
+/// The stage on which both methods of a race are seen: one camera that sees every pose of both methods, with the true
+/// pose as a ghost. The left side is free for text.
 class ConvergenceStage {
  public:
-  /// Makes the stage for pictures of this size.
+  /// Makes the stage for pictures of `width` × `height` pixels.
   ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height);
 
-  /// Draws a body of that colour over the ghost. Rings mark the targets of its end effectors, dots the end effectors.
+  /// Draws a body in `colour` over the ghost. Rings mark the targets of its end effectors, dots the end effectors.
   Image<std::uint32_t> Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
 
  private:
@@ -107,8 +107,9 @@ class ConvergencePanel {
   const IkPath& path_;
   const ConvergenceStage& stage_;
   Paint colour_;
-  std::vector<std::size_t> seen_;  ///< for each entry, the latest one whose picture differs visibly from the one before
-  std::optional<Drawn> drawn_;     ///< the latest picture, which is needed again because iterations never decrease
+  std::vector<std::size_t> seen_;  ///< for each entry of the path, the latest entry whose picture differs visibly from
+                                   ///< the picture before
+  std::optional<Drawn> drawn_;     ///< the latest picture; it is often needed again, because iterations never decrease
 };
 
 /// Shows paper B's figures 5.1 and 5.2 as a film: a body that converges under two methods side by side, with the curves

@@ -12,7 +12,8 @@
 
 namespace etude {
 
-/// A pose counts as solved if the errors of the worst effector and of the worst axis are below these.
+/// A pose counts as solved if the position error of the worst effector (cm) and the error of the worst axis (degrees)
+/// are below these limits.
 inline const double kGoalCm = 100 * IkOptions{}.position_goal;
 inline const double kGoalDeg = Degrees(IkOptions{}.axis_goal);
 
@@ -32,11 +33,11 @@ struct IkPath {
   std::size_t EntryAt(double iteration) const;
 };
 
-/// Returns false if all errors are zero, which means that the world has no targets of that kind (position or
+/// Returns true if any error is above zero. If all are zero, the world has no targets of this kind (position or
 /// orientation).
 bool IsAskedFor(const std::vector<double>& errors);
 
-/// The roles of the body that have targets, in the order of the tree's effectors.
+/// The roles of the body that have targets, in the order of the effectors in the tree.
 inline constexpr std::array kIkEnds{Role::kRightFoot, Role::kLeftHand, Role::kRightHand, Role::kHead};
 /// The position of each target; nullopt for a target without a position.
 using IkTargets = std::array<std::optional<glm::dvec3>, kIkEnds.size()>;

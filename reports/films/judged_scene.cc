@@ -274,7 +274,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
     canvas.DrawText({box.x + 8, box.y + 17}, fmt::format("pose {}{}", k + 1, is_reached ? " ✓" : ""), 16,
                     is_reached ? kBackdrop : kInk, box.width - 8, true);
   }
-  // One strip for each angle, and one for the evidence.
+  // Draw one strip for each angle, and one for the evidence.
   const std::vector<Feature> features = FeaturesOf(asked.poses);
   const double rows = static_cast<double>(features.size()) + 1;
   const double height = std::min(84.0, kStripsHeight / rows - kStripGap);
@@ -296,7 +296,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
       path.emplace_back(strip.X(frame), strip.Y(at(frame)));
     return path;
   };
-  // Each angle's curve over the tolerance bands of the key poses.
+  // Draw each angle's curve over the tolerance bands of the key poses.
   for (std::size_t row = 0; row < features.size(); ++row) {
     const Feature feature = features[row];
     const auto angle = [&](int frame) { return facts_.seen.frames[static_cast<std::size_t>(frame)].features[feature]; };
@@ -319,7 +319,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
     }
     if (path.size() > 1) canvas.DrawPath(path, 2, kInk);
   }
-  // The evidence, with the threshold of the verdict.
+  // Draw the evidence, with the threshold of the verdict.
   if (facts_.evidence.empty()) return;
   const auto evidence = [&](int frame) { return facts_.evidence[static_cast<std::size_t>(frame)]; };
   const Strip strip = strip_at(features.size(), 1);

@@ -48,7 +48,7 @@ class CoachPanel {
 /// The film of a run that recorded a coach without cameras: the coach changes moves.
 class StageScene : public Scene {
  public:
-  /// The maximum number of frames of a motion that is shown.
+  /// The maximum number of frames of the motion that is shown.
   static constexpr int kLongest = 7 * kFilmRate;
 
   StageScene(Renderer& renderer, CoachPanel coach) : renderer_(renderer), coach_(std::move(coach)) {}

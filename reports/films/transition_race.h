@@ -38,12 +38,13 @@ struct TransitionRace {
 };
 constexpr std::size_t kMaxTransitionPaths = 4;
 
-/// Finds the first world that has recordings of the most methods (at most kMaxTransitionPaths, the first ones of the
-/// scenario). Fails with the reason if no world has recordings of two.
+/// Finds the first of the worlds in which the most methods have recordings (at most kMaxTransitionPaths, the first ones
+/// of the scenario). Fails with the reason if no world has recordings of two methods.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
-/// Maps frames of a film to times of a request, the same for every method: from a second before the request until after
-/// the last transition, and then once more in slow motion. Times are frames after the request.
+/// Maps frames of a film to times of a request, the same for every method. The film runs from a second before the
+/// request until after the last transition; then slow motion repeats the transitions. Times are frames after the
+/// request.
 class TransitionClock {
  public:
   static constexpr int kSlowness = 4;
@@ -55,7 +56,7 @@ class TransitionClock {
   int Frames() const { return Run() + kRest + kSlowness * (slow_last_ - slow_first_ + 1) + kRest; }
   int TimeAt(int frame) const;
   bool IsSlow(int frame) const { return frame >= Run() + kRest; }
-  /// Returns the frame of the film that shows this time first.
+  /// Returns the first frame of the film that shows this time.
   int FrameOf(int time) const;
 
  private:

@@ -19,7 +19,7 @@ class TransitionStage {
   /// Makes a stage for pictures of this size that show the times `first` … `last`, in frames after the request.
   TransitionStage(const TransitionRace& race, int first, int last, int width, int height);
 
-  /// Draws a frame of a path; behind it, another frame of the path, `ghost`, shows through.
+  /// Draws frame `frame` of a path. Frame `ghost` of the same path, if given, shows through from behind.
   Image<std::uint32_t> Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
                                std::optional<int> ghost) const;
 
@@ -32,7 +32,7 @@ class TransitionStage {
   mutable Studio studio_;                           ///< keeps its last picture
 };
 
-/// One method's column of the film that compares transitions: the performer, its jumps, and the distances at its
+/// One method's column of the film that compares transitions: the person, the jumps, and the distances at the
 /// transition points.
 class TransitionPanel {
  public:
@@ -63,8 +63,8 @@ class TransitionPanel {
   std::optional<Drawn> drawn_;  ///< slow motion shows each picture several times
 };
 
-/// The film of one request under two to four methods side by side: when each one changes, how smoothly, and with which
-/// distances.
+/// The film of one request under two to four methods side by side. It shows when each method changes, how smoothly, and
+/// with which distances.
 class TransitionScene : public Scene {
  public:
   /// The renderer must outlive the scene.

@@ -23,7 +23,7 @@ constexpr std::array<Quantity, 4> kQuantities{{{"position_error_cm", "position, 
                                                {"x_axis_error_deg", "X axis, degrees"},
                                                {"y_axis_error_deg", "Y axis, degrees"},
                                                {"z_axis_error_deg", "Z axis, degrees"}}};
-// In the order of figure 5.2.
+// The effectors in the order of figure 5.2.
 constexpr std::array<const char*, 4> kEffectors{"head", "left_hand", "right_hand", "right_foot"};
 
 struct Panel {
@@ -66,7 +66,7 @@ std::vector<Panel> PanelsOf(const CellSeriesIndex& series, const std::vector<con
   return panels;
 }
 
-/// Returns the axes that all panels of positions share, or all panels of angles.
+/// Returns the axes that all panels of positions share (`of_positions`), or those that all panels of angles share.
 CurveAxes SharedAxes(const std::vector<Panel>& panels, bool of_positions) {
   std::vector<const PlotCurve*> curves;
   for (const Panel& panel : panels) {
@@ -107,7 +107,7 @@ std::string Figure(const std::vector<Panel>& panels, const ScenarioSummary& scen
   return html + "</div>";
 }
 
-// The numbers of tables that fit a page of A4.
+// How many tables fit on a page of A4.
 constexpr std::size_t kErrorTablesPerFloat = 6;
 constexpr std::size_t kAngleTablesPerFloat = 3;
 
@@ -169,7 +169,8 @@ std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most,
   return text;
 }
 
-/// Returns true if a cell of this scenario keeps such curves: the task is `ik`, with `record: [effector_curves]`.
+/// Returns true if a cell of this scenario keeps the curves of end effectors: the task is `ik`, with `record:
+/// [effector_curves]`.
 bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
   return scenario.task == "ik" && KeepsSeries(run, scenario, "head_position_error_cm");
 }
@@ -210,7 +211,7 @@ std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario) {
       with_angles = with_angles || !set.angles.empty();
     }
   }
-  // Without a filled table there is nothing to compare with the paper's tables.
+  // Without a filled table, the paper's tables have nothing to be compared with.
   return open ? html : html + PrintedHtml(with_angles);
 }
 

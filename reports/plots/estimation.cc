@@ -104,7 +104,8 @@ class Plot {
     const MetricInfo* info = FindMetric(c_.metric);
     return info == nullptr ? 0 : info->practical * words_.scale;
   }
-  // The end of a logarithmic axis: costs below a hundredth of the practical threshold need not be distinguished.
+  // Returns the lower end of a logarithmic axis: costs below a hundredth of the practical threshold need not be
+  // distinguished.
   double Floor() const {
     return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
   }
@@ -141,7 +142,7 @@ class Plot {
     return svg + fmt::format("<circle class=\"estimate\" cx=\"{}\" cy=\"{:.1f}\" r=\"4.5\"/>", x, at(*estimate));
   }
 
-  /// Draws each unit's mean difference, and beside them the interval over units.
+  /// Draws the mean difference of each unit, and beside them the interval over units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
     // A world of two clips belongs to both clips, so no clip has a mean of its own.
@@ -189,8 +190,8 @@ std::string Caption(const Judged& judged, const PairedDots& pairs) {
 
 constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
 
-/// Returns the unit that matters most: if the difference matters, the unit whose removal leaves the smallest
-/// difference; else the unit whose removal leaves the largest.
+/// Returns the unit that matters most: if the difference matters, the unit whose removal leaves the smallest difference;
+/// else the unit whose removal leaves the largest.
 const LeftOut& Extreme(const Beyond& beyond, double practical) {
   const double all = *beyond.mean;
   const bool matters = std::abs(all) >= practical;
@@ -241,7 +242,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 
-  // Every n-th world that has both, with its unit.
+  // Keep every n-th world that has both values, with its unit.
   PairedDots pairs;
   pairs.total = found.size();
   pairs.units = UnitNames(found);

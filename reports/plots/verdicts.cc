@@ -8,8 +8,8 @@
 namespace etude {
 namespace {
 
-/// The series of a cell by name. They all have the length of the first one; a series of another length counts as
-/// missing (null).
+/// The series of a cell by name. All have the length of the first one; a series of another length counts as missing
+/// (null).
 class Columns {
  public:
   Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// The contents of a transition's recording, with clip names for people.
+/// The content of a transition's recording, with clip names in the form for people (ClipInWords).
 using TransitionFacts = TransitionExtras;
 using PointFacts = TransitionExtras::Point;
 using CandidateFacts = TransitionExtras::Candidate;
@@ -22,7 +22,7 @@ Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const st
 /// Returns a clip's name in the form for people: "builtin:side_kick" becomes "side kick".
 std::string ClipInWords(std::string name);
 
-/// A method's recorded transition for a request.
+/// The recorded transition that one method made for a request.
 struct RecordedTransition {
   const Row* row;
   const Recording* recording;

@@ -33,7 +33,7 @@ std::string DistanceWords(double distance, std::optional<double> threshold) {
                      fmt::format("{:g}", *threshold));
 }
 
-// Limits for readability; the recordings hold everything.
+// Limits for readability; the recordings hold all worlds and methods.
 constexpr std::size_t kMaxWorlds = 6;
 constexpr std::size_t kMaxMethods = 12;
 constexpr std::size_t kMaxCandidates = 24;

@@ -25,7 +25,7 @@ struct RecordedWorld {
   std::string Name() const;
 };
 
-/// Returns true for tasks whose worlds are files; the files then give the worlds their names.
+/// Returns true for tasks whose worlds are motion files; the files' names are then the worlds' names.
 inline bool JudgesFiles(std::string_view task) { return task == "evaluation" || task == "plausibility"; }
 
 /// Lists the worlds of which a run recorded motions, in the order of its rows. The run must outlive the result.
@@ -35,8 +35,8 @@ std::vector<RecordedWorld> RecordedWorlds(const RunData& run);
 /// without recorded motions.
 std::string ViewerIndexHtml(const RunData& run);
 
-/// Writes buttons that open the recorded worlds of a scenario. They are hidden until the script shows them, because
-/// they need it.
+/// Writes buttons that open the recorded worlds of a scenario. The page's script shows them; without scripts they stay
+/// hidden, because they do not work.
 std::string WatchHtml(const RunData& run, std::size_t scenario);
 
 }  // namespace etude

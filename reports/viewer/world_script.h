@@ -11,13 +11,14 @@
 
 namespace etude {
 
-/// A motion in 16-bit steps: point i, joint by joint and frame by frame, is at low + step · steps[3 i + axis], metres;
-/// a point that is not seen has the steps kNoStep, which no other has.
+/// A motion in 16-bit steps. Points are stored joint by joint and frame by frame; point i is at low + step · steps[3 i
+/// + axis], metres. A point that is not seen has the steps kNoStep; no other point has them.
 struct QuantisedMotion {
   static constexpr std::uint16_t kNoStep = 65535;
 
   glm::dvec3 low{0};
-  double step = 0;  ///< the same for all axes; a position is off by at most half of it, plus the rounding of doubles
+  double step = 0;  ///< the same for all axes, metres; the quantisation error of a coordinate is at most half a step,
+                    ///< plus the rounding of doubles
   std::vector<std::uint16_t> steps;
 
   glm::dvec3 At(std::size_t point) const;

@@ -34,7 +34,7 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
                      FormatInterval(low, high, words), other, worlds);
 }
 
-/// Returns true if the mean lies outside the interval of the median.
+/// Returns true if the mean lies outside the interval of the median, so that the mean must be told too.
 bool MeanTellsMore(const Comparison& c) {
   return c.mean && c.ci_low && c.ci_high && (*c.mean < *c.ci_low || *c.mean > *c.ci_high);
 }
@@ -99,7 +99,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                        CountVerdicts(VerdictsOf(judged), judged.size()));
   }
   const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
-  // With two conditions, the range already names both.
+  // With two conditions, the range of changes already names both.
   const std::string under = judged.size() > 2 ? " under " + AllConditions(judged.size()) : "";
   const auto verdict = CommonVerdict(judged);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) {
@@ -154,8 +154,8 @@ std::string RatioText(const CostRatio& ratio) {
   return least == most ? least : fmt::format("{}–{}", least, most);
 }
 
-/// Returns true if this metric is the one that the scenario's question is about; the answer then considers success
-/// first.
+/// Returns true if this metric is the one that the scenario's question is about; then the answer considers success
+/// before the value.
 bool IsAnswer(const ScenarioSummary& scenario, const std::string& metric) {
   return !scenario.headline_metrics.empty() && scenario.headline_metrics.front() == metric;
 }
@@ -216,8 +216,8 @@ std::string PhraseOf(const std::vector<Judged>& judged, std::string_view what = 
                : VerdictPhrase(judged) + ChangeOf(judged, what);
 }
 
-/// Returns, in words, the largest ratio of costs in another headline metric in which the rival is better; "" if there
-/// is none.
+/// Considers the other headline metrics in which the rival is better, and returns the largest ratio of costs among them
+/// in words; "" if there is none.
 std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                           const std::string& rival) {
   std::string phrase;
@@ -239,12 +239,12 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
                          const std::string& baseline, const std::optional<Verdict>& of_baseline) {
   const std::vector<Judged> judged = AnswersOf(scenario, method, Against::kRival);
   if (judged.empty()) return "";
-  // Name the metric if the comparison with the baseline was decided by another one.
+  // Name the metric if another metric decided the comparison with the baseline.
   const std::string& decides = judged.front().comparison->metric;
   const std::string what = decides == metric ? "" : WordsFor(decides).label + " ";
   const std::string rival = OthersOf(judged);
   const std::string elsewhere = CostElsewhere(scenario, method, decides, rival);
-  // If the baseline is the strongest other method, the first half has compared the two already.
+  // If the baseline is also the strongest other method, the first half has already compared the method with it.
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
   const auto verdict = CommonVerdict(judged);
   const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
@@ -262,7 +262,7 @@ std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, Samplin
                      FormatInterval(c.beyond.low, c.beyond.high, words));
 }
 
-/// Returns the further grounds of an answer: the value where both succeeded, and the tail if it decides.
+/// Returns the further grounds of an answer: the difference where both methods succeeded, and the tail if it decides.
 std::string FurtherSteps(const Judged& judged) {
   const Answer* answer = judged.answer;
   if (answer == nullptr) return "";

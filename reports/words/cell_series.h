@@ -9,7 +9,8 @@
 
 namespace etude {
 
-/// Finds the series of a run's cells by name. The run must outlive it, and rows passed to it must be the run's own.
+/// Finds the series of a run's cells by name. The run must outlive the index, and rows passed to it must belong to the
+/// run.
 class CellSeriesIndex {
  public:
   explicit CellSeriesIndex(const RunData& run);
@@ -21,12 +22,12 @@ class CellSeriesIndex {
   std::map<const Row*, const std::vector<Series>*> cells_;
 };
 
-/// Finds the recordings of a run's cells. The run must outlive it.
+/// Finds the recordings of a run's cells. The run must outlive this object.
 class KeptCells {
  public:
   explicit KeptCells(const RunData& run);
 
-  /// Returns what a cell recorded; null if it recorded nothing.
+  /// Returns the recording of a cell; null if it has none.
   const Recording* Find(const std::string& cell) const;
   /// Returns the attribute by which the page's scripts find a recorded cell, ` data-cell="ID"`; "" for any other cell.
   std::string Attribute(const std::string& cell) const;

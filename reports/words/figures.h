@@ -30,7 +30,7 @@ std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWor
 /// Returns a value as text: "12.3°", "98 %"; kNoValue if there is none.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);
 
-/// Returns an interval as text: "10.1–14.0", both ends with equal digits, or "−1.2 to 0.4"; an end that these digits
-/// would show as 0 has its own, "−0.0031 to 30.4". kNoValue if there is no interval.
+/// Returns an interval as text: "10.1–14.0" or "−1.2 to 0.4". Both ends have equally many digits, except that an end
+/// that would be shown as 0 keeps more: "−0.0031 to 30.4". kNoValue if there is no interval.
 std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words);
 }  // namespace etude

@@ -30,7 +30,7 @@ struct CalibrateOptions {
   Listener listener = {};
 };
 
-/// A rig, and the numbers that are printed about it, one entry for each camera.
+/// A calibrated rig, and the numbers that are printed about it, one entry for each camera.
 struct Calibrated {
   std::vector<NamedCamera> cameras;
   std::vector<double> rms_px;
@@ -43,15 +43,16 @@ struct Calibrated {
 Result<Board> ReadCodedBoard(const std::string& text);
 RefineOptions RefineOptionsOf(const CalibrateOptions& options);
 
-/// Finds boards in folders of pictures or in films, synchronises the films, calibrates, and reports what it found.
+/// Finds boards in folders of pictures or in films, synchronises the films, calibrates the rig, and reports the
+/// findings.
 Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options);
 
 /// Calibrates a rig from point pairs or from pictures of boards, writes the rig and the optional outputs, and reports
-/// what it found. Every complaint names the file or the option.
+/// the findings. Every complaint names the file or the option.
 Result<Calibrated> CalibrateRig(const CalibrateOptions& options);
 
-/// Writes the first of `boards` to `print` as a PNG of 16 pixels per module that states its size in print, and tells
-/// which paper it fits on.
+/// Writes the first of `boards` to `print` as a PNG of 16 pixels per module that states its size in print, and reports
+/// which paper size it fits on.
 Result<void> PrintBoard(const CalibrateOptions& options);
 
 }  // namespace etude

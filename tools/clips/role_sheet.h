@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// The joint that plays a role, or that is proposed for it, and the reason.
+/// The joint that plays a role or is proposed for it, and the reason.
 struct RoleOnSheet {
   enum class By { kNobody, kName, kComposed, kAnatomy, kProposed };
   int joint = -1;

@@ -10,14 +10,15 @@
 
 namespace etude {
 
-/// A real recording, its twin, and their alignment. Simulated recordings are made from them and compared with them.
+/// A real recording, its twin, and their alignment. Simulations start from the twin's motion and are compared with the
+/// recording.
 struct RealRecording {
   JointRecording recording;
   TwinMotion twin;
   TwinMatch match;
 };
 
-/// Aligns the two. Returns nullopt if AlignTwin fails.
+/// Aligns a recording with its twin. Returns nullopt if AlignTwin fails.
 std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMotion twin);
 
 SensorStatistics StatisticsOf(const RealRecording& real);
@@ -26,7 +27,8 @@ SensorStatistics StatisticsOf(const RealRecording& real);
 /// sensor stands at its usual distance in front of the body (`SensorPlacement`). A joint that the twin lacks is absent.
 JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& options, const WorldKey& world);
 
-/// Returns statistics over `worlds` simulated recordings; each is aligned with the twin as the real one is.
+/// Returns statistics over `worlds` simulated recordings; each is aligned with the twin in the same way as the real
+/// recording.
 SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const SkeletonSensorOptions& options, int worlds,
                                             const WorldKey& first_world);
 
@@ -39,10 +41,11 @@ struct SensorFitOptions {
 };
 
 /// Fits a sensor by the method of moments, so that its simulated recordings of the twin's motion have the statistics of
-/// the real one: simulate, compare, correct, repeat. It fits each group's size and depth ratio, planted feet,
-/// correlations along bones, the white noise at rest, the share of fast errors, the stretch of shoulders, arms and
-/// hands (that of hands follows from their jumps), and the reference distance. All other settings keep their values,
-/// because such a recording does not determine them; so do the settings of groups that were never seen. Deterministic.
+/// the real recording. Each step simulates, compares and corrects. It fits each group's size and depth ratio, planted
+/// feet, correlations along bones, the white noise at rest, the share of fast errors, the stretch of shoulders, arms
+/// and hands (the hands' stretch follows from their jumps), and the reference distance. All other settings keep their
+/// values, because one recording does not determine them. The settings of groups that were never seen keep their
+/// values, too. Deterministic.
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options);
 
 }  // namespace etude

@@ -13,7 +13,7 @@
 namespace etude {
 
 /// The statistics of a sensor's errors in a recording. A value that the recording does not determine is absent: errors
-/// need a twin, depth ratios need the sensor's position.
+/// need a twin, and depth ratios need the sensor's position.
 struct SensorStatistics {
   using ByGroup = std::array<std::optional<double>, kJointGroupCount>;
 
@@ -24,8 +24,10 @@ struct SensorStatistics {
                                                 ///< it
   std::array<std::optional<double>, kBoneKindCount> correlation;  ///< correlation of the errors at both ends of a bone
   std::optional<double> quiet_white_mm;                        ///< white noise per axis, torso at rest (`StatisticsOf`)
-  std::optional<double> arm_bones_percent, leg_bones_percent;  ///< standard deviation of lengths ÷ mean, both bones
-  std::optional<double> shoulder_width_percent, hand_bones_percent;  ///< the same; hand: wrist to hand
+  std::optional<double> arm_bones_percent, leg_bones_percent;  ///< standard deviation ÷ mean of the bones' lengths, per
+                                                               ///< cent; over both bones of the limb
+  std::optional<double> shoulder_width_percent, hand_bones_percent;  ///< standard deviation ÷ mean, per cent; the
+                                                                     ///< hand's bone goes from wrist to hand
   std::optional<double> hand_jump_cm;  ///< 99th percentile of the hands' second differences
 };
 
@@ -54,7 +56,8 @@ struct StatisticRow {
 /// Returns the rows of a table of statistics, in order.
 std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics);
 
-/// The tolerances of a simulation: amounts may differ by 30 % from the real ones, correlations by 0.15.
+/// The tolerances of a simulation: statistics compared by ratio may differ by 30 % from the real ones, correlations by
+/// 0.15.
 constexpr double kSizeTolerance = 0.30, kCorrelationTolerance = 0.15;
 
 /// The number of rows in which both columns have a value, and how many of these are within the tolerances.
