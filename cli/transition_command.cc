@@ -34,7 +34,7 @@ struct TransitionCommandOptions {
 
 Result<int> TransitionCommand(TransitionCommandOptions asked) {
   TransitionFileOptions& options = asked.transition;
-  // Make the transition; if there is none, nothing is written.
+  // Make the transition; WriteTransition writes nothing if there is none.
   RETURN_IF_ERROR(CheckOutput(options.output, asked.overwrite));
   ASSIGN_OR_RETURN(options.reading, ReadOptions(asked.reading));
   ASSIGN_OR_RETURN(const TransitionFile made, WriteTransition(options));
@@ -44,7 +44,7 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                           options.to, options.budget_s, made.why)});
     return kNothingWorked;
   }
-  // Report what was written.
+  // Report the transition.
   if (asked.as_json) {
     RETURN_IF_ERROR(PrintFacts("transition", {{"from", options.from},
                                               {"to", options.to},

@@ -1,5 +1,5 @@
 // MoveNet Lightning (Google, Apache-2.0), a neural estimator of one person's 17 COCO keypoints, on the CPU without a
-// browser. The weights are those in the npm package @vladmandic/human.
+// browser. The weights are in the npm package @vladmandic/human.
 import fs from 'node:fs';
 import {fileURLToPath} from 'node:url';
 
@@ -8,10 +8,10 @@ import {loadGraphModel} from '@tensorflow/tfjs-converter';
 import * as tf from '@tensorflow/tfjs-core';
 
 const INPUT_SIZE = 192;
-const LEAST_SCORE = 0.2;     // of a keypoint that may say where the person is
-const TRUNK_MARGIN = 1.9;    // the crop's half side over the trunk's reach from the hips
-const BODY_MARGIN = 1.2;     // … and over that of all keypoints seen
-const SMALLEST_CROP = 32;    // pixels
+const LEAST_SCORE = 0.2;     // minimum score of a keypoint that helps to locate the person
+const TRUNK_MARGIN = 1.9;    // half the crop's side ÷ the trunk's largest distance from the hips
+const BODY_MARGIN = 1.2;     // half the crop's side ÷ the largest distance of any seen keypoint from the hips
+const SMALLEST_CROP = 32;    // minimum side of the crop, pixels
 const SHOULDERS = [5, 6], HIPS = [11, 12];
 
 const folderOf = (name) => fileURLToPath(new URL(`node_modules/${name}`, import.meta.url));

@@ -1,4 +1,4 @@
-// One person's mask by BlazePose (Google, Apache-2.0), on the CPU without a browser. The weights are those in the npm
+// Finds one person's mask with BlazePose (Google, Apache-2.0), on the CPU without a browser. The weights are in the npm
 // package @mediapipe/pose.
 import fs from 'node:fs';
 import {fileURLToPath} from 'node:url';
@@ -8,11 +8,12 @@ import * as tf from '@tensorflow/tfjs-core';
 
 import {TfLite} from './tflite.mjs';
 
-const SIDE = 256;                           // pixels of the network's input and of its mask
-const LANDMARKS = 0, PRESENCE = 1, MASK = 2;  // outputs
-const NUMBERS = 5;                          // of a landmark: u, v, depth, visibility, presence
-const MIDDLE = 33, RIM = 34;                // landmarks: the hips' middle; a point on the circle around the body
-const MARGIN = 1.25;                        // of the square around that circle, as its makers crop
+const SIDE = 256;                           // side of the network's input and of its mask, pixels
+const LANDMARKS = 0, PRESENCE = 1, MASK = 2;  // indices of the network's outputs
+const NUMBERS = 5;                          // numbers per landmark: u, v, depth, visibility, presence
+const MIDDLE = 33, RIM = 34;                // landmarks: the middle of the hips, and a point on the circle around the
+                                            // body
+const MARGIN = 1.25;                        // side of the crop ÷ diameter of that circle, as BlazePose's authors crop
 const LEAST_PRESENCE = 0.5;
 
 const folderOf = (name) => fileURLToPath(new URL(`node_modules/${name}`, import.meta.url));

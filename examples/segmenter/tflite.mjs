@@ -1,5 +1,6 @@
-// Runs a TensorFlow Lite model on TensorFlow.js: the file's operators, one after the other. Only those of BlazePose are
-// known; another one is refused by its number (BuiltinOperator in TensorFlow's schema.fbs, whose field numbers these are).
+// Runs a TensorFlow Lite model with TensorFlow.js: it executes the file's operators one after the other. It knows only
+// the operators of BlazePose; it refuses any other by its number (BuiltinOperator in TensorFlow's schema.fbs; the field
+// numbers below are from the same file).
 import * as tf from '@tensorflow/tfjs-core';
 
 /** Reads a FlatBuffer's tables: `at(table, i)` is where the i-th field lies, 0 if it is absent. */
