@@ -10,7 +10,7 @@ import {PNG} from 'pngjs';
 
 import {Segmenter} from './segmenter.mjs';
 
-/** The pictures of a film, three bytes a pixel, as ffmpeg decodes them: every frame once, turned upright. */
+/** Yields the pictures of a film, three bytes a pixel, as ffmpeg decodes them: every frame once, rotated upright. */
 async function* picturesOf(film) {
   // ffmpeg tells the size after rotation: decode the first frame as a PNG.
   const first = spawnSync('ffmpeg', ['-v', 'error', '-i', film, '-frames:v', '1', '-f', 'image2pipe', '-c:v', 'png', '-'],

@@ -15,7 +15,7 @@ function readPpm(file) {
   return {width: Number(width), height: Number(height), channels: 3, data: bytes.subarray(head.length)};
 }
 
-/** COCO's uncompressed run lengths, down the columns, background first. */
+/** Returns COCO's uncompressed run lengths, down the columns, background first. */
 function runsOf(mask, {width, height}) {
   const counts = [];
   let value = false, run = 0;

@@ -190,8 +190,8 @@ std::string Caption(const Judged& judged, const PairedDots& pairs) {
 
 constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
 
-/// Returns the unit that matters most: if the difference matters, the unit whose removal leaves the smallest difference;
-/// else the unit whose removal leaves the largest.
+/// Returns the unit that matters most: if the difference matters, the unit whose removal leaves the smallest
+/// difference; else the unit whose removal leaves the largest.
 const LeftOut& Extreme(const Beyond& beyond, double practical) {
   const double all = *beyond.mean;
   const bool matters = std::abs(all) >= practical;
