@@ -22,7 +22,7 @@ const wholeOf = (picture) => {
   return {u: (picture.width - side) / 2, v: (picture.height - side) / 2, side};
 };
 
-/** Returns INPUT_SIZE × INPUT_SIZE × 3 numbers: each is the mean of the pixels that it covers, 0 outside the picture. */
+/** Returns INPUT_SIZE × INPUT_SIZE × 3 numbers: each is the mean of the pixels that it covers, 0 outside the image. */
 function resample(picture, square) {
   const values = new Int32Array(INPUT_SIZE * INPUT_SIZE * 3);
   const step = square.side / INPUT_SIZE, samples = Math.max(2, Math.ceil(step));
