@@ -33,9 +33,9 @@ function(etude_headers TARGET)
 endfunction()
 
 # etude_folder(HARDENED DEPENDS <folder>... LIBRARIES <target>... PRIVATE_LIBRARIES <target>...)
-#   Makes the library etude_<path> from every .cc file of the current folder. HARDENED is for folders of engine/ that read
-#   untrusted files: an overwritten stack, or a write beyond a buffer's end that the C library detects, stops the program.
-#   Folders that only compute are not hardened, because it costs time.
+#   Makes the library etude_<path> from every .cc file of the current folder. HARDENED is for folders of engine/ that
+#   read untrusted files: an overwritten stack, or a write beyond a buffer's end that the C library detects, stops the
+#   program. Folders that only compute are not hardened, because it costs time.
 function(etude_folder)
   cmake_parse_arguments(ARG "HARDENED" "" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
@@ -63,8 +63,8 @@ function(etude_folder)
 endfunction()
 
 # etude_shared_library(<target> NAME <file> EXPORT <name>)
-#   Makes lib<file>.so of the library <target> for other programs, as etude::<name>. The current folder's symbols.map lists
-#   its public symbols.
+#   Makes lib<file>.so of the library <target> for other programs, as etude::<name>. The current folder's symbols.map
+#   lists its public symbols.
 function(etude_shared_library TARGET)
   cmake_parse_arguments(ARG "" "NAME;EXPORT" "" ${ARGN})
   target_link_options(${TARGET} PRIVATE "-Wl,--version-script=${CMAKE_CURRENT_SOURCE_DIR}/symbols.map")
@@ -119,8 +119,8 @@ function(etude_compile_options)
 endfunction()
 
 # etude_embed(FUNCTION <name> HEADER <header> FILES <file>...)
-#   Embeds files into the library of the current folder, so that a test, a worker and an installed program all find them.
-#   <header> declares the function that returns them.
+#   Embeds files into the library of the current folder, so that a test, a worker and an installed program all find
+#   them. <header> declares the function that returns them.
 function(etude_embed)
   cmake_parse_arguments(ARG "" "FUNCTION;HEADER" "FILES" ${ARGN})
   etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
@@ -138,12 +138,12 @@ function(etude_embed)
 endfunction()
 
 # etude_test_program(<name> UNOPTIMISED FOLDERS <folder>... DEPENDS <folder>... LIBRARIES <target>...)
-#   Makes the program etude_tests_<name> from every .cc file in and below the given folders of tests/. A folder mirrors the
-#   folder that it tests (tests/engine/motion tests engine/motion) and is linked with it. Each folder is one of ctest's
-#   tests, in the pinned environment (io/process), because starting a program takes longer than most single tests
-#   (tests/README.md). The target etude_tests_<folder> builds the folder's program. Tests whose names begin with HEAVY_ are
-#   a further test with the label "heavy". UNOPTIMISED is for tests that compute little: optimising would take more time
-#   than it saves.
+#   Makes the program etude_tests_<name> from every .cc file in and below the given folders of tests/. A folder mirrors
+#   the folder that it tests (tests/engine/motion tests engine/motion) and is linked with it. Each folder is one of
+#   ctest's tests, in the pinned environment (io/process), because starting a program takes longer than most single
+#   tests (tests/README.md). The target etude_tests_<folder> builds the folder's program. Tests whose names begin with
+#   HEAVY_ are a further test with the label "heavy". UNOPTIMISED is for tests that compute little: optimising would
+#   take more time than it saves.
 function(etude_test_program NAME)
   cmake_parse_arguments(ARG "UNOPTIMISED" "" "FOLDERS;DEPENDS;LIBRARIES" ${ARGN})
   set(program etude_tests_${NAME})
