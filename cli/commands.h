@@ -43,15 +43,15 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
 /// Prints the tables of a finished run, and the reasons of methods without an answer. Returns kNothingWorked if a
 /// method has no answer or no cell is ok.
 int ShowOutcome(const RunOutcome& outcome);
-/// Returns true if the parent had closed our standard output before the start, so that nobody reads it.
+/// Returns true if our standard output was closed before the start, so that nobody reads it.
 bool OutputWasClosed();
 /// Prints a title and indented lines; prints nothing if there are no lines.
 void PrintList(const std::string& title, const std::vector<std::string>& lines);
 
 // Each command is defined in a file of its name. `command_line` is recorded in host.json.
 
-/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run it only forecasts time and
-/// findings.
+/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run, only forecasts the time and
+/// the findings.
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude evaluate TRUTH RESULT…`: compares motions in files with their truths, and writes a run.
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action);
@@ -79,8 +79,8 @@ void DefineCompare(CLI::App& app, Action& action);
 void DefineExport(CLI::App& app, Action& action);
 /// `etude score`: scores a folder of answers into a result folder.
 void DefineScore(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude check-method … -- CMD…`: tests whether a program speaks the protocol of external methods; exit code 1 if it
-/// does not.
+/// `etude check-method … -- CMD…`: tests whether a program implements the protocol of outside methods; exit code 1 if
+/// it does not.
 void DefineCheckMethod(CLI::App& app, Action& action);
 /// `etude list …`: lists what a scenario can name.
 void DefineList(CLI::App& app, Action& action);
@@ -93,7 +93,8 @@ void DefineGrades(CLI::App& clip, Action& action);
 /// `etude bridge`: finds bridge frames of clips and writes a tags file and a summary; or checks a tags file (exit code
 /// 2).
 void DefineBridge(CLI::App& app, Action& action);
-/// `etude transition FROM TO --at S -o FILE`: leads from one clip into another; exit code 1 if there is no way.
+/// `etude transition FROM TO --at S -o FILE`: writes a transition from one clip into another; exit code 1 if there is
+/// none.
 void DefineTransition(CLI::App& app, Action& action);
 /// `etude train`: learns a fuzzy system or a recogniser from clips, and prints its scores on held-out clips.
 void DefineTrain(CLI::App& app, Action& action);

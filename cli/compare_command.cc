@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// Loads a complete run. Fails for an incomplete one, because its worlds cannot be paired.
+/// Loads a complete run. Fails for an incomplete run, because its worlds cannot be paired.
 Result<FinishedRun> LoadWholeRun(const std::string& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, sealing));
   TellUnsealed(run.data.unsealed);

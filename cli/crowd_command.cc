@@ -47,7 +47,7 @@ struct Timings {
   std::vector<double> times_ms;  ///< time of each frame
 };
 
-/// Prints the measured times, and returns them for programs.
+/// Prints the measured times, and returns them as JSON.
 Json Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,

@@ -15,7 +15,7 @@ namespace etude {
 struct AloneOptions {
   bool is_alone = false;
   std::optional<double> floor_m;
-  std::string limits;  ///< a file, or the name of one that comes with etude; "" = none
+  std::string limits;  ///< a file, or the name of a shipped file of limits; "" = none
 };
 
 /// Writes the text of a scenario that judges motions without a truth.

@@ -242,7 +242,7 @@ Error AboutArguments(Error error, const std::string& text) {
       {"floor_m", "--floor"},  {"at_most", "--limits"},   {"music_beats", "--music-beats"},
       {"metrics", "--metric"}, {"methods", "the results"}};
   if (error.place.file != kScenarioFile) return error;
-  // Find the line's key; an indented line belongs to the key above it.
+  // Find the key of the line; an indented line belongs to the key above it.
   std::istringstream lines(text);
   std::string line;
   std::string found;
@@ -271,13 +271,14 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const auto& outcome = *ran;
   redirected.End();
   if (!outcome) return kInterrupted;
-  // Hours of motion give many rows, so rows are loaded only for what the summary does not hold.
+  // Hours of motion give many rows, so load the rows only if the summary lacks the needed data.
   ASSIGN_OR_RETURN(auto data, LoadRunOutline(outcome->folder));
   if (options.alone.is_alone || HasAngles(data.scenarios.front())) {
     ASSIGN_OR_RETURN(data, LoadRun(outcome->folder));
   }
   const ScenarioSummary& summary = data.scenarios.front();
-  // A pair that is not judged must not pass unnoticed. Motions without a truth need only be judged if there are limits.
+  // A pair that is not judged must not pass unnoticed. Among motions without a truth, clips that cannot be judged are
+  // an error only with limits.
   const bool lacks_some = !options.alone.is_alone && outcome->cells_ok < outcome->cells;
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });

@@ -8,7 +8,7 @@
 namespace etude {
 
 /// Makes Ctrl-C (and SIGTERM) end the program at once, with a message and exit code 130. Use it for work that writes
-/// nothing before it is complete; other work uses Interrupt.
+/// nothing before the work is complete; for other work, use Interrupt.
 void EndWhenInterrupted();
 
 /// A guard for work that can be stopped. While it lives, the first Ctrl-C (or SIGTERM) requests a stop, and the second

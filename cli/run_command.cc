@@ -190,7 +190,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   ProgressBar bar;
   ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
   interrupt.reset();  // everything is written
-  // Report what was left out or damaged.
+  // Report clips that were left out, and damaged lines.
   TellUnlocked(outcome);
   TellChanges(outcome.changes);
   for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});
@@ -217,7 +217,7 @@ int RunCommand(const RunOptions& options, bool as_json) {
   if (!finished) return Complain(finished.error());
   if (!*finished) return kInterrupted;
   const RunOutcome& outcome = **finished;
-  // A shard has no tables; merging makes them.
+  // A shard has no tables; merging the shards makes them.
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
                ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());

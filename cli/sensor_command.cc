@@ -142,8 +142,8 @@ std::string ShortName(const std::string& path, std::size_t longest) {
   return std::filesystem::path(path).stem().string().substr(0, longest);
 }
 
-/// Computes the statistics of recordings without a reference, one column each, and adds the recordings' facts to
-/// `facts`.
+/// Computes the statistics of recordings without a reference, one column for each, and adds facts about the recordings
+/// to `facts`.
 Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
   Columns columns;
   for (const std::string& file : options.files) {

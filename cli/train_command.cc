@@ -103,6 +103,7 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
 }
 
 Result<Split> LoadSplit(const TrainOptions& options) {
+  // Load the clips.
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, ProgressOf("clips read")));
@@ -118,6 +119,7 @@ Result<Split> LoadSplit(const TrainOptions& options) {
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
+  // Sample the frames of all clips on one body, and divide them.
   const BodyPose standing = PoseOf(Controls{});
   TrainingClips all = SampleClips(names, motions, MakeBodyProportions(standing, StandingHipHeight(standing)));
   Split split;

@@ -159,7 +159,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   if (verified.choice) std::ranges::move(NotVerified(*verified.choice), std::back_inserter(not_verified));
   RETURN_IF_ERROR(AddReport(replay.folder, all, not_verified));
   if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was verified"});
-  // Print what agrees and what differs.
+  // Print the checks that agree and those that differ.
   std::size_t agree = 0;
   Json checks = Json::array();
   for (const Verified& one : all) {

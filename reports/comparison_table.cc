@@ -152,7 +152,7 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
                                              number("p (Holm)", true),
                                              number("Effect", true),
                                              {.head = "Mind", .is_detail = true}});
-  // One row per comparison, below one heading row per metric.
+  // Add one row per comparison, below one heading row per metric.
   const std::string* metric = nullptr;
   for (const Shown& one : shown) {
     if (left == 0) break;
@@ -265,7 +265,7 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
 }
 
 std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
-  // The headings: first the comparison on these worlds, then what holds for other units.
+  // Write the headings: first the comparison on these worlds, then the verdict for other units.
   Table table;
   for (const char* head : {"scenario",        "condition",        "metric",        "baseline",        "method",
                            "pairs",           "differing",        "only_baseline", "only_method",     "neither",
@@ -277,7 +277,7 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
                            "beyond_verdict",  "beyond_why_open"}) {
     table.columns.push_back({head});
   }
-  // Values in the order of the headings.
+  // Write the values in the order of the headings.
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
     const Beyond& beyond = c.beyond;
     table.rows.push_back({{scenario.name,

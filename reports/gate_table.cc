@@ -178,7 +178,8 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
   const std::string folder = report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder);
   const MoveIdentity& one = moves.front()->identity;
   const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition);
-  std::vector<std::pair<int, std::string>> worlds;  // trial, and a text that lists the metrics far worse in it
+  std::vector<std::pair<int, std::string>> worlds;  // trial, and a text that lists the metrics that are far worse in
+                                                    // its world
   std::map<int, std::size_t> places;
   for (const MetricMove* move : moves) {
     const std::string& metric = move->identity.metric;
@@ -334,7 +335,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
   text += List("**Answers that fell** (one from better to worse is a regression):", FallenLines(report));
-  // Changes: those that fail stay open, all others are folded away.
+  // Write the changes. Changes that fail the gate stay open; all others are folded away.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);

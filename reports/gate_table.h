@@ -55,7 +55,7 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
 /// `most_each` worlds of a method, and about `most` lines in total.
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most);
 
-/// Returns the findings of a gate as a comment on a pull request: the verdict, what fails, what else changed, what
+/// Returns the findings of a gate as a comment on a pull request: the verdict, the failures, other changes, and what
 /// could not be compared.
 std::string WriteGateMarkdown(const GateReport& report);
 

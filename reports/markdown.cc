@@ -48,11 +48,13 @@ std::string WhatIsComparedText(const ScenarioSummary& scenario) {
 
 std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
+  // Write the answer and the tables.
   std::string text = fmt::format("\n## {}\n\n{}\n\n{}", EscapeMarkdown(scenario.name),
                                  EscapeMarkdown(scenario.question), AnswerText(findings));
   if (!findings.figures.methods.empty()) text += TableMarkdown(FiguresTable(findings.figures, true));
   text += WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
   text += ComparisonTableMarkdown(scenario) + AcrossTableMarkdown(scenario) + '\n';
+  // Write the expectations, how cells ended, and why.
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view outcome = e.outcome == ClaimOutcome::kMet     ? "met"
                                      : e.outcome == ClaimOutcome::kUnmet ? "**not met**"

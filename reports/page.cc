@@ -42,7 +42,7 @@ void AddRealRows(const RealTake& take, Table& table) {
   }
 }
 
-/// Adds the rows of simulated takes; `rows` counts them over all scenarios.
+/// Adds the rows of simulated takes; adds their number to `rows`, which counts over all scenarios.
 void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table& table) {
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
@@ -179,6 +179,7 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
   std::vector<ScenarioFindings> findings;
   for (const ScenarioSummary& scenario : run.scenarios) findings.push_back(FindingsOf(run, scenario));
 
+  // Write the header, the answers, and the run's film.
   std::string html = Head(run);
   html += fmt::format(
       "<body>{}<a class=\"skip\" href=\"#{}\">Skip to answers</a><main><header><p class=\"eyebrow\">Etude"
@@ -187,11 +188,13 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
       EscapeMarkup(FindingsOf(run).sentence + LeftOutSentence(run)));
   html += Answers(run, findings);
   html += fmt::format("{}{}{}", kMediaBegin, FilmElement(media.film, true), kMediaEnd);
+  // Write one card per scenario, and the sections about the whole run.
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);
   html += FaultyClipsSection(run);
   html += RealTakesSection(run, real);
   html += HowToRead();
   html += Footer(run);
+  // Add the scripts.
   html += "</main><script>";
   html += ChartJs();
   html += "</script><script>";

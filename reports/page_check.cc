@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=";
-constexpr std::size_t kMaxDigits = 4;  // of a width or height, so that pictures stay within the page
+constexpr std::size_t kMaxDigits = 4;  // digits of a width or height; a limit keeps pictures within the page
 
-/// An element that may stand between marks, and its allowed attributes.
+/// An element that is allowed between marks, with its allowed attributes.
 struct Element {
   std::string_view name;
   std::vector<std::string_view> attributes = {};  ///< "class=film" allows this value only; "alt=" allows every value
@@ -125,7 +125,7 @@ PageCheck CheckPage(std::string_view page, std::string_view bare) {
   PageCheck check;
   while (true) {
     const std::size_t media = bare.find(kMediaBegin), takes = bare.find(kTakesBegin);
-    if (media == takes) break;  // both kinds of marks have been used up
+    if (media == takes) break;  // no marks of either kind are left
     const bool is_media = media < takes;
     const std::string_view end = is_media ? kMediaEnd : kTakesEnd;
     const std::size_t before = is_media ? media + kMediaBegin.size() : takes + kTakesBegin.size();

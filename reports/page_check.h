@@ -10,7 +10,7 @@ constexpr std::string_view kMediaBegin = "<!--media-->", kMediaEnd = "<!--/media
 /// Marks around the rows of captures of real films, which belong to no run.
 constexpr std::string_view kTakesBegin = "<!--takes-->", kTakesEnd = "<!--/takes-->";
 
-/// The result of comparing a page with the one that its run makes.
+/// The result of comparing a page with the page made from its run.
 struct PageCheck {
   bool same = false;                          ///< equal bytes outside the marks
   bool has_media = false, has_takes = false;  ///< there is something between marks of this kind; it was not compared

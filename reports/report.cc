@@ -67,7 +67,7 @@ Result<std::vector<ReportText>> TextsOf(const RunData& run) {
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
   const FilePath folder = Inside(run_folder) / kReportFolder, films = Inside(run_folder) / kFilmsFolder;
   for (const FilePath& made : {folder, films}) RETURN_IF_ERROR(PlainFilesBelow(made));
-  // Writes the cheap texts first, so that they exist even if rendering the film fails.
+  // Write the cheap texts first, so that they exist even if rendering the film fails.
   ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
   for (const auto& [path, text] : texts) RETURN_IF_ERROR(WriteFileAtomically(folder / path, text));
 

@@ -23,9 +23,9 @@ struct ReportOptions {
 
 /// Writes the report of a run: `report/index.html` (self-contained), `report/summary.md`, `report/junit.xml`,
 /// `report/tables/*.{csv,tex}`, and, if the run kept recordings, `report/motions/*.{bvh,js}`, `report/pictures/*.exr`
-/// and `video/*.mp4`. Each file appears whole or not at all. Fails, naming the path, if a file cannot be written. A
-/// film that cannot be made is no failure: the page says why. Returns false, and writes no new page, if the films were
-/// stopped.
+/// and `video/*.mp4`. Each file is written completely or not at all. Fails, naming the path, if a file cannot be
+/// written. If a film cannot be made, the function does not fail; the page gives the reason. Returns false, and writes
+/// no new page, if the films were stopped.
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
 
 /// The files that `etude gate` writes beside a report.

@@ -50,16 +50,16 @@ bool NeedsLogarithm(const std::vector<double>& values) {
   return high / low > kLogarithmicFrom;
 }
 
-// Returns the same metric of the worst effector: "orientation_error_max_deg" for "orientation_error_deg".
+// Returns the name of the metric for the worst effector: "orientation_error_max_deg" for "orientation_error_deg".
 std::string WorstOf(const std::string& metric) {
   const std::size_t unit = metric.rfind('_');
   return unit == std::string::npos ? metric : metric.substr(0, unit) + "_max" + metric.substr(unit);
 }
 
 // Returns the first headline metric (or its variant for the worst effector) for which cells keep a series along this
-// axis, else the first metric with such a series. Skips three kinds of series: those that are no metric, because they
-// have pictures of their own; those that are all zero, which are errors of parts without a target; and shares, because
-// a median of yes and no says nothing.
+// axis, else the first metric with such a series. Skips three kinds of series: series that are no metric, because they
+// have pictures of their own; series of zeros, because they are errors of parts without a target; and shares, because a
+// median of yes and no is meaningless.
 std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
                                      const std::map<std::string, std::string>& method_of) {
   std::vector<std::string> found;
@@ -179,7 +179,7 @@ std::string ChartFigure(const Chart& chart, const std::string& id) {
       EscapeScriptJson(chart.json));
 }
 
-/// Returns a folded part of the card; "" if it would be empty.
+/// Returns a folded part of the card; "" if `html` is empty.
 std::string Folded(const std::string& title, const std::string& html, std::string_view style = "") {
   if (html.empty()) return "";
   return fmt::format("<details{}><summary>{}</summary>{}</details>", style, EscapeMarkup(title), html);

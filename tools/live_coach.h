@@ -19,7 +19,7 @@ namespace etude {
 Result<std::string> CoachHead(const Dance& dance);
 
 /// Returns one frame as a line of JSON (docs/coach.md). Positions are in metres, rounded to the millimetre; with
-/// `brief` the body is left out.
+/// `brief`, the line has no body.
 Result<std::string> CoachLine(const CoachOutput& output, std::int64_t frame, const Dance& dance, bool brief);
 
 /// The position in the music while a coach dances. It comes from lines '#music 12.34' of the stream; without them, it

@@ -71,10 +71,12 @@ struct OpenOptions {
   std::string marker_set = "";                ///< for marker files: the marker set to use (MarkerSetKeys); "" = the set
                                               ///< that fits best
   bool keeps_shown = false;                   ///< for marker files: also fill SourceClip::shown
-  const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
+  const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = a reference of this form is treated as
+                                              ///< a file
 };
 
-/// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is taken.
+/// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is
+/// allocated.
 constexpr std::uintmax_t kMaxClipFileBytes = 500'000'000;
 
 /// Reads a motion file; the content decides the format, not the name. Known are BVH, glTF, GLB, FBX, DeepMimic's

@@ -16,12 +16,12 @@ namespace etude {
 
 class RecordedFigure;  // sim/character
 
-/// A motion from which worlds can be made: 30 Hz, metres, Y up, feet on the floor.
+/// A motion from which worlds can be made, at 30 Hz, in metres, with Y up and the feet on the floor.
 struct LibraryClip {
   std::string name;    ///< "builtin:clap", "01_01" (the file's name without folder and extension), "dance#Jump"
-  std::string source;  ///< the reference that opens it again: "builtin:clap", a path, or "path.glb#Jump"
+  std::string source;  ///< the reference that opens the clip again: "builtin:clap", a path, or "path.glb#Jump"
   BodyMotion motion;
-  std::optional<Move> move;  ///< the authored move, with its key poses; only built-in moves have one
+  std::optional<Move> move;  ///< the authored move, with its key poses; absent unless the clip is a built-in move
   RestBody body = {};        ///< the performer's body at rest; it has no joints if the body was not measured
   std::shared_ptr<const RecordedFigure> figure = {};  ///< the file's figure; null if the file has no meshes
   std::vector<std::string> changes = {};  ///< findings about the file, and every change that was made to its content

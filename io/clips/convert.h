@@ -39,7 +39,7 @@ struct ConvertOptions {
   bool retarget = false;  ///< write a body with the canonical proportions
   Performer performer = Performer::kFile;
   OpenOptions open;
-  std::string version = "";  ///< the program's version, for formats that store it
+  std::string version = "";  ///< the version of Etude, for formats that store it
 };
 
 /// A converted file, and a description of the conversion for users.
@@ -54,8 +54,8 @@ struct Converted {
 /// Converts the clips of one file: exactly one, or any number for GLB. A clip keeps its own skeleton (and its meshes,
 /// from glTF to GLB) unless the result must be a body: with `ground`, `retarget`, a performer, or a format that holds
 /// only joints. BVH becomes GLB in metres and Y up, so its unit must be known: it is found from the roles or given in
-/// `options`. Fails if several clips go to a format other than GLB, if a performer goes to a format other than GLB, and
-/// on the errors of trimming, resampling and UnderstandClip.
+/// `options`. Fails if a format other than GLB is to hold several clips or a performer, and if trimming, resampling or
+/// UnderstandClip fails.
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options);
 
 }  // namespace etude

@@ -22,7 +22,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, by its run path
+constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, through its run path (RPATH)
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
 constexpr std::size_t kMaxGlbBytes = std::size_t{1} << 30;
 constexpr unsigned kMinVersion = 7;
@@ -102,7 +102,7 @@ int ReadFilesInChild(int socket) {
   for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(fatal, SIG_DFL);
   std::string missing, name;
   GlbOfFbxBytes* read = nullptr;
-  // Load the module once; without it, every file gets the same complaint.
+  // Load the module once. If that fails, every file gets the same complaint.
   if (void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL); module == nullptr) {
     missing = std::string("an FBX file, for which assimp is not there (") + ::dlerror() +
               "); install Debian's libassimp-dev, and build again";

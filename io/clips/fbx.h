@@ -14,7 +14,7 @@ namespace etude {
 /// joint, in seconds. On failure it returns false, and `said` holds a complaint.
 using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said, double& longest_s);
 
-/// Returns true if `bytes` begin as an FBX file does, binary or text.
+/// Returns true if `bytes` begin like a binary or text FBX file.
 bool IsFbx(std::string_view bytes);
 
 /// The motion of an FBX file.
@@ -24,7 +24,7 @@ struct FbxMotion {
   std::string remark = "";  ///< what was left out or replaced; "" if nothing
 };
 
-/// The beginning of the complaint about a file that crashed its reader; the signal's number follows.
+/// The beginning of the complaint about a file that crashed its reader; the number of the signal is appended.
 inline constexpr std::string_view kReaderCrashed = "a damaged FBX file: its reader ended with signal";
 
 /// Reads the motion of FBX files, one after the other; meshes, materials, cameras and lights are left out. Files may be

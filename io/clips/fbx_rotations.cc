@@ -38,7 +38,7 @@ struct FbxNode {
   FbxRange properties, children;
 };
 
-/// Reads the nodes of one level; stops at the null record, or at a record that ends beyond its range.
+/// Reads the nodes of one level. Stops at the null record, or at a record whose end lies outside `range`.
 std::vector<FbxNode> NodesIn(std::string_view bytes, FbxRange range) {
   constexpr std::size_t kVersionAt = 23;
   constexpr std::uint32_t kLongOffsets = 7500;

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// Return what the user gave by an option or in a joint map: the up axis, the metres per unit, and whether the floor is
+/// Return the user's choices, from an option or a joint map: the up axis, the metres per unit, and whether the floor is
 /// kept.
 std::optional<UpAxis> ToldUp(const OpenOptions& options);
 std::optional<double> ToldUnit(const OpenOptions& options);
@@ -20,7 +20,7 @@ bool KeepsFloor(const OpenOptions& options);
 /// Returns the user's options for arrays of positions: rate, unit and up axis.
 ArrayOptions ToldOfArrays(const OpenOptions& options);
 
-/// Returns what the format of a clip with a skeleton says about its up axis; nullopt for BVH and Acclaim.
+/// Returns the rule for the up axis that the format of a clip with a skeleton defines; nullopt for BVH and Acclaim.
 std::optional<UpRule> UpRuleOf(ClipFormat format);
 
 /// Returns true for the formats of markers, and for files of joint positions that are read like markers.

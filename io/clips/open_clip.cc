@@ -23,7 +23,7 @@ Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
   return std::vector<SourceClip>{{reference, reference, ClipFormat::kBuiltin, std::move(clip), nullptr}};
 }
 
-/// Finds the clip of that name. Exporters write "Armature|Jump"; "Jump" alone is enough if only one name ends so.
+/// Finds the clip named `name`. Exporters write "Armature|Jump"; "Jump" is accepted if only one name ends with it.
 std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::string& name) {
   const auto exactly = std::ranges::find(clips, name, &Clip::name);
   if (exactly != clips.end()) return exactly;
@@ -102,7 +102,7 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   }
 }
 
-/// Opens a clip of our own skeleton, which has one joint for every role, with the role's name.
+/// Opens a clip of our own skeleton, which has one joint for every role; the joint's name is the role's name.
 Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& options) {
   OpenedClip opened{.source = std::move(source), .map = {}, .body = {}};
   for (const Role role : AllRoles()) {
@@ -117,7 +117,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   } else {
     opened.body.changes.emplace_back("the canonical body");
   }
-  // Markers were already turned and scaled as the user asked; our own arrays and angles are turned here.
+  // Markers were already rotated and scaled by the user's options; our own arrays and angles are rotated here.
   const bool is_turned = options.up == UpAxis::kZ && !is_ours && !IsOfMarkers(opened.source.format);
   if (is_turned) {
     opened.body.found_up = {.axis = AxisOf(UpAxis::kZ), .evidence = UpEvidence::kTold};
@@ -173,7 +173,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const auto shown_of = [&](std::size_t i) {
     return file.shown.empty() ? nullptr : std::make_shared<const MarkerMotion>(std::move(file.shown[i]));
   };
-  // A file of one motion: '#' in the reference has no meaning, except for the layout of an .npy array.
+  // If the format holds one motion, '#' in the reference has no meaning, except for the layout of an .npy array.
   const bool has_animations =
       file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
   const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;
@@ -189,7 +189,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
                     shown_of(0)});
     return only;
   }
-  // A file of several clips: undo scales and find the common ground before one clip is chosen.
+  // If the file holds several clips, undo scales and find the common ground before one clip is chosen.
   std::map<std::string, MadeBody> bodies;
   for (std::size_t i = 0; i < file.bodies.size(); ++i) bodies[file.clips[i].name] = file.bodies[i];
   std::map<std::string, std::shared_ptr<const MarkerMotion>> shown;

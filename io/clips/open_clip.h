@@ -18,10 +18,10 @@ namespace etude {
 struct SourceClip {
   std::string name;    ///< "01_01", "Med_General#Dance": the file's name without folder and extension, and the
                        ///< animation; "builtin:clap"
-  std::string source;  ///< the reference that opens it again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
+  std::string source;  ///< the reference that opens the clip again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
   ClipFormat format = ClipFormat::kBvh;
   Clip clip;
-  /// The file's own figure if it has meshes; its skeleton is the clip's. All clips of the file share it.
+  /// The file's figure, if the file has meshes. The clip uses its skeleton, and all clips of the file share the figure.
   std::shared_ptr<const Character> character;
   std::optional<Ground> ground = {};  ///< the ground shared by all clips of the file; only if the file holds several
   std::optional<MadeBody> made = {};  ///< set if the clip is a body already: it is in metres, with Y up

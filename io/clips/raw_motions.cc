@@ -89,7 +89,7 @@ std::string NamesOf(const std::vector<Role>& roles) {
   return Join(names);
 }
 
-/// Returns notes on what was converted and assumed.
+/// Returns notes on the conversions and assumptions that were made.
 std::vector<std::string> NotesOn(const OpenedClip& opened) {
   const BodyConversion& body = opened.body;
   std::vector<std::string> notes = {fmt::format("1 unit = {:.4g} cm ({})", 100 * body.metres_per_unit, body.unit)};
@@ -121,7 +121,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
   if (source.shown != nullptr) {
     raw = OfMarkers(*source.shown);
   } else {
-    // UnderstandClip finds roles, unit and up axis; its resampling and the floor that it finds are not used.
+    // UnderstandClip finds roles, unit and up axis; its resampling and its floor are not used.
     const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
     OpenOptions how = options;
     how.body.drop_t_pose = false;

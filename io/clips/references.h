@@ -16,7 +16,7 @@ constexpr std::string_view kBuiltinPrefix = "builtin:";
 /// A built-in clip: a move, an act of the coach or a song.
 struct BuiltinClip {
   BodyMotion motion;
-  std::optional<Move> move;  ///< the authored move with its key poses; songs and acts have none
+  std::optional<Move> move;  ///< the authored move with its key poses; absent for songs and acts
 };
 
 /// Loads a built-in clip by its name without the prefix. The error lists the known names.
@@ -38,8 +38,8 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
 Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references,
                                                   std::size_t most = kMaxClips);
 
-/// A reference such as "dance.glb#Jump", split into the file and its animation. If a file whose name holds '#' exists,
-/// it has priority.
+/// A reference such as "dance.glb#Jump", split into the file and its animation. If a file exists whose whole name is
+/// the reference, the reference is not split.
 struct SplitReference {
   std::string path;
   std::optional<std::string> animation;

@@ -17,7 +17,7 @@ struct Span {
   std::size_t first = 0, columns = 0;
 };
 
-/// Returns the upper headings; empty if no column has one.
+/// Returns the upper headings; empty if no column has an upper heading.
 std::vector<Span> SpansOf(const Table& table) {
   std::vector<Span> spans;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {

@@ -11,7 +11,7 @@ namespace etude {
 
 constexpr std::size_t kMaxPeople = 64;  ///< people in one frame
 
-/// Returns the member of that name, or null if there is none.
+/// Returns the member with this name, or null if there is none.
 const Json* Member(const Json& json, const char* name);
 /// Returns the texts of a list; empty if `list` is no list. An entry that is no text becomes "".
 std::vector<std::string> TextsOf(const Json* list);

@@ -84,7 +84,8 @@ struct ExecPlan {
   bool limited, contained;
   std::string user_map, group_map;
   std::vector<Descriptor> texts;
-  std::vector<std::pair<const char*, std::string>> user_limits;  ///< files in /proc, and the texts to write to them
+  std::vector<std::pair<const char*, std::string>> user_limits;  ///< files in /proc, and the texts to be written to
+                                                                 ///< them
 };
 
 /// Forks into new user, PID and mount namespaces, where the child has the privileges that bubblewrap needs, and into a
@@ -107,7 +108,7 @@ bool WriteTo(const char* path, std::string_view text) {
   return written;
 }
 
-/// Sets up the new namespaces as bubblewrap expects them: the same user and group IDs, and a /proc of its own. Kernel
+/// Sets up the new namespaces as bubblewrap expects: the same user and group IDs, and a separate /proc. The kernel's
 /// limits per user are set for the namespace, so that the user's other programs keep a share.
 bool SetUpNamespaces(const ExecPlan& child) {
   const bool is_set_up = WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
@@ -125,7 +126,7 @@ bool SetUpNamespaces(const ExecPlan& child) {
 
 [[noreturn]] void BecomeProgram(const ExecPlan& child) {
   ::setpgid(0, 0);
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans among its descendants become its children
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // the child adopts the orphans among its descendants
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   pollfd parent{child.parent, POLLIN, 0};
   if (::poll(&parent, 1, 0) != 0) ::_exit(0);  // the parent died before the line above
@@ -385,12 +386,12 @@ bool ChildProcess::HasEnded() const {
 
 std::string ChildProcess::Finish(int patience_ms) {
   if (pid_ < 0) return "not running";
-  HeldTree tree(pid_);  // before the child ends, while its descendants can still be found
+  HeldTree tree(pid_);  // kill the tree before the child ends, while the child's descendants can still be found
   ::close(input_);
   for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
   ::close(output_);
   tree.Kill();
-  ::kill(-pid_, SIGKILL);  // before it is reaped: afterwards the group's ID may be reused
+  ::kill(-pid_, SIGKILL);  // kill the group before the child is reaped; afterwards, the group's ID may be reused
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPrefix = "etude-";  // followed by the ID of the process that made it, and a counter
-constexpr int kMaxEndingMs = 100;               // wait for the last process to leave its group
+constexpr std::string_view kPrefix = "etude-";  // followed by the ID of the process that made the group, and a counter
+constexpr int kMaxEndingMs = 100;               // maximum wait for the last process to leave a group
 
 bool Write(const fs::path& file, std::string_view text) {
   const Descriptor opened(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
@@ -42,8 +42,8 @@ bool IsPlace(const fs::path& folder) {
          ::access(folder.c_str(), W_OK) == 0 && ::access((folder / "cgroup.procs").c_str(), W_OK) == 0;
 }
 
-/// Makes the own group usable (IsPlace), if no other process is in it: moves this process into a child group, because
-/// a group that passes controllers on may not contain processes.
+/// Makes this process's own group usable (IsPlace), if no other process is in it. Moves this process into a child
+/// group, because a group that passes controllers on may not contain processes.
 bool MakePlaceOf(const fs::path& own) {
   const fs::path below = own / fmt::format("{}{}", kPrefix, ::getpid());
   std::error_code error;

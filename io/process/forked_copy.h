@@ -16,8 +16,9 @@ namespace etude {
 /// process must not hold locks that `work` needs.
 class ForkedCopy {
  public:
-  /// Starts a copy that runs `work` with its end of the sockets; what `work` returns becomes its exit code, and no
-  /// destructor or exit handler of this process runs in it. Fails with an error of this machine.
+  /// Starts a copy that runs `work` with the copy's end of the sockets. The return value of `work` becomes the copy's
+  /// exit code; no destructor or exit handler of this process runs in the copy. On failure, the error's cause is this
+  /// machine.
   static Result<ForkedCopy> Start(const std::function<int(int socket)>& work);
   ForkedCopy(ForkedCopy&& other) noexcept;
   ForkedCopy& operator=(ForkedCopy&& other) noexcept;
@@ -32,14 +33,14 @@ class ForkedCopy {
   /// Closes our end of the sockets, waits until the copy has ended, and returns its status (waitpid).
   int Wait();
 
-  /// Returns its status if it has ended; does not wait.
+  /// Returns the copy's status if it has ended; does not wait.
   std::optional<int> StatusIfEnded();
 
  private:
   ForkedCopy(pid_t pid, int socket) : pid_(pid), socket_(socket) {}
   void CloseSocket();
 
-  pid_t pid_ = -1;  ///< −1 = it has been reaped
+  pid_t pid_ = -1;  ///< −1 after the copy has been reaped
   int socket_ = -1;
   int status_ = 0;
 };

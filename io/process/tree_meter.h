@@ -19,7 +19,8 @@ struct TreeLoad {
   std::size_t processes = 0, threads = 0;
   std::size_t descriptors = 0;  ///< open files of all processes
   std::size_t pipes = 0;        ///< counted only if there are more than 256 descriptors
-  std::size_t sockets = 0;      ///< in the tree's network namespace, those passed over sockets too; 0 without one
+  std::size_t sockets = 0;      ///< sockets in the tree's network namespace, and sockets in transit over other sockets;
+                                ///< 0 without a namespace
   std::size_t file_locks = 0;
 };
 
@@ -80,9 +81,9 @@ class TreeMeter {
     double Mb() const;
   };
 
-  /// Reads the memory mappings of all processes. Stops early once the mappings read exceed the memory limit.
+  /// Reads the memory mappings of all processes. Stops early when the memory of the mappings exceeds the limit.
   void SampleMappings();
-  /// Gives the tree the lowest priority if it starves us; called again and again during a measurement.
+  /// Gives the tree the lowest priority if it starves this process; called repeatedly during a measurement.
   void ClaimTime();
   /// Returns true if a process shares its whole memory with an earlier one in the list, as a child of vfork does.
   bool SharesMemoryBefore(std::size_t at) const;

@@ -55,7 +55,7 @@ Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
   return files;
 }
 
-/// Returns true if a file of a folder begins as a recording does; label files and read-mes do not.
+/// Returns true if a file of a folder begins like a recording; label files and read-me files do not.
 Result<bool> LooksLikeStream(const std::string& path) {
   if (IsClip(path)) return true;
   if (fs::path(path).extension() == ".tagstream") return false;

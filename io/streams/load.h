@@ -12,11 +12,12 @@
 namespace etude {
 
 /// Reads one recording or clip. A clip ("builtin:clap", a cell's motion in a run, or any motion file that is no
-/// recording of a sensor) is read as an error-free sensor would record it. `clips` gives the options for opening clips.
+/// recording of a sensor) is converted to the recording of an error-free sensor. `clips` gives the options for opening
+/// clips.
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
                                             const StreamOptions& options, const OpenOptions& clips = {});
 
-/// Makes recordings of clips, as an error-free sensor would make them.
+/// Converts clips to the recordings of an error-free sensor.
 std::vector<NamedStream> StreamsOf(const ClipLibrary& library);
 
 /// The recordings of files, patterns and folders; folders include their subfolders, sorted by path.

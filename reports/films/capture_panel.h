@@ -60,7 +60,7 @@ class CapturePanel {
   StagedRoom stage_;
   std::vector<LensWarp> lenses_;   ///< one per camera
   std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
-  std::vector<double> errors_mm_;  ///< one per frame; empty if the run kept no such curve
+  std::vector<double> errors_mm_;  ///< one per frame; empty if the run did not record errors of frames
   std::optional<double> error_mm_;
   std::string method_, clip_;
 };

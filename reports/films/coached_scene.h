@@ -54,7 +54,7 @@ class CoachedScene : public Scene {
   std::vector<double> Beats() const override;
 
  private:
-  /// Returns the stage without people; it is drawn once.
+  /// Returns the stage without people; it is drawn only once.
   const ColourImage& Backdrop(const Camera& camera);
   void DrawStage(Canvas& canvas, int frame);
   void DrawSkeletonInset(Canvas& canvas, int frame) const;
@@ -68,7 +68,7 @@ class CoachedScene : public Scene {
   Renderer& renderer_;
   int first_ = 0, last_ = 0;  ///< the film shows the session's frames [first_, last_)
   Character bear_, learner_;
-  ColourImage backdrop_;  ///< empty until it is needed
+  ColourImage backdrop_;  ///< empty until the first use
 };
 
 }  // namespace etude

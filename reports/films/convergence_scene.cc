@@ -87,7 +87,7 @@ void ErrorPlot::Draw(Canvas& canvas, const Box& panel, double iteration) const {
   DrawIterationAxis(canvas, frame);
   const double now = frame.X(iteration);
   canvas.DrawLine({now, frame.box.y}, {now, frame.Bottom()}, 1.5, kTime);
-  // Draw later curves thinner, so that all of several equal curves are visible.
+  // Draw later curves thinner, so that equal curves are all visible.
   double width = 3 + 2.0 * (static_cast<double>(curves_.size()) - 1);
   for (const ErrorCurve& curve : curves_) {
     DrawCurve(canvas, frame, curve, iteration, width);
@@ -112,7 +112,7 @@ void ErrorPlot::DrawValueAxis(Canvas& canvas, const Frame& frame) const {
 }
 
 void ErrorPlot::DrawIterationAxis(Canvas& canvas, const Frame& frame) const {
-  double free_from = 0;  // first x at which the next label does not overlap
+  double free_from = 0;  // smallest x at which the next label does not overlap the last one
   const auto tick = [&](int at) {
     const std::string label = FormatCount(at);
     const double width = canvas.TextWidth(label, kTickSize), x = frame.X(at), left = x - width / 2;
@@ -303,7 +303,7 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
   figure(84, "iteration", FormatCount(reached), kInk);
   error(164, "worst position error", path_.position_cm, kGoalCm, " cm");
   error(244, "worst orientation error", path_.orientation_deg, kGoalDeg, "°");
-  // After a method has ended, show how it ended. Its last pose stays until the other method ends.
+  // After a method has ended, show how it ended; its last pose stays until the other method ends.
   if (entry + 1 == path_.poses.size()) {
     const Paint& paint = path_.solved_at ? kGood : kWarn;
     canvas.DrawText({x, panel.y + 342}, path_.ending, 25, paint, panel.width - 36, true);

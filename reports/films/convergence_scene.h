@@ -13,8 +13,8 @@
 namespace etude {
 
 /// Maps frames of a film to iterations, the same for every method. The scale is logarithmic: each frame multiplies
-/// iteration + 1 by the same factor, so that the first iterations, which change most, are shown one by one and the last
-/// ones pass quickly. The first and the last state are held for a while.
+/// iteration + 1 by the same factor, so that the first iterations, in which most changes happen, are shown one by one,
+/// and the last iterations pass quickly. The film rests on the first and on the last state for a while.
 class RaceClock {
  public:
   /// Makes a clock for a film whose slowest method takes `last_iteration` ≥ 0 steps; the film lasts 6 to 10 seconds.
@@ -22,8 +22,8 @@ class RaceClock {
 
   int LastIteration() const { return last_; }
   int Frames() const { return kOpening + run_ + kEnding; }
-  /// Returns the iteration at a frame, 0 … the last one, never decreasing; the fraction is the progress within an
-  /// iteration.
+  /// Returns the iteration at a frame, 0 … the last iteration; it never decreases. The fraction is the progress within
+  /// an iteration.
   double IterationAt(int frame) const;
   /// Returns the position of an iteration, 0…1, on an axis along which the clock moves at constant speed.
   double ShareOf(double iteration) const;
@@ -82,7 +82,7 @@ class ConvergenceStage {
 
   Box box_;
   FloorMove move_;
-  double lift_;  ///< metres, so that no body is below the floor
+  double lift_;  ///< raises the figures, metres, so that no body is below the floor
   BodyPose truth_;
   IkTargets targets_;
   mutable Studio studio_;  ///< keeps its last picture

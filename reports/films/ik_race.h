@@ -20,7 +20,7 @@ inline const double kGoalDeg = Degrees(IkOptions{}.axis_goal);
 /// One method's path from the start to its end. All lists have one entry per recorded iteration.
 struct IkPath {
   std::string method;
-  std::size_t method_index = 0;  ///< index in the scenario, which decides the colour
+  std::size_t method_index = 0;  ///< index in the scenario, which selects the colour
   std::vector<BodyPose> poses;
   std::vector<int> iterations;          ///< never decreasing; the first is the start (0)
   std::vector<double> position_cm;      ///< error of the worst effector
@@ -45,7 +45,7 @@ using IkTargets = std::array<std::optional<glm::dvec3>, kIkEnds.size()>;
 /// Two methods of inverse kinematics in the same world.
 struct IkRace {
   std::string world;   ///< "joint_noise_deg=5, trial 0"
-  std::string choice;  ///< why this world was chosen, and which were skipped, in words
+  std::string choice;  ///< in words: why this world was chosen, and which worlds were skipped
   BodyPose truth;
   IkTargets targets;
   std::array<IkPath, 2> paths;
@@ -54,8 +54,8 @@ struct IkRace {
 };
 
 /// Finds the first two methods with recordings, in the scenario's order, and the first world that both recorded; it
-/// never selects a world by its content. Fails with the reason if there is no such world or its recordings cannot be
-/// read.
+/// never selects a world by its content. Fails with the reason if no world was recorded by both, or if the recordings
+/// cannot be read.
 Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

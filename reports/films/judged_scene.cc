@@ -264,7 +264,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   canvas.DrawText({left, kAnglesPanel.y + 53}, fmt::format("{}: {}", facts_.judges.front().method, verdict), 17,
                   called.empty() ? kSoftInk : PaintOfWord(called), 300, true);
   canvas.DrawText({left, kAnglesPanel.y + 77}, TruthWords(asked), 17, PaintOfWord(asked.truth), 300);
-  // Key poses in order; a reached one is checked off.
+  // Draw the key poses in order; a reached key pose is checked off.
   for (std::size_t k = 0; k < asked.poses.size(); ++k) {
     const bool is_reached = asked.reached[k] && now >= *asked.reached[k];
     const Box box{kAnglesPanel.x + 316 + 122 * static_cast<double>(k % 4),

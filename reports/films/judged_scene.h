@@ -15,8 +15,8 @@
 
 namespace etude {
 
-/// A recorded session of the detection task, and the verdicts of one or more methods. Frames count from the session's
-/// first one.
+/// A recorded session of the detection task, and the verdicts of one or more methods. Frame numbers count from the
+/// session's first frame.
 struct JudgedSessionFacts {
   struct Performance {
     std::string move, truth, fault;  ///< truth: right, grey, wrong; fault: "none", or names
@@ -62,9 +62,10 @@ class JudgedScene : public Scene {
  private:
   using Performance = JudgedSessionFacts::Performance;
 
-  /// Returns the performance that is expected at a frame, else the last one before it, else the first.
+  /// Returns the index of the performance that is expected at a frame. If none is expected, returns the last one before
+  /// the frame; before all performances, the first one.
   std::size_t CurrentAt(int frame) const;
-  /// Returns "right" or "wrong" once the verdict is known, else "".
+  /// Returns the verdict "right" or "wrong" once it is known; before that, "".
   std::string CalledAt(std::size_t judge, std::size_t performance, int frame) const;
   bool IsMisjudged(std::size_t performance) const;
   void DrawSkeleton(Canvas& canvas, int now) const;

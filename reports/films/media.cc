@@ -176,6 +176,7 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions&
   Media media;
   MakeStageFilm(run, paths, options.watch, media);
   MakePlates(run, media);
+  // Make one film for each scenario of a task that has films; a coach's scenario has up to two.
   for (std::size_t i = 0; i < run.scenarios.size() && !options.watch.IsStopped(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
     Film film;

@@ -21,13 +21,13 @@ struct ScenarioPicture {
   Picture picture;
 };
 
-/// All pictures and films made from a run's recordings, with reasons for those that could not be made.
+/// All pictures and films made from a run's recordings. For those that could not be made, it holds the reasons.
 struct Media {
   Film film;  ///< the run's film: a capture, or a coach alone; empty for other tasks, and if the film of a scenario
               ///< shows the same already
   std::vector<Picture> strip;                ///< moments of the capture: pictures of both cameras with mask and
                                              ///< recovered skeleton
-  std::vector<Still> stills;                 ///< the middle frame of the same capture as its cameras took it
+  std::vector<Still> stills;                 ///< the middle frame of the same capture as the cameras took it
   std::string strip_scenario;                ///< the scenario whose card shows the strip and the stills
   std::vector<ScenarioPicture> plates;       ///< for captures: all stages of some moments
   std::vector<ScenarioFilm> scenario_films;  ///< films of single scenarios: methods side by side, and sessions

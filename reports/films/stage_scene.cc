@@ -26,7 +26,8 @@ constexpr double kCoachDetail = 1.5;
 constexpr int kCoachFollowFrames = 30;
 // The smallest distance of the hips from the room's wall, metres.
 constexpr double kMinWallDistance = 1.0;
-// How many frames the change stays marked after the transition point, and how many frames around it show its distances.
+// The number of frames for which the change stays marked after the transition point, and the numbers of frames before
+// and after it in which its distances are shown.
 constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
 // Width of the distance bars beside the feet, and their height above the timeline, pixels.
@@ -47,7 +48,7 @@ void PutOnStage(BodyMotion& motion, int point) {
 
 Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 
-// The film is long enough to watch one change of moves; kLongest limits the time for making it.
+// The film is at least this long, enough to watch one change of moves; kLongest limits the time for making it.
 constexpr int kMinFrames = 5 * kFilmRate;
 // A repeated motion rests this many frames on its last frame before it starts again.
 constexpr int kRest = kFilmRate / 2;

@@ -16,7 +16,7 @@
 namespace etude {
 
 /// A coach that changes from one move to another, seen from the front by a camera that follows. Around each transition
-/// point, bars show its partial distances.
+/// point, bars show the partial distances of that point.
 class CoachPanel {
  public:
   /// Cuts the recording to at most `longest` frames around the first transition point. Fails if the recording's facts

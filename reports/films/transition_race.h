@@ -12,13 +12,14 @@ namespace etude {
 /// The path of one method through a request; times are frames after the request.
 struct TransitionPath {
   std::string method;
-  std::size_t method_index = 0;  ///< index in the scenario, which decides the colour
+  std::size_t method_index = 0;  ///< index in the scenario, which selects the colour
   TransitionFacts facts;
   BodyMotion motion;
   std::vector<double> jumps_cm;  ///< largest second difference of any joint, one per frame
-  int request = 0;               ///< index into `motion` of the frame at the request; may lie outside of it
+  int request = 0;               ///< index into `motion` of the frame of the request; it may lie outside `motion`
 
-  /// Returns the frame `time` frames after the request; the first one before the recording, the last one after it.
+  /// Returns the index of the frame `time` frames after the request; before the recording the first frame, after it the
+  /// last frame.
   int FrameAt(int time) const;
   bool IsRecordedAt(int time) const;
   /// Returns the time of a frame of the motion, in frames after the request.
@@ -33,7 +34,7 @@ struct TransitionPath {
 struct TransitionRace {
   std::string world;    ///< "trial 30"
   std::string request;  ///< "clap → side kick"
-  std::string choice;   ///< why this world and these methods were chosen, in words
+  std::string choice;   ///< in words: why this world and these methods were chosen
   std::vector<TransitionPath> paths;
 };
 constexpr std::size_t kMaxTransitionPaths = 4;

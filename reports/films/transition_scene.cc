@@ -56,7 +56,7 @@ TransitionStage StageFor(const TransitionRace& race, const TransitionClock& cloc
   return {race, clock.First(), clock.Last(), static_cast<int>(body.width), static_cast<int>(body.height)};
 }
 
-// One scale for all methods, so that jumps can be compared across columns.
+// Returns the highest jump of all methods: they share one scale, so that jumps can be compared across columns.
 double HighestJump(const TransitionRace& race, const TransitionClock& clock) {
   double highest = 1;
   for (const TransitionPath& path : race.paths) {

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// The stage on which all methods of a race are seen: one fixed camera; every body faces it at the request.
+/// The stage for all methods of a race: one fixed camera. At the request, every body faces the camera.
 class TransitionStage {
  public:
   /// Makes a stage for pictures of this size that show the times `first` … `last`, in frames after the request.
@@ -42,7 +42,7 @@ class TransitionPanel {
   TransitionPanel(const TransitionPath& path, std::size_t index, const TransitionStage& stage, const JumpStrip& strip)
       : path_(path), index_(index), stage_(stage), strip_(strip) {}
 
-  /// Returns the part of a column that shows the performer; the caption is below it.
+  /// Returns the part of a column that shows the person; the caption is below it.
   static Box BodyBox(const Box& column);
   void Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time);
 

@@ -64,7 +64,7 @@ class MembershipPanel {
     marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
     constexpr double kMinGap = 22;
     std::string svg;
-    std::array<double, 2> last = {-kMinGap, -kMinGap};  // where each row's last number stands
+    std::array<double, 2> last = {-kMinGap, -kMinGap};  // the position of each row's last number
     for (double mark : marks) {
       const double x = inputs_.At(mark);
       const std::size_t row = x - last[0] < kMinGap ? 1 : 0;

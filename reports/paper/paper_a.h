@@ -14,7 +14,7 @@ struct PaperAFigure {
   int number;
   Feature feature;  ///< the figure shows the right side; the left side has the same functions
   const char* title;
-  const char* input;           ///< what the axis shows
+  const char* input;           ///< the quantity on the axis
   std::vector<int> equations;  ///< one per term, in the order of TermsOf
   const char* repaired;        ///< misprints or gaps of the paper that were repaired; "" if there are none
 };

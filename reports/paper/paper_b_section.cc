@@ -32,7 +32,7 @@ struct Panel {
   std::vector<PlotCurve> curves;
 };
 
-/// Returns the first trial's curve of each method, and, if there are several trials, the median over all.
+/// Returns the first trial's curve of each method and, if there are several trials, the median curve over all trials.
 std::vector<PlotCurve> CurvesOf(const CellSeriesIndex& series, const std::vector<const Row*>& rows,
                                 const std::vector<std::string>& methods, const std::string& name) {
   std::vector<PlotCurve> singles, medians;
@@ -154,7 +154,7 @@ std::string PrintedHtml(bool with_angles) {
   return html + "</details>";
 }
 
-/// Returns LaTeX table environments of at most `most` tables each; the note stands in the first one's caption.
+/// Returns LaTeX table environments of at most `most` tables each. The caption of the first one contains the note.
 std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most, const std::string& caption,
                         const std::string& note) {
   std::string text;
@@ -177,7 +177,7 @@ bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
 
 /// Draws paper B's figure 5.2: each end effector's position error, and the error along each axis, over iterations. Each
 /// small panel shows all methods on a logarithmic axis: a thin line for the first trial, a thick line for the median of
-/// all trials. One folded figure per condition; "" if no cell keeps such curves.
+/// all trials. Returns one folded figure per condition; "" if no cell keeps these curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);

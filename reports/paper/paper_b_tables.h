@@ -68,8 +68,8 @@ inline constexpr std::array<PaperBJoint, 14> kPaperBJoints{{{"R_shoulder", kTree
                                                             {"L_knee", kTreeLeftKnee},
                                                             {"L_ankle", kTreeLeftAnkle}}};
 
-/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them for its one pose. Its tables 5.2 (a) and
-/// (c) repeat 5.1 (a) and (c).
+/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as printed in the paper, for the paper's single pose. The paper's
+/// tables 5.2 (a) and (c) repeat 5.1 (a) and (c).
 std::vector<PaperTable> PaperBPrintedErrors();
 std::vector<PaperTable> PaperBPrintedAngles();
 
@@ -81,7 +81,8 @@ struct PaperBSet {
   std::string replay;                 ///< the command that repeats the trial; "" for all trials
   std::vector<PaperTable> errors;     ///< "(a) before", then one per method; a row per effector
   std::vector<PaperTable> angles;     ///< one per method: the hidden angles of each joint
-  std::vector<std::string> outcomes;  ///< one line per method: how it ended, after how many iterations
+  std::vector<std::string> outcomes;  ///< one line per method: the status in which it ended, and the number of
+                                      ///< iterations
 };
 
 struct PaperBCondition {

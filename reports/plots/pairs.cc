@@ -45,7 +45,7 @@ std::vector<std::size_t> WorstFrames(const std::vector<double>& errors) {
   return worst;
 }
 
-/// Keeps the largest value of each stretch, so that no peak is lost where a curve has more frames than points.
+/// Keeps the largest value of each stretch of frames, so that no peak is lost if a curve has more frames than points.
 PlotCurve PeaksOf(const std::vector<double>& errors, std::size_t style) {
   constexpr std::size_t kMaxDrawn = 80;
   const std::size_t stretch = (errors.size() + kMaxDrawn - 1) / kMaxDrawn;

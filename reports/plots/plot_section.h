@@ -25,7 +25,7 @@ std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario)
 std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                        const std::string& metric);
 
-/// Draws the cost of each stage as a waterfall with intervals, from the method's error to the error that is left when
+/// Draws the cost of each stage as a waterfall with intervals, from the method's error to the error that remains when
 /// the truth replaces all stages. The caption says whether the shares depend on an order of the stages. `condition` is
 /// in words and may be empty.
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);

@@ -13,7 +13,7 @@
 namespace etude {
 
 struct JudgedPerformance {
-  int person = 0;    ///< the trial, which identifies the performer
+  int person = 0;    ///< number of the trial, which identifies the person
   double score = 0;  ///< higher scores are nearer to right
   double truth = 0;  ///< 1 right, ½ grey, 0 wrong
   bool is_called = false;
@@ -72,8 +72,8 @@ std::vector<std::pair<double, double>> FoundBySeverity(std::span<const JudgedPer
 /// if it never does.
 std::optional<double> HalfFoundAt(std::span<const std::pair<double, double>> curve);
 
-/// Returns a scenario's verdicts as curves, per condition: every method's ROC with its area, its detection error
-/// trade-off, faults found by severity, waits for praise. Returns "" if methods judge no performances.
+/// Returns curves for a scenario's verdicts, per condition: every method's ROC curve with its area, its detection error
+/// trade-off, the faults found by severity, and the waits for praise. Returns "" if methods judge no performances.
 std::string VerdictCurvesHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

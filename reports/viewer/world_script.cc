@@ -25,7 +25,7 @@ namespace {
 struct TrackLook {
   std::string_view task, track;
   std::string_view label;  ///< "" = the method's name
-  std::string_view kind;   ///< "shown", "ghost" (the reference of errors) or "partner" (stands aside)
+  std::string_view kind;   ///< "shown", "ghost" (the reference of errors) or "partner" (stands beside)
   std::vector<std::string_view> against = {};
   bool has_contacts = false;
 };
@@ -157,7 +157,7 @@ class Writer {
     return kJudgedRateHz;
   }
 
-  /// Adds a body with these further members.
+  /// Adds a body with the further JSON `members`.
   void AddBody(const RecordedCell& cell, TrackPoints motion, int begin, const Json& members) {
     const TrackLook look = LookOf(task_, motion.track);
     const std::size_t frames = motion.FrameCount();
@@ -221,8 +221,8 @@ class Writer {
     if (std::ranges::find(marks, mark) == marks.end()) marks.push_back(std::move(mark));
   }
 
-  /// Adds the extras of a cell, and returns the frame of the world at which its recording begins: all transitions have
-  /// their requests at the same time.
+  /// Adds the extras of a cell. Returns the frame of the world at which its recording begins; it is chosen so that all
+  /// transitions have their requests at the same time.
   int AddExtras(const std::string& method, const Recording& recording) {
     wanted_ = 0;
     const auto add = [&](const auto& extras) {
@@ -279,7 +279,8 @@ class Writer {
     return begin;
   }
 
-  /// Marks a verdict: "hit" if it agrees with the truth, "miss" if not, "grey" if the truth itself is undecided.
+  /// Marks a verdict: "hit" if it agrees with the truth, "miss" if it does not, "grey" if the truth itself is
+  /// undecided.
   void MarkJudgement(std::string_view lane, int frame, const std::string& truth, bool called_right,
                      const std::string& text) {
     const bool agrees = (truth == "right") == called_right;

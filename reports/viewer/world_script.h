@@ -23,8 +23,8 @@ struct QuantisedMotion {
 
   glm::dvec3 At(std::size_t point) const;
 };
-/// Quantises points. The step is the range of the widest axis divided by 65,534, the finest that 16 bits allow; it is 0
-/// if the motion stands still.
+/// Quantises points. The step is the range of the widest axis divided by 65,534, the smallest step that 16 bits allow;
+/// the step is 0 if the motion stands still.
 QuantisedMotion Quantise(std::span<const glm::dvec3> points);
 
 /// Writes the motions of one world as the script beside the page that the viewer loads: `etudeMotion({…});`, in ASCII.

@@ -49,7 +49,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
     return fmt::format("“{}” and {} both have a value in {} only: too few to judge the {}", c.method, other,
                        Plural(c.pairs, "world"), words.label);
   }
-  // The difference, and the mean if it tells more.
+  // Write the difference, and the mean if it lies outside the interval.
   std::string figures =
       fmt::format("{} (95 % CI {})", Amount(*c.difference, words), FormatInterval(c.ci_low, c.ci_high, words));
   if (c.verdict == Verdict::kInconclusive && MeanTellsMore(c)) {
@@ -118,7 +118,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                      CountVerdicts(VerdictsOf(judged), judged.size()), range);
 }
 
-// Names the worlds without a pair, so that a method that fails in hard worlds does not look better because of it.
+// Returns a sentence on the worlds without a pair. Without it, a method that fails in hard worlds would look better.
 std::string UnpairedWords(const std::vector<Judged>& judged) {
   int only_baseline = 0, only_method = 0;
   for (const Judged& j : judged) {
@@ -137,9 +137,9 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
              : fmt::format(" Not included in this difference, because one of the two has no value there: {}.", text);
 }
 
-// At or above this value, a ratio says more than a difference.
+// From this value on, a ratio tells more than a difference.
 constexpr double kMinTellingRatio = 2;
-// A value below this share of the practical threshold counts as zero, so a ratio to it says nothing.
+// A value below this share of the practical threshold counts as zero, because a ratio to it would be meaningless.
 constexpr double kMinShareOfThreshold = 0.1;
 
 std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
@@ -189,7 +189,7 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
   return "undecided against " + others;
 }
 
-/// Returns the smallest to the largest difference over conditions: " (−0.949 mm)"; "" if there is none.
+/// Returns the range of the differences over conditions: " (−0.949 mm)"; "" if there is none.
 std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   if (!HaveOneMetric(judged)) return "";
   std::optional<double> low, high;

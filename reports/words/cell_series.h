@@ -39,8 +39,8 @@ class KeptCells {
 /// Returns true if any cell of this scenario keeps a series of that name.
 bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::string_view name);
 
-/// Returns the rows of a scenario under one condition, in order. Rows of one condition are contiguous, so a search per
-/// condition does not pass over all rows.
+/// Returns the rows of a scenario under one condition, in order. Rows of one condition are contiguous, so the search
+/// does not visit all rows.
 std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenario,
                                   const std::vector<SweptValue>& condition);
 
@@ -48,7 +48,7 @@ std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenari
 std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run);
 
 /// Returns the median of each step over several curves of different lengths. A curve that has ended continues with its
-/// last value, because a solver that has stopped keeps its answer.
+/// last value, because a stopped solver keeps its answer.
 std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);
 
 }  // namespace etude

@@ -14,18 +14,20 @@ namespace etude {
 struct MetricWords {
   std::string label;              ///< "orientation error"; "share “solved”", "mean F1"
   std::string suffix;             ///< follows a value: "°", " cm", " %", ""
-  std::string difference_suffix;  ///< follows a difference: the same, but " percentage points" for values in per cent
-  double scale = 1;               ///< factor that turns a value into the one shown
+  std::string difference_suffix;  ///< unit that follows a difference: `suffix`, but " percentage points" for values in
+                                  ///< per cent
+  double scale = 1;               ///< factor that turns a stored value into the shown value
   bool is_share = false;          ///< 0…1, shown in per cent
   bool by_mean = false;           ///< true: the mean summarises all cells; false: the median
   Direction direction = Direction::kNeither;
-  std::string plain_label = {};  ///< "orientation error", "solved", "F1": for texts that already say mean or share
+  std::string plain_label = {};  ///< "orientation error", "solved", "F1": for texts that mention mean or share
+                                 ///< themselves
 };
 MetricWords WordsFor(const std::string& metric_id);
 /// Returns the suffix without its space, for captions: "cm", "".
 std::string UnitOf(const MetricWords& words);
 
-/// Returns the number that summarises all cells: the median or the mean, as the metric defines, in its unit.
+/// Returns the number that summarises all cells, in its unit: the median or the mean, whichever the metric defines.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
 /// Returns a value as text: "12.3°", "98 %"; kNoValue if there is none.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);

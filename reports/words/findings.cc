@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// If there are more methods than this, only the least and the most successful ones are named.
+// With more methods than this, only the least and the most successful method are named.
 constexpr std::size_t kMaxSuccesses = 12;
 
 std::string ExpectationsSentence(const RunFindings& f) {

@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// Returns a verdict's words, or "it depends" if the conditions differ.
+/// Returns the name of a verdict, or "it depends" if the conditions differ.
 inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
   return verdict ? VerdictName(*verdict) : "it depends";
 }
@@ -27,7 +27,7 @@ struct MethodFinding {
   std::string baseline;
   SamplingUnit unit = SamplingUnit::kWorld;
   bool is_compared = false;             ///< false if the method was not compared by this metric
-  std::optional<Verdict> verdict = {};  ///< on these worlds; empty if it depends on the condition
+  std::optional<Verdict> verdict = {};  ///< verdict on these worlds; empty if it depends on the condition
   BeyondFinding beyond = {};            ///< for other units
   std::string others = {};              ///< all methods with which it was compared: “a” or “b”
   std::string sentence = {};            ///< plain words, with the figures behind the verdicts
@@ -43,9 +43,10 @@ struct MethodFinding {
 struct KeyFigures {
   struct Method {
     std::string name;
-    std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has none
+    std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has no such value
   };
-  std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds lost to it; only known ones
+  std::vector<std::string> labels;  ///< names of the known figures: headline metric, success, processor time, worlds
+                                    ///< lost to the method
   std::vector<Method> methods;      ///< the method in question first; empty if nothing is compared
 };
 
@@ -67,10 +68,11 @@ struct SuccessFinding {
 
 /// All findings on one scenario in words, which the page and the Markdown share.
 struct ScenarioFindings {
-  std::string metric;    ///< the first headline metric, which the question is about; "" without any
+  std::string metric;    ///< the first headline metric, which the question is about; "" if there is none
   std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
   MethodFinding answer;  ///< against the baseline
-  MethodFinding rival;   ///< against the strongest other method; not compared in old runs, or if there is none
+  MethodFinding rival;   ///< against the strongest other method; not compared in old runs, and if there is no such
+                         ///< method
   KeyFigures figures;
   std::vector<MethodFinding> methods;  ///< every method compared with another, in the scenario's order
   std::vector<std::string> yardsticks;
@@ -103,7 +105,8 @@ std::string SuccessSentence(const SuccessFinding& finding);
 /// Returns the counts of the statuses: "480 cells: 470 ok, 8 unsolved, 2 failed".
 std::string StatusSentence(const ScenarioFindings& findings);
 
-/// Returns why values of this metric are missing in these cells: "2 × no effector seen; 1 × timeout".
+/// Returns the reasons for missing values of a metric in one method's cells under one condition: "2 × no effector seen;
+/// 1 × timeout".
 std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<SweptValue>& condition,
                            const std::string& method, const std::string& metric);
 

@@ -152,7 +152,7 @@ std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
 }
 
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
-  // Without metrics a scenario compares no methods at all, so this method is not a special case.
+  // A scenario without metrics compares no methods at all, so the result for this method is false.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
   // A method that is compared at all is compared under every condition.

@@ -18,13 +18,13 @@ struct Judged {
   /// The answer that the comparison decides or belongs to; null if the comparison stands alone.
   const Answer* answer = nullptr;
 
-  /// Returns the verdict on these worlds, and for others like them.
+  /// Return the verdict on these worlds, and the verdict for other units like them.
   Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
   std::optional<Verdict> Elsewhere() const { return answer == nullptr ? comparison->beyond.verdict : answer->beyond; }
 };
 
-/// Returns the comparisons of `method` by `metric`, one per condition, in their order. Summaries of old versions have
-/// no comparisons with a rival.
+/// Returns the comparisons of `method` by `metric`, one per condition, in their order. Summaries written by old
+/// versions contain no comparisons with a rival.
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
@@ -42,7 +42,7 @@ std::vector<std::string> BaselinesOf(const Judged& judged);
 /// Names the methods compared with: "“a”", or "“a” or “b”" if conditions or halves of the worlds have different rivals.
 std::string OthersOf(const std::vector<Judged>& judged);
 
-/// Returns the verdict on these worlds if all agree, else nothing. `judged` must not be empty.
+/// Returns the verdict on these worlds if all `judged` have the same one, else nothing. `judged` must not be empty.
 std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged);
 
 /// Returns "both conditions", "all 4 conditions".
@@ -52,7 +52,7 @@ std::string AllConditions(std::size_t count);
 /// if there are none.
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions);
 
-/// Returns the verdicts on these worlds.
+/// Returns the verdict on these worlds of each of `judged`.
 std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged);
 
 /// Returns true if a method is compared with no other one (its `against` names itself). Returns false for the first

@@ -66,7 +66,7 @@ std::vector<TargetView> ViewsOf(std::size_t camera, std::span<const TargetView> 
   return own;
 }
 
-/// Finds the films' delays, reports them, and returns the views at common moments.
+/// Finds the films' delays, reports them, and returns the views matched by time.
 Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options, const BoardViews& search,
                                           const std::vector<CameraBoards>& seen) {
   const bool are_films = std::ranges::all_of(seen, [](const CameraBoards& s) { return s.period_s > 0; });

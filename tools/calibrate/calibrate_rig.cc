@@ -93,7 +93,7 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
   RETURN_IF_ERROR(SetSize(options.size, cameras));
   Calibrated rig;
   for (const CameraPairs& of : cameras) {
-    // Calibrate by refinement with a lens, or by a linear method, which models no lens.
+    // Calibrate by refinement, with a lens; or by a linear method, without a lens.
     const auto complain = [&](const Error& error) { return Fail({file}, "camera {}: {}", of.name, error.message); };
     rig.points.push_back(of.pairs.size());
     if (options.method == "refined") {

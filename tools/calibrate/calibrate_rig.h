@@ -13,19 +13,20 @@
 namespace etude {
 
 struct CalibrateOptions {
-  std::vector<std::string> inputs;  ///< one file of point pairs, or a folder of pictures or a film for each camera
+  std::vector<std::string> inputs;  ///< either one file of point pairs, or one folder of pictures or film for each
+                                    ///< camera
   std::string output;
   std::vector<std::string> boards = {"5x7x0.034"};  ///< COLUMNSxROWSxSQUARE[@FIRST_CODE]
   std::string method = "refined";                 ///< for point pairs: a name of CalibrationNames()
   std::string lens = "radial2";                   ///< none, radial2, radial3
   bool skew = false;
   std::string size;             ///< "1920x1080", the size of the pictures if the point pairs are CSV
-  std::string world = "floor";  ///< floor or wall: the plane in which the first board lies
+  std::string world = "floor";  ///< "floor" or "wall": the plane in which the first board lies
   /// Every n-th frame of a film is searched; 0 = every 30th, or for OpenCV's boards about 200 frames.
   int every = 0;
   double sync_s = 0;            ///< maximum delay between films of boards; 0 = two search intervals
   std::string picture;          ///< a PNG with the corners found and their errors, "" = none
-  std::string beside;           ///< another calibration of these cameras to compare with, or "opencv"; "" = none
+  std::string beside;           ///< another calibration of these cameras to be compared with, or "opencv"; "" = none
   std::string print;            ///< a PNG to write: the board itself, to be printed
   Listener listener = {};
 };

@@ -196,7 +196,7 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
     overlays.push_back(
         {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
     for (auto seen : person.people[chosen].seen[i]) {
-      // Keypoints of matched persons have no lens distortion; put it back before drawing.
+      // Keypoints of matched persons have no lens distortion; add the distortion before drawing.
       for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
         const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
         keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
@@ -241,7 +241,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
-  // Move the rig and the points into the world: metres, Y up, the floor as the options say.
+  // Move the rig and the points into the world: metres, Y up, with the floor that the options define.
   for (const FilmedView& view : views) {  // these cameras hold the repairs that the recovery made
     const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
     if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
@@ -297,7 +297,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));
     TellWritten(options.listener, options.points);
   }
-  // Compare with the reference, if there is one.
+  // If there is a reference, compare with it.
   if (reference) {
     const std::string what =
         fmt::format("Distance of the {} to {}, median, mm.",

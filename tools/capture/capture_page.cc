@@ -99,7 +99,8 @@ std::string ToldHtml(const CapturePage& page) {
 }
 
 std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
-  // One table row for each camera: number of frames, median, 95th percentile, and the share of rejected keypoints.
+  // Write one table row for each camera: number of frames, median, 95th percentile, and the share of rejected
+  // keypoints.
   std::vector<TakeCurve> curves;
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> heads = {"Camera", "Frames", "Median, " + residuals.unit, "95 %, " + residuals.unit};

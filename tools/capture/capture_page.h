@@ -16,7 +16,7 @@ struct TakeCurve {
   std::vector<std::optional<double>> values;
 };
 
-/// Returns the values of the frames that have one.
+/// Returns the values of all frames that have a value.
 std::vector<double> KnownOf(const std::vector<std::optional<double>>& values);
 
 /// One camera of a captured take.
@@ -43,7 +43,7 @@ struct CapturePage {
   std::string film;                        ///< the path of the overlay film, "" = none is written
   Picture still;                           ///< the middle frame
   std::vector<std::string> told;           ///< findings, repairs and doubts, one line each
-  std::vector<CameraResiduals> residuals;  ///< for keypoints, for silhouettes, or for both
+  std::vector<CameraResiduals> residuals;  ///< one entry for keypoints, one for silhouettes, or both
   std::vector<TakeCurve> feet_cm;          ///< heights above the floor, cm
   std::string limbs;                       ///< a sentence that says where the limb lengths come from
   std::vector<std::pair<std::string, double>> lengths_cm;          ///< limb lengths
@@ -53,7 +53,7 @@ struct CapturePage {
   std::string version, command;
 };
 
-/// Writes one HTML page that needs no other file and may not use the network, in the style of a run's page.
+/// Writes one HTML page in the style of a run's page. It needs no other file, and may not use the network.
 std::string WriteCapturePage(const CapturePage& page);
 
 }  // namespace etude

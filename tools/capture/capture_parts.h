@@ -72,7 +72,7 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
                       const std::vector<std::string>& told);
 /// Returns a phrase with the number of doubtful lines in `told`.
 std::string DoubtsOf(const std::vector<std::string>& told);
-/// Puts the overlay film into the page and writes the page. Returns false if it was interrupted.
+/// Puts the overlay film into the page and writes the page. Returns false if Ctrl-C interrupted the film.
 Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
 /// Measures the difference between body and silhouette in each camera, per cent.
@@ -91,7 +91,7 @@ Result<bool> WriteReport(const CaptureFilmsOptions& options, const std::vector<F
 std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
                                     std::size_t chosen, const std::vector<FilmClock>& clocks);
 
-/// Writes the film of `--film`. Returns false if it was interrupted.
+/// Writes the film of `--film`. Returns false if Ctrl-C interrupted the film.
 Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
 
@@ -114,8 +114,8 @@ ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, c
 /// different lengths.
 MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference, MessageLog& told);
 
-/// Prints the medians (one row for each marker of the first column and one for all) and the 95th percentiles, under the
-/// heading `words`, and writes the file of `--distances` if its name is not empty.
+/// Prints a table under the heading `words`: the medians (one row for each marker of the first column, and one row for
+/// all markers) and the 95th percentiles. Writes the file of `--distances` if its name is not "".
 Result<void> TellColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
                          const std::vector<FilmedView>& views, const CaptureFilmsOptions& options);
 

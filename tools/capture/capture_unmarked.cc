@@ -81,7 +81,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
                 views.size(), pictures, kMaxPictures, kMaxPictures / views.size());
   }
   ReducedTake take;
-  // Read each film's masks, or its pictures and the empty room, at the times of the first film's frames.
+  // Read each film's masks, or its pictures and the picture of the empty room, at the times of the first film's frames.
   for (const FilmedView& view : views) {
     take.cameras.push_back(ReducedCamera(view.camera.camera, UnmarkedTake::kPictureSide));
     take.reductions.push_back(take.cameras.back().intrinsics.fx / view.camera.camera.intrinsics.fx);

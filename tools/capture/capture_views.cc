@@ -110,8 +110,8 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   in.height = static_cast<int>(std::lround(best.y / scale));
 }
 
-/// Checks that the films cover the same time: equal numbers of frames at equal rates, equal durations at different
-/// rates.
+/// Checks that the films cover the same time: at equal rates, they must have equally many frames; at different rates,
+/// equal durations.
 Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time) {
   const FilmedView& first = views.front();
   for (const FilmedView& view : views) {
@@ -236,7 +236,7 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
   }
   const double own_rate = reference.rate_hz;
   constexpr double kWritten = 1e-5;  // the file says 29.97 for 30000/1001
-  // Different rates: measure the drift, and undo it if that halves the share of large distances.
+  // If the rates differ, measure the drift, and undo it if that halves the share of large distances.
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;

@@ -102,7 +102,7 @@ class FilmReader {
   long shown_ = -1;
 };
 
-/// Reads all films in parallel and writes their pictures one after the other into one buffer.
+/// Reads all films in parallel, and writes their pictures into one buffer, one after the other.
 class FilmReaders {
  public:
   static Result<FilmReaders> Start(std::span<const OverlayView> views) {

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Returns true for the clips with which a coach corrects (paper A, section 3.3): shaking the head, waving, a slow
+/// Returns true for the clips by which a coach corrects (paper A, section 3.3): shaking the head, waving, a slow
 /// demonstration, and the puzzled act.
 bool IsCorrective(const std::string& source) {
   const std::string slow = "builtin:" + std::string(kSlowDemonstrationPrefix);

@@ -44,7 +44,8 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options);
 /// Returns the tags of a library as the content of a tags file.
 BridgeTags TagsOf(const BridgeLibrary& loaded);
 
-/// Writes the tags of a library to a file. Fails without writing if the text does not read back as the same tags.
+/// Writes the tags of a library to a file. First reads the written text again; fails without writing the file if the
+/// tags differ.
 Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path);
 
 }  // namespace etude

@@ -37,7 +37,7 @@ struct BodyFacts {
   std::optional<MotionFaults> faults = {};
 };
 
-/// The facts of a clip, as `etude clip info` shows them. If a fact cannot be determined, it is missing and `complaint`
+/// The facts of a clip that `etude clip info` shows. If a fact cannot be determined, it is missing, and `complaint`
 /// says why.
 struct ClipFacts {
   std::string name;
@@ -62,7 +62,7 @@ ClipFacts FactsOf(const OpenedClip& clip);
 /// if UnderstandClip fails at that rate.
 std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options);
 
-/// Writes the facts as a paragraph for people. If the roles equal those of `before`, they are not repeated.
+/// Writes the facts as a paragraph for people. Roles that are the same as those of `before` are not repeated.
 std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before = nullptr);
 /// Writes the facts as a caption: "BVH · 22.9 s at 120 Hz · 31 joints · 1.59 m tall · feet slide 0.6 cm/s · 1 unit =
 /// 5.644 cm (CMU)".

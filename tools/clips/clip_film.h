@@ -28,8 +28,8 @@ enum class ActorKind {
 /// A clip with the figure that performs it, frame by frame at the body motion's rate.
 class ClipActor {
  public:
-  /// Makes an actor. Without a kind, it is the file's own figure if it has one, the bear for built-in clips, else the
-  /// mannequin. Fails if `kOwn` is requested for a file without meshes.
+  /// Makes an actor. Without a kind, the actor is the file's own figure if there is one; for built-in clips the bear;
+  /// else the mannequin. Fails if `kOwn` is requested for a file without meshes.
   static Result<ClipActor> Make(OpenedClip clip, std::optional<ActorKind> kind);
 
   const OpenedClip& clip() const { return clip_; }
@@ -87,7 +87,7 @@ struct FilmOptions {
   Viewpoint from = Viewpoint::kThreeQuarter;
   int width = 720;  ///< pixels; width and height must be even
   int height = 720;
-  FilmWatch watch = {};  ///< if it stops the film, no file is left
+  FilmWatch watch = {};  ///< if it stops the film, no file remains
 };
 
 /// Writes an MP4 of a whole clip; the camera follows the body. Returns false if it was stopped.

@@ -11,7 +11,7 @@ namespace etude {
 
 /// A request to write a transition into a file.
 struct TransitionFileOptions {
-  std::string from, to;  ///< references of one clip each
+  std::string from, to;  ///< references; each must name one clip
   double at_s = 0;       ///< the time of the request, seconds from the first frame of `from`'s file
   double budget_s = 1;   ///< the longest wait until `to` plays, seconds
   std::string choice = "played", join = "planted-feet";  ///< names of ChoiceNames() and JoinNames()

@@ -68,7 +68,7 @@ void DrawHeight(Canvas& canvas, const RigForecast& forecast, const Scale& scale,
 
 /// Draws the plan from above: the cameras, the volume, and the best place for one more camera.
 void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions& options) {
-  // Choose the scale so that the volume, all cameras and the added one fit.
+  // Choose the scale so that the volume and all cameras fit, including the added camera.
   const glm::dvec2 half(options.size_m.x / 2, options.size_m.z / 2);
   glm::dvec2 low = forecast.middle_m - half, high = forecast.middle_m + half;
   const auto include = [&](const glm::dvec3& p) {

@@ -50,7 +50,7 @@ struct ForecastPlace {
 /// The expected error over the volume, for the unchanged rig or with one change.
 struct RigWorth {
   std::string change;                      ///< the change, in words for users
-  std::optional<glm::dvec3> added_m = {};  ///< position of the added camera, if there is one
+  std::optional<glm::dvec3> added_m = {};  ///< position of the added camera; absent if the change adds none
   double seen = 0;                         ///< share of all places that are in the pictures of at least two cameras
   double median_mm = 0;                    ///< median error over the places that the unchanged rig sees, too
 };
@@ -58,7 +58,8 @@ struct RigWorth {
 /// The expected root mean square errors of one joint of a person who stands in the volume.
 struct ForecastJoint {
   Role role = Role::kHipCentre;
-  std::optional<double> noise_px;      ///< standard deviation of its keypoints; absent if it is not triangulated
+  std::optional<double> noise_px;      ///< standard deviation of the joint's keypoints, pixels; absent if the joint is
+                                       ///< not triangulated
   double point_mm = 0, body_mm = 0;    ///< RMS error of the triangulated joint, and of the joint in the fitted body
   double point_deg = 0, body_deg = 0;  ///< RMS errors of the direction of the limb that ends at the joint, from
                                        ///< triangulation and from the fitted body; 0 for the hip centre
@@ -66,7 +67,7 @@ struct ForecastJoint {
 
 struct RigForecast {
   std::vector<NamedCamera> cameras;   ///< metres, Y up
-  std::optional<KeypointNoise> measured;  ///< from the take's keypoints, if there is one
+  std::optional<KeypointNoise> measured;  ///< measured from the take's keypoints; absent without a take
   glm::dvec2 middle_m{0};             ///< middle of the volume on the floor (x, z)
   std::vector<ForecastPlace> places;  ///< by height, then z, then x, each ascending
   double seen = 0;                    ///< share of places in the pictures of at least two cameras

@@ -113,7 +113,7 @@ void FitAlternately(const std::vector<Pair>& pairs, int max_iterations, TwinAlig
   }
 }
 
-/// Computes the mean joint speed of each frame, over the joints seen in this frame and the one before.
+/// Computes the mean joint speed of each frame, over the joints that were seen in this frame and in the frame before.
 std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
   std::vector<std::optional<double>> speeds(recording.frames.size());
   for (std::size_t t = 1; t < speeds.size(); ++t) {
@@ -144,7 +144,7 @@ JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   return recording;
 }
 
-/// Returns Pearson's correlation of a[t] and b[t + lag]; nullopt if they overlap in less than a second.
+/// Returns Pearson's correlation of a[t] and b[t + lag]; nullopt if both overlap for less than a second.
 std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
                                     const std::vector<std::optional<double>>& b, long lag, double rate_hz) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;

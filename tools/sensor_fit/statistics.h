@@ -18,7 +18,7 @@ struct SensorStatistics {
   using ByGroup = std::array<std::optional<double>, kJointGroupCount>;
 
   ByGroup error_mm;                             ///< root mean square distance from the twin
-  std::optional<double> shoulders_and_hips_mm;  ///< both groups together
+  std::optional<double> shoulders_and_hips_mm;  ///< shoulders and hips together
   std::optional<double> planted_feet_mm;        ///< ankles and feet whose twin is slower than 0.1 m/s
   ByGroup depth_ratio;                          ///< standard deviation along the line of sight ÷ along an axis across
                                                 ///< it
@@ -60,7 +60,7 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics);
 /// 0.15.
 constexpr double kSizeTolerance = 0.30, kCorrelationTolerance = 0.15;
 
-/// The number of rows in which both columns have a value, and how many of these are within the tolerances.
+/// The number of rows in which both columns have a value, and how many of these rows are within the tolerances.
 struct Agreement {
   int within = 0;
   int compared = 0;
@@ -68,8 +68,8 @@ struct Agreement {
 Agreement AgreementOf(const SensorStatistics& reference, const SensorStatistics& other);
 
 /// Writes a table for people with one line per statistic and one column per recording; "-" marks an absent value. With
-/// `compares`, the second column is followed by its ratio or difference to the first one, with "!" if it is out of
-/// tolerance.
+/// `compares`, the second column is followed by its ratio or difference to the first column, and by "!" if that is out
+/// of tolerance.
 std::string StatisticsTable(const std::vector<std::pair<std::string, SensorStatistics>>& columns, bool compares);
 
 }  // namespace etude

@@ -22,7 +22,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z) and its sign, −1 if it points down.
+/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z), and the sign of its direction: −1 if the axis
+/// points down.
 std::pair<int, int> UpOf(const aiScene& scene) {
   std::int32_t axis = 1, sign = 1;
   if (scene.mMetaData != nullptr) {
@@ -38,8 +39,8 @@ void Append(std::string& bytes, std::uint32_t number) {
   bytes.append(raw.data(), raw.size());
 }
 
-/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer is not used: it leaves out transforms
-/// within 0.01 of the identity, so a joint that is a centimetre from its parent would move onto it.
+/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer is not used, because it leaves out
+/// transforms within 0.01 of the identity: a joint one centimetre from its parent would move onto the parent.
 class MotionGlb {
  public:
   explicit MotionGlb(const aiScene& scene) {

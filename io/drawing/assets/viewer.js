@@ -12,7 +12,7 @@ const treeOf = (body) => body.joints ? {joints: body.joints.map((name) => name.r
 const SCALE = [[45, 100, 180], [125, 180, 220], [248, 232, 175], [236, 140, 72], [178, 28, 40]];
 
 const island = document.getElementById('motions');
-let files = null;  // cell → file; read when it is first needed
+let files = null;  // cell → file; read at the first use
 const fileOf = (cell) => {
   if (!files) {
     files = new Map();
@@ -23,7 +23,7 @@ const fileOf = (cell) => {
   return files.get(cell);
 };
 
-// ---- Data of the script beside the page.
+// ---- Prepare the data of the script beside the page.
 const worlds = {};
 const prepare = (world) => {
   const scale = world.unit === 'mm' ? 1000 : 100;
@@ -110,8 +110,8 @@ const standing = (left, up) => {
   return times([Math.cos(half), ...x.map((v) => v * Math.sin(half))], first);
 };
 
-// ---- Files for other programs. Arms point sideways at rest; limbs turn by the shortest rotation, so that
-// all joints are where the viewer shows them.
+// ---- Export files for other programs. At rest, arms point sideways; limbs turn by the shortest rotation, so that all
+// joints are where the viewer shows them.
 const restOf = (body) => PARENT.map((parent, j) => {
   if (parent < 0) return [0, 0, 0];
   const p = place(body, body.begin), length = Math.hypot(...sub(jointOf(p, j), jointOf(p, parent)));
@@ -197,7 +197,8 @@ const glbOf = (world, body) => {
 };
 const writers = {BVH: bvhOf, GLB: glbOf, CSV: csvOf};
 
-// ---- Drawing. A scene: {items: [{places, colours, ghost, tree}], spots: [{at, radius, colour, squash}], floor, page, line}.
+// ---- Draw. A scene is {items: [{places, colours, ghost, tree}], spots: [{at, radius, colour, squash}], floor, page,
+// line}.
 const cameraOf = (view, width, height) => {
   const {yaw, pitch, distance, target} = view, c = Math.cos(pitch);
   const eye = [target[0] + distance * c * Math.sin(yaw), target[1] + distance * Math.sin(pitch), target[2] + distance * c * Math.cos(yaw)];
@@ -418,7 +419,7 @@ const show = (world, cells) => {
   const labelOf = (body) => world.cells.length > 1 && body.cell >= 0 && body.label !== world.cells[body.cell].method ?
       `${body.label} (${world.cells[body.cell].method})` : body.label;
 
-  // Methods stand side by side if they are shown apart; a partner always stands beside its dancer.
+  // If methods are shown apart, they stand side by side; a partner always stands beside its dancer.
   const box = () => {
     const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
     for (const i of chosen) {
@@ -588,7 +589,7 @@ const show = (world, cells) => {
     stage.prepend(canvas);
     renderer = (!flat && glRenderer(canvas, () => setUp(true))) || null;
     if (!renderer) {
-      if (!flat) return setUp(true);  // a canvas that has had a WebGL context gives no other one
+      if (!flat) return setUp(true);  // a canvas that has had a WebGL context gives no other context
       renderer = flatRenderer(canvas);
     }
     stage.dataset.renderer = renderer.kind;
@@ -706,7 +707,7 @@ const show = (world, cells) => {
 
 window.etudeViewer = {
   has: (cell) => fileOf(cell) !== undefined,
-  // Opens the world of these cells; the dialog offers the world's other cells.
+  // Opens the world of `cells`; the dialog also offers the world's other cells.
   open: (...cells) => {
     const known = cells.filter((cell) => fileOf(cell) !== undefined);
     if (opened || !known.length) return Promise.resolve(false);
