@@ -30,18 +30,18 @@ namespace etude {
 namespace {
 
 struct CoachCommandOptions {
-  std::string song;               ///< the name of a built-in song, or a song file
-  std::string stream;             ///< a file of skeleton rows; "-": standard input
-  std::string moves;              ///< a moves file from which the recogniser learns the song's moves, "" = the built-in
-                                  ///< moves
-  std::string beats;              ///< a file with the times of the music's beats, "" = evenly spaced beats at the
-                                  ///< song's tempo
+  std::string song;    ///< the name of a built-in song, or a song file
+  std::string stream;  ///< a file of skeleton rows; "-": standard input
+  /// A moves file from which the recogniser learns the song's moves, "" = the built-in moves.
+  std::string moves;
+  /// A file with the times of the music's beats, "" = evenly spaced beats at the song's tempo.
+  std::string beats;
   std::string click;              ///< a WAV to write, "" = none
   std::string format;             ///< the stream's format, "" = recognised by content
   std::optional<double> rate_hz;  ///< frame rate of streams without a clock
   std::string recogniser;         ///< one of RecogniserNames(), "" = the recommended recogniser
-  std::optional<double> right_from;  ///< minimum evidence for the verdict "right"; default: the recogniser's own
-                                     ///< threshold
+  /// Minimum evidence for the verdict "right"; default: the recogniser's own threshold.
+  std::optional<double> right_from;
   std::string policy = "at-first-mistake";
   std::string choice = "played";
   std::string join = "planted-feet";

@@ -16,8 +16,8 @@ class ProgressBar {
  public:
   enum class Begins {
     kAtOnce,
-    kWhenItTakesLong,  ///< soon on a terminal; in a log only if the work takes so long that somebody may look into the
-                       ///< log
+    /// Soon on a terminal; in a log only if the work takes so long that somebody may look into the log.
+    kWhenItTakesLong,
   };
   explicit ProgressBar(Begins begins = Begins::kAtOnce);
   /// Shows the progress of a run: first of its cells, then of writing its results if that takes long.

@@ -40,11 +40,11 @@ struct TrainOptions {
   bool memberships = false;        ///< also tune the membership functions
   std::uint64_t seed = 1;
   int population = 40, generations = 60;
-  bool recogniser = false;       ///< learn the recogniser `learnt` instead of a fuzzy system, from simulated people who
-                                 ///< dance the clips
-  bool coached = false;          ///< learn the recogniser `coached` instead of a fuzzy system; `clips` are then songs
-  std::optional<int> sessions;   ///< number of simulated sessions for `recogniser` or `coached`; default: the number
-                                 ///< for the built-in model
+  /// Learn the recogniser `learnt` instead of a fuzzy system, from simulated people who dance the clips.
+  bool recogniser = false;
+  bool coached = false;  ///< learn the recogniser `coached` instead of a fuzzy system; `clips` are then songs
+  /// Number of simulated sessions for `recogniser` or `coached`; default: the number for the built-in model.
+  std::optional<int> sessions;
   std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of their names
   bool overwrite = false, as_json = false;
   ClipReading reading;

@@ -66,8 +66,8 @@ std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenar
   const ScenarioFindings findings = FindingsOf(run, scenario);
   std::vector<JunitCase> clips = ClipCases(run, scenario.name);
   std::vector<JunitCase> cases{EveryCellHasARow(run, scenario)};
-  if (clips.empty()) cases.push_back(NoCellBroke(findings));  // with clips, each clip that cannot be judged is a case
-                                                              // already
+  // With clips, each clip that cannot be judged is a case already.
+  if (clips.empty()) cases.push_back(NoCellBroke(findings));
   if (findings.answer.is_compared) cases.push_back(TheAnswer(findings));
   for (const ExpectationResult& e : scenario.expectations) {
     cases.push_back({e.text, e.outcome, e.detail, fmt::format("judged on {}", TheseUnits(scenario.unit))});

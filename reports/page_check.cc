@@ -16,9 +16,9 @@ constexpr std::size_t kMaxDigits = 4;  // digits of a width or height; a limit k
 /// An element that is allowed between marks, with its allowed attributes.
 struct Element {
   std::string_view name;
-  std::vector<std::string_view> attributes = {};  ///< "class=film" allows this value only; "alt=" allows every value
-                                                  ///< that IsAllowedValue accepts
-  bool is_void = false;                           ///< has no closing tag
+  /// "class=film" allows this value only; "alt=" allows every value that IsAllowedValue accepts.
+  std::vector<std::string_view> attributes = {};
+  bool is_void = false;  ///< has no closing tag
 };
 
 using Elements = std::span<const Element>;

@@ -47,8 +47,8 @@ struct LiveCoachOptions {
   bool plans_ahead = false;     ///< spread planning over frames; set it for live streams
   bool brief = false;           ///< leave out bodies, and frames without a decision
   CoachOptions coach = {};
-  std::function<void(const std::string& remark)> on_remark = {};  ///< receives a remark at the start if the sensor's
-                                                                  ///< tilt was corrected or trunks are far from upright
+  /// Receives a remark at the start if the sensor's tilt was corrected or trunks are far from upright.
+  std::function<void(const std::string& remark)> on_remark = {};
 };
 
 /// Runs a coach's session on a stream of skeletons, frame by frame. The session begins with the first frame, because

@@ -12,8 +12,8 @@ using namespace etude;
 int main() {
   const KinematicTree body = MakeBodyTree(LimbLengths{});
   std::mt19937 dice(1);
-  const auto draw = [&](const AngleRange& range, double share) {  // a share of the way from the middle of a joint's
-                                                                  // range to its end
+  // A share of the way from the middle of a joint's range to its end.
+  const auto draw = [&](const AngleRange& range, double share) {
     const double middle = (range.lower + range.upper) / 2, half = share * (range.upper - range.lower) / 2;
     return middle + half * (2 * dice() / double(std::mt19937::max()) - 1);
   };

@@ -11,8 +11,8 @@ import {TfLite} from './tflite.mjs';
 const SIDE = 256;                           // side of the network's input and of its mask, pixels
 const LANDMARKS = 0, PRESENCE = 1, MASK = 2;  // indices of the network's outputs
 const NUMBERS = 5;                          // numbers per landmark: u, v, depth, visibility, presence
-const MIDDLE = 33, RIM = 34;                // landmarks: the middle of the hips, and a point on the circle around the
-                                            // body
+// Landmarks: the middle of the hips, and a point on the circle around the body.
+const MIDDLE = 33, RIM = 34;
 const MARGIN = 1.25;                        // side of the crop ÷ diameter of that circle, as BlazePose's authors crop
 const LEAST_PRESENCE = 0.5;
 

@@ -15,8 +15,8 @@ namespace etude {
 /// The body of a clip at the position and the rate that its file gives.
 struct BodyInPlace {
   BodyMotion motion;                    ///< the twenty joints at the file's own rate and heights, metres, Y up
-  double begin_s = 0;        ///< the time of the first frame: a leading T-pose, and frames before the body is complete,
-                             ///< are left out
+  /// The time of the first frame: a leading T-pose, and frames before the body is complete, are left out.
+  double begin_s = 0;
   double lost_after_s = 0;   ///< FaultOptions::lost_after_s
   double lost_before_s = 0;  ///< FaultOptions::lost_before_s
   std::vector<JointSet> unseen = {};    ///< FaultOptions::unseen

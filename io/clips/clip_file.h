@@ -54,13 +54,13 @@ struct MadeBody {
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
   Character figure;                       ///< a skeleton, and meshes if the file has any
-  std::vector<Clip> clips;                ///< clips on that skeleton; some glTF files have none, a marker file has one
-                                          ///< per person
+  /// Clips on that skeleton; some glTF files have none, a marker file has one per person.
+  std::vector<Clip> clips;
   std::vector<MadeBody> bodies = {};      ///< one for each clip if the clips are bodies already; else empty
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
-  std::vector<MarkerMotion> shown = {};  ///< MarkerBody::shown of each clip that was made from markers; filled only if
-                                         ///< `keeps_shown` is set
+  /// MarkerBody::shown of each clip that was made from markers; filled only if `keeps_shown` is set.
+  std::vector<MarkerMotion> shown = {};
   bool has_rate = true;                  ///< false: the file gives no rate, so a rate was assumed
 };
 
@@ -68,11 +68,11 @@ struct ClipFile {
 struct OpenOptions {
   std::optional<JointMapOverrides> roles;  ///< the user's joint map (--joint-map)
   BodyOptions body;
-  std::string marker_set = "";                ///< for marker files: the marker set to use (MarkerSetKeys); "" = the set
-                                              ///< that fits best
-  bool keeps_shown = false;                   ///< for marker files: also fill SourceClip::shown
-  const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = a reference of this form is treated as
-                                              ///< a file
+  /// For marker files: the marker set to use (MarkerSetKeys); "" = the set that fits best.
+  std::string marker_set = "";
+  bool keeps_shown = false;  ///< for marker files: also fill SourceClip::shown
+  /// Reads "RUN#CELL@NAME"; null = a reference of this form is treated as a file.
+  const RecordedMotions* recorded = nullptr;
 };
 
 /// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is

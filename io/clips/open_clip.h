@@ -16,8 +16,8 @@ namespace etude {
 
 /// A clip as its file stores it.
 struct SourceClip {
-  std::string name;    ///< "01_01", "Med_General#Dance": the file's name without folder and extension, and the
-                       ///< animation; "builtin:clap"
+  /// "01_01", "Med_General#Dance": the file's name without folder and extension, and the animation; "builtin:clap".
+  std::string name;
   std::string source;  ///< the reference that opens the clip again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
   ClipFormat format = ClipFormat::kBvh;
   Clip clip;
@@ -25,9 +25,9 @@ struct SourceClip {
   std::shared_ptr<const Character> character;
   std::optional<Ground> ground = {};  ///< the ground shared by all clips of the file; only if the file holds several
   std::optional<MadeBody> made = {};  ///< set if the clip is a body already: it is in metres, with Y up
-  std::vector<std::string> remarks = {};  ///< repairs made while reading the file; UnderstandClip appends them to the
-                                          ///< body's note
-  std::optional<JointMapOverrides> roles = {};  ///< ClipFile::roles; the roles in OpenOptions have priority
+  /// Repairs made while reading the file; UnderstandClip appends them to the body's note.
+  std::vector<std::string> remarks = {};
+  std::optional<JointMapOverrides> roles = {};     ///< ClipFile::roles; the roles in OpenOptions have priority
   std::shared_ptr<const MarkerMotion> shown = {};  ///< this clip's entry of ClipFile::shown; null if there is none
 };
 

@@ -18,7 +18,7 @@
 
 namespace etude {
 
-/// Supplies the data of frames that only this process can produce: the pictures of a film that is read, or the
+/// Supplies data that frames need and only this process can produce: the pictures of a film that is read, or the
 /// positions of a moving crowd.
 struct FrameFeed {
   std::size_t bytes = 0;  ///< bytes of every frame; 0 = frames need no data

@@ -140,8 +140,8 @@ void Studio::PaintFloor(const FloorMove& placement) {
   // Express the floor point in the figure's original frame by inverting the placement.
   const float cosine = static_cast<float>(std::cos(placement.yaw)), sine = static_cast<float>(std::sin(placement.yaw));
   const float move_x = static_cast<float>(placement.x), move_z = static_cast<float>(placement.z);
-  const int width = floor_.seen.Width();  // a local copy: pixels that are written might alias it, and the loop would
-                                          // not vectorise
+  // A local copy: pixels that are written might alias it, and the loop would not vectorise.
+  const int width = floor_.seen.Width();
   for (int y = floor_.seen.top; y < floor_.seen.bottom; ++y) {
     const std::size_t first = static_cast<std::size_t>(y) * lit_.width + floor_.seen.left;
     const float *xs = &floor_.x[first], *zs = &floor_.z[first];

@@ -117,7 +117,7 @@ std::string TableLatex(const Table& table) {
   const auto append = [](std::string& line, const std::string& cell, bool is_first) {
     line += is_first ? cell : cell.empty() ? " &" : " & " + cell;
   };
-  // Collect the alignments, the heads, and the heads over several columns with their rules.
+  // Collect the alignments, the headings, and the headings over several columns with the lines below them.
   std::string places, heads, over, rules;
   for (const TableColumn& column : table.columns) {
     places += column.is_number ? 'r' : 'l';

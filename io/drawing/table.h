@@ -40,8 +40,8 @@ struct TableCell {
 
 struct TableRow {
   std::vector<TableCell> cells = {};  ///< as many as the table has columns; none in a row that begins a group
-  std::string group = {};             ///< the heading of the rows that follow, across all columns; "" in every other
-                                      ///< row
+  /// The heading of the rows that follow, across all columns; "" in every other row.
+  std::string group = {};
   /// An HTML comment that the page holds instead of the row; other writers leave it out.
   std::string mark = {};
   std::string attributes = {};  ///< HTML attributes of the row, or of the group: " class=\"taken\""

@@ -34,8 +34,8 @@ int OpenNext(int folder, const std::string& name, bool makes) {
 struct Walk {
   Descriptor end;            ///< the last folder; none on failure
   fs::path stopped_at = {};  ///< the folder that could not be opened
-  int reason = 0;            ///< the errno of the failure; ELOOP = the folder is a link, EXDEV = the path leads out of
-                             ///< `given`
+  /// The errno of the failure; ELOOP = the folder is a link, EXDEV = the path leads out of `given`.
+  int reason = 0;
 };
 
 Walk WalkDown(const fs::path& given, const fs::path& below, bool makes) {

@@ -228,8 +228,8 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   return film;
 }
 
-/// Moves frames to the given indices, in ascending order; `count` is the number of frames. Adds a note if frames are
-/// missing.
+/// Moves the i-th frame to `indices[i]`; indices ascend. `count` is the number of frames afterwards. Adds a note if
+/// frames are missing.
 void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleOfFilm& film) {
   SeenPeople frames(count);
   for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);

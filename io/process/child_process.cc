@@ -84,8 +84,8 @@ struct ExecPlan {
   bool limited, contained;
   std::string user_map, group_map;
   std::vector<Descriptor> texts;
-  std::vector<std::pair<const char*, std::string>> user_limits;  ///< files in /proc, and the texts to be written to
-                                                                 ///< them
+  /// Files in /proc, and the texts to be written to them.
+  std::vector<std::pair<const char*, std::string>> user_limits;
 };
 
 /// Forks into new user, PID and mount namespaces, where the child has the privileges that bubblewrap needs, and into a

@@ -54,9 +54,9 @@ struct ChildOptions {
   /// Makes the child the first process of new user, PID and mount namespaces, if the kernel allows it. When the child
   /// ends (at the latest with this process), the kernel ends all processes in the namespaces.
   bool contained = false;
-  int programs = 1;                               ///< number of outside programs that run at the same time
-  int control_group = -1;                         ///< ControlGroup::folder of the group to start the child in; only if
-                                                  ///< contained
+  int programs = 1;  ///< number of outside programs that run at the same time
+  /// ControlGroup::folder of the group to start the child in; only if contained.
+  int control_group = -1;
   std::vector<std::string> inherited_texts = {};  ///< texts that the child can read from its descriptors 3, 4, …
   /// Changes to ClosedEnvironment: NAME=VALUE sets a variable, NAME removes one.
   std::vector<std::string> environment = {};

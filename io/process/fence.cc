@@ -29,8 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kTrialMs = 5000;
-constexpr double kNameBytes = 700, kInodeBytes = 900;  // bytes per temporary file with a long name, measured on Linux
-                                                       // 6.18
+// Bytes per temporary file with a long name, measured on Linux 6.18.
+constexpr double kNameBytes = 700, kInodeBytes = 900;
 
 /// Folders that every program sees: the system's programs and libraries.
 constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt", "/nix"};

@@ -23,9 +23,9 @@ std::vector<NamedStream> StreamsOf(const ClipLibrary& library);
 /// The recordings of files, patterns and folders; folders include their subfolders, sorted by path.
 struct LoadedStreams {
   std::vector<NamedStream> streams;
-  std::vector<Error> refused;  ///< files of folders and patterns that could not be read; a file that is named directly
-                               ///< makes the load fail
-  int passed_over = 0;         ///< number of files in folders that are not recordings
+  /// Files of folders and patterns that could not be read; a file that is named directly makes the load fail.
+  std::vector<Error> refused;
+  int passed_over = 0;  ///< number of files in folders that are not recordings
 };
 /// Loads recordings. Fails if there are none, and if `clips` gives a joint map, a unit or an axis but no reference is a
 /// clip.

@@ -17,8 +17,8 @@ namespace etude {
 namespace {
 
 constexpr double kSecondsPerDoubling = 0.7;
-constexpr double kMinRaceSeconds = 4, kMaxRaceSeconds = 8;  // without the time for which the first and the last state
-                                                            // are held
+// Without the time for which the first and the last state are held.
+constexpr double kMinRaceSeconds = 4, kMaxRaceSeconds = 8;
 
 constexpr Paint kGrid{0.24, 0.27, 0.29, 1};
 constexpr Paint kGoal{0.55, 0.82, 0.50, 1};

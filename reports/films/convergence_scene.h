@@ -107,9 +107,9 @@ class ConvergencePanel {
   const IkPath& path_;
   const ConvergenceStage& stage_;
   Paint colour_;
-  std::vector<std::size_t> seen_;  ///< for each entry of the path, the latest entry whose picture differs visibly from
-                                   ///< the picture before
-  std::optional<Drawn> drawn_;     ///< the latest picture; it is often needed again, because iterations never decrease
+  /// For each entry of the path, the latest entry whose picture differs visibly from the picture before.
+  std::vector<std::size_t> seen_;
+  std::optional<Drawn> drawn_;  ///< the latest picture; it is often needed again, because iterations never decrease
 };
 
 /// Shows paper B's figures 5.1 and 5.2 as a film: a body that converges under two methods side by side, with the curves

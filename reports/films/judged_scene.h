@@ -27,9 +27,9 @@ struct JudgedSessionFacts {
   };
   struct Judge {
     std::string method;
-    std::vector<std::optional<int>> called_right;  ///< for each performance, the frame of the verdict "right"; nullopt
-                                                   ///< if that verdict was not given
-    std::vector<DetectionExtras::Alarm> alarms;    ///< only false alarms
+    /// For each performance, the frame of the verdict "right"; nullopt if that verdict was not given.
+    std::vector<std::optional<int>> called_right;
+    std::vector<DetectionExtras::Alarm> alarms;  ///< only false alarms
   };
 
   std::vector<Performance> performances;  ///< in order of time

@@ -23,10 +23,11 @@ struct ScenarioPicture {
 
 /// All pictures and films made from a run's recordings. For those that could not be made, it holds the reasons.
 struct Media {
-  Film film;  ///< the run's film: a capture, or a coach alone; empty for other tasks, and if the film of a scenario
-              ///< shows the same already
-  std::vector<Picture> strip;                ///< moments of the capture: pictures of both cameras with mask and
-                                             ///< recovered skeleton
+  /// The run's film: a capture, or a coach alone; empty for other tasks, and if the film of a scenario shows the same
+  /// already.
+  Film film;
+  /// Moments of the capture: pictures of both cameras with mask and recovered skeleton.
+  std::vector<Picture> strip;
   std::vector<Still> stills;                 ///< the middle frame of the same capture as the cameras took it
   std::string strip_scenario;                ///< the scenario whose card shows the strip and the stills
   std::vector<ScenarioPicture> plates;       ///< for captures: all stages of some moments
@@ -40,8 +41,8 @@ struct MediaPaths {
 };
 
 struct MediaOptions {
-  bool whole_sessions = false;  ///< false: films of coached sessions are cut around a correction, films of judged
-                                ///< sessions to 24 s
+  /// False: films of coached sessions are cut around a correction, films of judged sessions to 24 s.
+  bool whole_sessions = false;
   FilmWatch watch = {};
 };
 

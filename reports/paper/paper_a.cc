@@ -51,8 +51,8 @@ class MembershipPanel {
   std::string Label(const Shape& shape, std::string_view name) const {
     const Cut top = CutOf(shape, 1);
     const double peak = 0.5 * (std::max(top.low, universe_.low) + std::min(top.high, universe_.high));
-    const double room = 0.15 * (universe_.high - universe_.low);  // nearer to an edge, a centred name
-                                                                  // would leave the panel
+    // Nearer to an edge, a centred name would leave the panel.
+    const double room = 0.15 * (universe_.high - universe_.low);
     const char* anchor = peak < universe_.low + room ? "start" : peak > universe_.high - room ? "end" : "middle";
     return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);
   }

@@ -75,14 +75,14 @@ std::vector<PaperTable> PaperBPrintedAngles();
 
 /// Tables 5.1 and 5.2 of paper B, filled from a run: for one trial, or over all trials.
 struct PaperBSet {
-  std::string title;                  ///< "trial 0", "all 200 trials"
-  std::string error_note;             ///< explains the figures of `errors`
-  std::string angle_note;             ///< explains the figures of `angles`; "" if there are none
-  std::string replay;                 ///< the command that repeats the trial; "" for all trials
-  std::vector<PaperTable> errors;     ///< "(a) before", then one per method; a row per effector
-  std::vector<PaperTable> angles;     ///< one per method: the hidden angles of each joint
-  std::vector<std::string> outcomes;  ///< one line per method: the status in which it ended, and the number of
-                                      ///< iterations
+  std::string title;               ///< "trial 0", "all 200 trials"
+  std::string error_note;          ///< explains the figures of `errors`
+  std::string angle_note;          ///< explains the figures of `angles`; "" if there are none
+  std::string replay;              ///< the command that repeats the trial; "" for all trials
+  std::vector<PaperTable> errors;  ///< "(a) before", then one per method; a row per effector
+  std::vector<PaperTable> angles;  ///< one per method: the hidden angles of each joint
+  /// One line per method: the status in which it ended, and the number of iterations.
+  std::vector<std::string> outcomes;
 };
 
 struct PaperBCondition {

@@ -18,8 +18,8 @@ struct RecordedCell {
 /// The recorded cells of one world.
 struct RecordedWorld {
   std::size_t scenario = 0;  ///< index into RunData::scenarios
-  std::string file;          ///< path of the file with its motions, relative to `report`: "motions/capture-1.js"; only
-                             ///< harmless characters
+  /// Path of the file with its motions, relative to `report`: "motions/capture-1.js"; only harmless characters.
+  std::string file;
   std::vector<RecordedCell> cells;  ///< in the order of the scenario's methods; never empty
 
   /// Returns the name of the world: "joint_noise_deg=5, trial 3"; for a pair of files, the name of the pair.

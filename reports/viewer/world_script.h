@@ -17,8 +17,9 @@ struct QuantisedMotion {
   static constexpr std::uint16_t kNoStep = 65535;
 
   glm::dvec3 low{0};
-  double step = 0;  ///< the same for all axes, metres; the quantisation error of a coordinate is at most half a step,
-                    ///< plus the rounding of doubles
+  /// The same for all axes, metres; the quantisation error of a coordinate is at most half a step, plus the rounding of
+  /// doubles.
+  double step = 0;
   std::vector<std::uint16_t> steps;
 
   glm::dvec3 At(std::size_t point) const;

@@ -12,16 +12,16 @@ namespace etude {
 /// The words of a metric from the catalogue, or its id if the catalogue does not list it. Shares and scores are shown
 /// in per cent, their differences in percentage points.
 struct MetricWords {
-  std::string label;              ///< "orientation error"; "share “solved”", "mean F1"
-  std::string suffix;             ///< follows a value: "°", " cm", " %", ""
-  std::string difference_suffix;  ///< unit that follows a difference: `suffix`, but " percentage points" for values in
-                                  ///< per cent
-  double scale = 1;               ///< factor that turns a stored value into the shown value
-  bool is_share = false;          ///< 0…1, shown in per cent
-  bool by_mean = false;           ///< true: the mean summarises all cells; false: the median
+  std::string label;   ///< "orientation error"; "share “solved”", "mean F1"
+  std::string suffix;  ///< follows a value: "°", " cm", " %", ""
+  /// Unit that follows a difference: `suffix`, but " percentage points" for values in per cent.
+  std::string difference_suffix;
+  double scale = 1;       ///< factor that turns a stored value into the shown value
+  bool is_share = false;  ///< 0…1, shown in per cent
+  bool by_mean = false;   ///< true: the mean summarises all cells; false: the median
   Direction direction = Direction::kNeither;
-  std::string plain_label = {};  ///< "orientation error", "solved", "F1": for texts that mention mean or share
-                                 ///< themselves
+  /// "orientation error", "solved", "F1": for texts that mention mean or share themselves.
+  std::string plain_label = {};
 };
 MetricWords WordsFor(const std::string& metric_id);
 /// Returns the suffix without its space, for captions: "cm", "".

@@ -45,9 +45,9 @@ struct KeyFigures {
     std::string name;
     std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has no such value
   };
-  std::vector<std::string> labels;  ///< names of the known figures: headline metric, success, processor time, worlds
-                                    ///< lost to the method
-  std::vector<Method> methods;      ///< the method in question first; empty if nothing is compared
+  /// Names of the known figures: headline metric, success, processor time, worlds lost to the method.
+  std::vector<std::string> labels;
+  std::vector<Method> methods;  ///< the method in question first; empty if nothing is compared
 };
 
 /// Returns the figures as a table. Its columns are aligned as numbers if `has_number_columns`.
@@ -71,8 +71,8 @@ struct ScenarioFindings {
   std::string metric;    ///< the first headline metric, which the question is about; "" if there is none
   std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
   MethodFinding answer;  ///< against the baseline
-  MethodFinding rival;   ///< against the strongest other method; not compared in old runs, and if there is no such
-                         ///< method
+  /// Against the strongest other method; not compared in old runs, and if there is no such method.
+  MethodFinding rival;
   KeyFigures figures;
   std::vector<MethodFinding> methods;  ///< every method compared with another, in the scenario's order
   std::vector<std::string> yardsticks;

@@ -13,8 +13,8 @@
 namespace etude {
 
 struct CalibrateOptions {
-  std::vector<std::string> inputs;  ///< either one file of point pairs, or one folder of pictures or film for each
-                                    ///< camera
+  /// Either one file of point pairs, or one folder of pictures or film for each camera.
+  std::vector<std::string> inputs;
   std::string output;
   std::vector<std::string> boards = {"5x7x0.034"};  ///< COLUMNSxROWSxSQUARE[@FIRST_CODE]
   std::string method = "refined";                 ///< for point pairs: a name of CalibrationNames()

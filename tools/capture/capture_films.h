@@ -23,8 +23,8 @@ struct CaptureFilmsOptions {
   bool silhouettes = false;          ///< use the person's silhouettes, alone or together with keypoints
   std::string rooms;                 ///< for silhouettes: a folder with a picture of each film's empty room, "" = none
   bool accepts_doubtful = false;     ///< for silhouettes: write the motion even if `CapturedFilms::doubt` is not empty
-  std::string masks;                 ///< for silhouettes: a folder with masks of each film, "" = the masks are computed
-                                     ///< from the films
+  /// For silhouettes: a folder with masks of each film, "" = the masks are computed from the films.
+  std::string masks;
   std::optional<int> mask_id;        ///< the value of the person's pixels; absent = any but the background's
   double stature_m = 0;              ///< for silhouettes: the person's height, metres; 0 = estimated
   std::string output;                ///< BVH, GLB, TRC or CSV, chosen by the extension
@@ -40,9 +40,9 @@ struct CaptureFilmsOptions {
   std::string poses = "frames";  ///< for keypoints: "frames" fits each frame alone, "bundle" fits all frames at once
   double smooth_hz = 0;
   double max_gap_s = 0.5;
-  double outlier_px = 0;  ///< outlier limit, pixels; 0 = computed from the residuals, at most 3 % of the picture's
-                          ///< longer side
-  double sync_s = 0;      ///< maximum difference of the films' clocks, seconds; 0 = the clocks agree
+  /// Outlier limit, pixels; 0 = computed from the residuals, at most 3 % of the picture's longer side.
+  double outlier_px = 0;
+  double sync_s = 0;         ///< maximum difference of the films' clocks, seconds; 0 = the clocks agree
   std::string command_line;  ///< the command as typed, for the page
   std::string version;       ///< version of the program, for the page
   Listener listener = {};

@@ -21,13 +21,13 @@ struct OverlayView {
   std::filesystem::path film;
   FilmFacts facts;
   Camera camera;
-  PixelFit fit;                                      ///< maps the rig's pixels to the film's
-  double offset = 0;                                 ///< frame k of the film was taken at k + offset frames of the
-                                                     ///< motion
-  std::vector<std::optional<SeenPerson>> keypoints;  ///< for each frame of the motion, in the film's pixels; nullopt if
-                                                     ///< nobody was seen
-  double drift = 0;                                  ///< frame k was taken at (1 + drift) k + offset if the rates
-                                                     ///< differ
+  PixelFit fit;  ///< maps the rig's pixels to the film's
+  /// Frame k of the film was taken at k + offset frames of the motion.
+  double offset = 0;
+  /// For each frame of the motion, in the film's pixels; nullopt if nobody was seen.
+  std::vector<std::optional<SeenPerson>> keypoints;
+  /// Frame k was taken at (1 + drift) k + offset if the rates differ.
+  double drift = 0;
 };
 
 /// Writes the films side by side. Over each film it draws the skeleton as the camera would show it (lines) and the

@@ -24,8 +24,8 @@ struct FigureFacts {
 /// The facts about a clip's body motion.
 struct BodyFacts {
   std::array<std::string, kRoleCount> joints;  ///< by Index(role): the name of the file's joint that plays the role
-  std::vector<Role> composed;                  ///< roles without a joint of their own; they are rigidly attached to the
-                                               ///< joint listed for them
+  /// Roles without a joint of their own; they are rigidly attached to the joint listed for them.
+  std::vector<Role> composed;
   std::string unit;
   double metres_per_unit = 0;
   UpFinding up = {};  ///< the file's up axis, and the evidence for it

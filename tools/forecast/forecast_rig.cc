@@ -60,8 +60,8 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
     normal += across;
     right += across * camera.p_WC;
   }
-  constexpr double kParallel = 1e-3;  // minimum of determinant / cameras³; below it, all axes are within about 2° of
-                                      // each other
+  // Minimum of determinant / cameras³; below it, all axes are within about 2° of each other.
+  constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
     return Fail({file}, "its cameras look in parallel, so they show no common middle; name it: --middle X,Z in m");
   }

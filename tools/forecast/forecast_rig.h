@@ -22,12 +22,11 @@ struct ForecastOptions {
   std::string rig;         ///< a calibration that OpenRig can open
   PlacementOptions place;  ///< the rig's unit, up axis and floor
   SightingErrors errors;
-  CaptureFilmsOptions take = {};  ///< films and keypoints taken with the rig; their measured noise replaces
-                                  ///< `errors.noise_px`; may be empty
+  /// Films and keypoints taken with the rig; their measured noise replaces `errors.noise_px`; may be empty.
+  CaptureFilmsOptions take = {};
   glm::dvec3 size_m{3, 2, 3};  ///< the volume in which people move, metres: width (x), height from the floor, depth (z)
-  std::optional<glm::dvec2>
-      middle_m;              ///< the volume's middle on the floor (x, z); absent = below the point that is nearest to
-                             ///< all optical axes
+  /// The volume's middle on the floor (x, z); absent = below the point that is nearest to all optical axes.
+  std::optional<glm::dvec2> middle_m;
   std::string picture;       ///< a PNG of heat maps, "" = none
   std::string table;         ///< a CSV of all places, "" = none
   std::string report;        ///< an HTML page, "" = none
@@ -58,24 +57,25 @@ struct RigWorth {
 /// The expected root mean square errors of one joint of a person who stands in the volume.
 struct ForecastJoint {
   Role role = Role::kHipCentre;
-  std::optional<double> noise_px;      ///< standard deviation of the joint's keypoints, pixels; absent if the joint is
-                                       ///< not triangulated
-  double point_mm = 0, body_mm = 0;    ///< RMS error of the triangulated joint, and of the joint in the fitted body
-  double point_deg = 0, body_deg = 0;  ///< RMS errors of the direction of the limb that ends at the joint, from
-                                       ///< triangulation and from the fitted body; 0 for the hip centre
+  /// Standard deviation of the joint's keypoints, pixels; absent if the joint is not triangulated.
+  std::optional<double> noise_px;
+  double point_mm = 0, body_mm = 0;  ///< RMS error of the triangulated joint, and of the joint in the fitted body
+  /// RMS errors of the direction of the limb that ends at the joint, from triangulation and from the fitted body; 0 for
+  /// the hip centre.
+  double point_deg = 0, body_deg = 0;
 };
 
 struct RigForecast {
   std::vector<NamedCamera> cameras;   ///< metres, Y up
   std::optional<KeypointNoise> measured;  ///< measured from the take's keypoints; absent without a take
-  glm::dvec2 middle_m{0};             ///< middle of the volume on the floor (x, z)
+  glm::dvec2 middle_m{0};                 ///< middle of the volume on the floor (x, z)
   std::vector<ForecastPlace> places;  ///< by height, then z, then x, each ascending
   double seen = 0;                    ///< share of places in the pictures of at least two cameras
   double median_mm = 0, p95_mm = 0;   ///< median and 95th percentile of the error over the places that are seen
   ForecastPlace worst;                ///< the place with the largest error
   double bodies = 0;  ///< share of places on the floor at which two cameras see each joint of a standing body
-  std::vector<ForecastJoint> joints;  ///< one per role, averaged over those places on the floor; empty if there are
-                                      ///< none
+  /// One per role, averaged over those places on the floor; empty if there are none.
+  std::vector<ForecastJoint> joints;
   std::vector<RigWorth> worths;       ///< the rig itself, then each change
 };
 

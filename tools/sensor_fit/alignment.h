@@ -12,8 +12,8 @@ namespace etude {
 /// The alignment of a recording with its twin. It explains the part of their difference that is no error of the sensor,
 /// as far as one recording can show it.
 struct TwinAlignment {
-  double shift_s = 0;  ///< the twin's time at the recording's time 0: the difference of the clocks plus the sensor's
-                       ///< lag
+  /// The twin's time at the recording's time 0: the difference of the clocks plus the sensor's lag.
+  double shift_s = 0;
   glm::dmat3 R_ST{1};  ///< rotates the twin's directions into the sensor's frame
   glm::dvec3 p_ST{0};  ///< the twin's origin in the sensor's frame
   /// The offset of each joint in its carrier's frame; absent if no frame shows both the joint and the carrier.

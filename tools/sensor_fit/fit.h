@@ -35,8 +35,8 @@ SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const Ske
 
 struct SensorFitOptions {
   SkeletonSensorOptions start = SensorV2();  ///< settings that are not fitted keep these values
-  int worlds = 96;                           ///< simulated recordings per step; more reduce the noise of the fitted
-                                             ///< values
+  /// Simulated recordings per step; more reduce the noise of the fitted values.
+  int worlds = 96;
   int steps = 10;
   std::function<void(int step)> progress;
 };

@@ -20,14 +20,14 @@ struct SensorStatistics {
   ByGroup error_mm;                             ///< root mean square distance from the twin
   std::optional<double> shoulders_and_hips_mm;  ///< shoulders and hips together
   std::optional<double> planted_feet_mm;        ///< ankles and feet whose twin is slower than 0.1 m/s
-  ByGroup depth_ratio;                          ///< standard deviation along the line of sight ÷ along an axis across
-                                                ///< it
+  /// Standard deviation along the line of sight ÷ along an axis across it.
+  ByGroup depth_ratio;
   std::array<std::optional<double>, kBoneKindCount> correlation;  ///< correlation of the errors at both ends of a bone
-  std::optional<double> quiet_white_mm;                        ///< white noise per axis, torso at rest (`StatisticsOf`)
-  std::optional<double> arm_bones_percent, leg_bones_percent;  ///< standard deviation ÷ mean of the bones' lengths, per
-                                                               ///< cent; over both bones of the limb
-  std::optional<double> shoulder_width_percent, hand_bones_percent;  ///< standard deviation ÷ mean, per cent; the
-                                                                     ///< hand's bone goes from wrist to hand
+  std::optional<double> quiet_white_mm;  ///< white noise per axis, torso at rest (`StatisticsOf`)
+  /// Standard deviation ÷ mean of the bones' lengths, per cent; over both bones of the limb.
+  std::optional<double> arm_bones_percent, leg_bones_percent;
+  /// Standard deviation ÷ mean, per cent; the hand's bone goes from wrist to hand.
+  std::optional<double> shoulder_width_percent, hand_bones_percent;
   std::optional<double> hand_jump_cm;  ///< 99th percentile of the hands' second differences
 };
 

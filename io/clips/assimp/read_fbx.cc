@@ -175,8 +175,8 @@ class MotionGlb {
         for (const float number : numbers_of(keys[i].mValue)) values.push_back(number);
       }
       if (count == 0) return;
-      constexpr float kSame = 0.01f;  // keys that differ by less are equal: quaternion components, metres, scale
-                                      // factors
+      // Keys that differ by less are equal: quaternion components, metres, scale factors.
+      constexpr float kSame = 0.01f;
       const std::size_t width = values.size() / count;
       for (std::size_t i = width; i < values.size(); ++i) {
         const std::size_t key = i / width;
