@@ -22,7 +22,7 @@ namespace {
 /// Returns example command lines by command; keys are the command's words without "etude".
 const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByCommand() {
   static const std::map<std::string_view, std::vector<std::string_view>> examples = {
-      // Each entry: the words of a command, then its examples.
+      // Each entry holds the words of a command, then its examples.
       {"run", {"etude run quick", "etude run full/ik_weights --trials 50 -o out/try", "etude run mine.yaml --resume"}},
       {"evaluate",
        {"etude evaluate truth.bvh mine.trc", "etude evaluate truth 'first=a/*.npz' second=b -o out/two",

@@ -12,7 +12,8 @@ namespace etude {
 /// of their verdicts. Below it stand the missing values with reasons. If something is swept, a row is a method under a
 /// condition. Returns "" if no method has a value.
 std::string OverviewTableHtml(const RunData& run, const ScenarioSummary& scenario);
-/// Returns the values of the headline metrics as a Markdown table, without intervals; "" if there is only one.
+/// Returns the values of the headline metrics as a Markdown table, without intervals; "" if there is only one headline
+/// metric.
 std::string OverviewTableMarkdown(const ScenarioSummary& scenario);
 
 /// Explains the signs in the tables of methods by metrics.

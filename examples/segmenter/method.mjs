@@ -1,4 +1,4 @@
-// The segmenter as a seat that Etude asks in a run (docs/outside-methods.md):
+// The segmenter as a seat of an outside method in a run (docs/outside-methods.md):
 //   - {name: blazepose, recovery: silhouettes, seat: segmenter, exec: [node, examples/segmenter/method.mjs], time_s: 60}
 import fs from 'node:fs';
 import path from 'node:path';

@@ -29,7 +29,7 @@ Result<std::size_t> ReadSome(const FilePath& path, int file, std::span<char> int
   return static_cast<std::size_t>(count);
 }
 
-/// Some file systems do not support fsync (EINVAL, ENOTSUP): that is no failure.
+/// Returns true if fsync succeeds, or if the file system does not support it (EINVAL, ENOTSUP).
 bool Synced(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 Result<void> Sync(const std::filesystem::path& path, int flags) {

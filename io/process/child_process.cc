@@ -167,7 +167,7 @@ Result<ChildProcess> StartUncontained(ChildOptions options) {
   return ChildProcess::Start(options);
 }
 
-/// The children of this process that ChildProcess started. After AdoptOrphans, all its other children are orphans.
+/// Returns the children of this process that ChildProcess started. After AdoptOrphans, all other children are orphans.
 std::set<pid_t>& ManagedChildren() {
   static std::set<pid_t> children;
   return children;
@@ -222,7 +222,7 @@ Result<std::string> FindProgram(const std::string& name) {
 void AdoptOrphans() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
 
 Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
-  // Pipes, and the file for standard error.
+  // Open the pipes, and the file for standard error.
   ASSIGN_OR_RETURN(const auto path, FindProgram(options.program));
   auto input = MakePipe(), output = MakePipe(), report = MakePipe();
   for (const auto* pipe : {&input, &output, &report}) {

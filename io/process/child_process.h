@@ -62,8 +62,8 @@ struct ChildOptions {
   std::vector<std::string> environment = {};
 };
 
-/// From now on, orphaned descendants of a child become children of this process, and Finish kills them. Use this only
-/// in processes that start all their children by ChildProcess.
+/// Makes this process adopt orphaned descendants of its children from now on; Finish kills them. Use this only in
+/// processes that start all their children by ChildProcess.
 void AdoptOrphans();
 
 /// A child process with pipes for its standard input and output, which carry lines. It runs in the closed environment
@@ -85,8 +85,8 @@ class ChildProcess {
   bool HasUnsent() const { return sent_ < unsent_.size(); }
   /// Returns the number of bytes sent that the child has not read yet.
   std::size_t UnreadBytes() const;
-  /// The descriptors for poll(): `output` becomes readable when the child has written something or closed its output,
-  /// `input` writable when unsent bytes fit into the pipe.
+  /// Return the descriptors for poll(). `output` becomes readable when the child has written something or closed its
+  /// output; `input` becomes writable when unsent bytes fit into the pipe.
   int output() const { return output_; }
   int input() const { return input_; }
   /// Sends unsent bytes and reads up to 1 MiB of the child's output, without waiting. NextLine then returns the whole

@@ -85,7 +85,7 @@ OwnGroup OwnGroup::Read(const std::string& groups, const std::string& mounts) {
     if (line.starts_with("0::/")) own = line.substr(3);
   }
   for (std::string line; !own.empty() && std::getline(mount_lines, line);) {
-    // "36 24 0:30 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw"
+    // A line looks like "36 24 0:30 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw".
     if (line.find(" - cgroup2 ") == std::string::npos) continue;
     std::istringstream words(line);
     std::string number, parent, device, root, mount;

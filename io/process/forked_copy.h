@@ -24,7 +24,7 @@ class ForkedCopy {
   ForkedCopy& operator=(ForkedCopy&& other) noexcept;
   ~ForkedCopy();
 
-  /// The descriptor of our end of the sockets; −1 after `Wait`.
+  /// Returns the descriptor of our end of the sockets; −1 after `Wait`.
   int socket() const { return socket_; }
 
   /// Sends SIGKILL. Wait must still be called.

@@ -168,7 +168,7 @@ Surface SpotBelow(const BodyPose& pose) {
 
 Figure ForestFigure() {
   constexpr double kFar = 14, kNear = 8, kBack = kWallZ + 0.02;
-  // The sky, the hills in strips, and the meadow.
+  // Draw the sky, the hills in strips, and the meadow.
   Figure forest;
   forest.surfaces.push_back(
       Sheet({{-kFar, 0, kBack}, {kFar, 0, kBack}, {kFar, 10, kBack}, {-kFar, 10, kBack}}, {0, 0, 1}, kSky));

@@ -116,7 +116,7 @@ class ConvergencePanel {
 /// of their errors below.
 class ConvergenceScene : public Scene {
  public:
-  /// The renderer must outlive the scene.
+  /// Makes the film of a race. The renderer must outlive the scene.
   ConvergenceScene(IkRace race, std::string scenario, Renderer& renderer);
   ConvergenceScene(const ConvergenceScene&) = delete;
   ConvergenceScene& operator=(const ConvergenceScene&) = delete;

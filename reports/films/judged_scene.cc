@@ -251,7 +251,7 @@ void JudgedScene::DrawSkeleton(Canvas& canvas, int now) const {
 
 void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   canvas.FillBox(kAnglesPanel, kPanelGround, kPanelRadius);
-  // The heading: the move, the verdict and the truth.
+  // Write the heading: the move, the verdict and the truth.
   const std::size_t current = CurrentAt(now);
   const Performance& asked = facts_.performances[current];
   const bool is_open = now >= asked.begin_frame && now < asked.end_frame;

@@ -67,7 +67,7 @@ class TransitionPanel {
 /// with which distances.
 class TransitionScene : public Scene {
  public:
-  /// The renderer must outlive the scene.
+  /// Makes the film of a race. The renderer must outlive the scene.
   TransitionScene(TransitionRace race, std::string scenario, Renderer& renderer);
   TransitionScene(const TransitionScene&) = delete;
   TransitionScene& operator=(const TransitionScene&) = delete;

@@ -72,7 +72,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
                      figures);
 }
 
-// ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3° (10.0–14.1; noise=20), on 60 worlds each"
+// Returns the range of changes: ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3° (10.0–14.1; noise=20), on 60 worlds each".
 std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords& words) {
   std::vector<Judged> known;
   std::ranges::copy_if(judged, std::back_inserter(known),
@@ -99,7 +99,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                        CountVerdicts(VerdictsOf(judged), judged.size()));
   }
   const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
-  // With two conditions, the range of changes already names both.
+  // With two conditions, the range of changes has already named both.
   const std::string under = judged.size() > 2 ? " under " + AllConditions(judged.size()) : "";
   const auto verdict = CommonVerdict(judged);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) {

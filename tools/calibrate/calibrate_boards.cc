@@ -27,7 +27,7 @@ std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetVie
   return rms;
 }
 
-/// Calibrates; then calibrates again without the pictures whose residual exceeds three times the median, because they
+/// Calibrates twice: the second time without the pictures whose residual exceeds three times the median, because they
 /// are blurred or the board moved.
 Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const CalibrateOptions& options,
                                            std::vector<TargetView>& views) {

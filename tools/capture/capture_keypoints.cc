@@ -274,7 +274,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
   options.listener.print(ReportText(person, views) + FitText(person));
   facts["keypoints"] = FactsOf(person, views, films.told.lines);
-  // Refine the motion with silhouettes, if asked.
+  // If the options require silhouettes, refine the motion with them.
   ReducedTake take;
   std::optional<UnmarkedMotion> both;
   if (options.silhouettes) {

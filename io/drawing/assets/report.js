@@ -216,7 +216,7 @@
                    button('', 'Print this picture alone, or save it as PDF', () => print(svgs), 'save pdf'));
   });
 
-  // Tables: sorted by a click on a heading, filtered, copied, with columns to choose from.
+  // Tables can be sorted by a click on a heading, filtered and copied; the reader chooses their columns.
   const LATEX = {'\\': '\\textbackslash{}', '~': '\\textasciitilde{}', '^': '\\textasciicircum{}', '<': '\\textless{}', '>': '\\textgreater{}', '|': '\\textbar{}',
                  '−': '$-$', '–': '--', '°': '$^\\circ$', '±': '$\\pm$', '×': '$\\times$', '≤': '$\\le$', '≥': '$\\ge$', '“': '``', '”': "''", '’': "'", '…': '\\dots{}',
                  '↓': '$\\downarrow$', '↑': '$\\uparrow$', '▲': '$\\bigtriangleup$', '▼': '$\\bigtriangledown$'};

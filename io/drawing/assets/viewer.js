@@ -506,7 +506,7 @@ const show = (world, cells) => {
     seek(ahead ? ahead.frame : way > 0 ? last : 0);
   };
 
-  // The errors as a table, for readers without colours.
+  // Show the errors as a table, too, for readers who do not see colours.
   const table = make('div', {class: 'table', tabindex: 0, role: 'region', 'aria-label': 'Error by joint'});
   let cellsNow = [];
   const tabulate = () => {
@@ -664,7 +664,7 @@ const show = (world, cells) => {
       if (state.t > last) state.t = last;
       dirty = true;
     }
-    // Slow drawing: half the resolution, then 2D.
+    // If drawing is slow, use half the resolution; if it is still slow, draw in 2D.
     slow = state.playing && now - before > 36 ? slow + 1 : 0;
     if (slow > 5) {
       slow = 0;
