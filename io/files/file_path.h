@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// The path of a file or folder, of one of two kinds. In a path that the user gave, symbolic links are followed. A file
+/// The path of a file or folder. There are two kinds. In a path that the user gave, symbolic links are followed. A file
 /// in a folder that somebody else may have filled (a run, a shard, answers) has the path `Inside(folder) / "name"`: no
 /// link below that folder is followed, and no name may lead out of the folder.
 class FilePath {

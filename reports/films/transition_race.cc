@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-// Returns the frame of the request. Older recordings contain only the wait. A recording with neither is aligned at its
-// last transition point.
+// Returns the frame of the request. Older recordings contain only the wait, from which the frame follows. Without both,
+// returns the last transition point.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
   constexpr double kMaxWaitSeconds = 3600;
