@@ -22,7 +22,7 @@ namespace {
 /// Returns example command lines by command; keys are the command's words without "etude".
 const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByCommand() {
   static const std::map<std::string_view, std::vector<std::string_view>> examples = {
-      // The words of a command, then its examples.
+      // Each entry holds the words of a command, then its examples.
       {"run", {"etude run quick", "etude run full/ik_weights --trials 50 -o out/try", "etude run mine.yaml --resume"}},
       {"evaluate",
        {"etude evaluate truth.bvh mine.trc", "etude evaluate truth 'first=a/*.npz' second=b -o out/two",
@@ -178,7 +178,7 @@ void RefuseEmptyValues(CLI::App& command) {
   for (CLI::App* inner : command.get_subcommands([](CLI::App*) { return true; })) RefuseEmptyValues(*inner);
 }
 
-/// Allows the seeds that every JSON reader represents exactly: integers up to 2^53.
+/// Returns the range of seeds that every JSON reader represents exactly: integers from 0 to 2^53.
 const CLI::Range& SeedRange() {
   static const CLI::Range range(std::uint64_t{0}, std::uint64_t{1} << 53);
   return range;
@@ -243,7 +243,7 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
   const auto tell = [&clip_facts](const std::string& key) {
     return [&clip_facts, key](const std::string& value) { clip_facts += key + ": " + value + "\n"; };
   };
-  // Each option's default comes from the scenario or from the clip itself.
+  // The help of each option names its default, which comes from the scenario or from the clip.
   return {
       AddSeed(command, seed, "Seed of all worlds (default: the scenario's, else 1)"),
       command.add_option("--trials", trials, "Trials per condition (default: the scenario's)")
@@ -311,7 +311,7 @@ void GroupCommands(CLI::App& app) {
 
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
   app.require_subcommand(1);
-  // Run scenarios, and judge results.
+  // Define the commands that run scenarios and judge results.
   DefineRun(app, command_line, action);
   DefineEvaluate(app, command_line, action);
   DefineScenario(app, action);
@@ -323,7 +323,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineGate(app, action);
   DefineCompare(app, action);
   DefineCheckMethod(app, action);
-  // List what scenarios can name; work on motion clips.
+  // Define the commands that list what scenarios can name, and those that work on motion clips.
   DefineList(app, action);
   DefineClip(app, action);
   DefineBridge(app, action);

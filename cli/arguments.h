@@ -19,30 +19,30 @@ namespace etude {
 struct OutsideRules;
 enum class Sealing;
 
-/// Runs the command that a command line asks for; returns the exit code.
+/// Runs the chosen command; returns its exit code.
 using Action = std::function<int()>;
 
 /// Defines every command with its options. When `app` parses a command line, it stores the chosen command in `action`.
 /// `command_line` is recorded in host.json.
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action);
 
-// Options that several commands share.
+// The functions below add options that several commands share.
 
 /// Adds --seed. If the option is not given, `seed` keeps its value, which the help shows as the default.
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help);
-/// Adds --seed. If it is not given, `seed` is nullopt, and the scenario or program has its own default.
+/// Adds --seed. If the option is not given, `seed` is nullopt; the scenario or the program then has its own default.
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
-/// Adds --seed-file, for every command that draws the dice of worlds; it excludes --seed.
+/// Adds --seed-file, for every command that draws the dice of worlds. The command refuses --seed beside it.
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file);
-/// Reads the key of secret worlds, if there is one. Warns if other users can read its file; fails if a seed is given,
-/// too.
+/// Reads the key of secret worlds; nullopt if `file` is "". Warns if other users can read the file; fails if a seed is
+/// also given.
 Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has_seed = false);
 /// Adds --seed-file and returns an action that reads the key into `key` and then runs `act`, or complains if the key
 /// cannot be read. `seed` is the value of --seed, or null for a command without that option. `seed` and `key` must live
 /// as long as `act`.
 Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed, std::optional<SecretKey>& key,
                      const Action& act);
-/// Adds --reuse-key, for commands with --seed-file that refuse a key that was used before.
+/// Adds --reuse-key, for commands with --seed-file that otherwise refuse a key that was used before.
 void AddReuseKey(CLI::App& command, bool& reuse_key);
 /// Adds -j, --jobs.
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
@@ -62,7 +62,7 @@ void AddUnsealed(CLI::App& command, Sealing& sealing);
 void AddOutsideRules(CLI::App& command, OutsideRules& rules);
 
 /// Returns a function that checks an option's text: it returns "" for a number from `low` to `high`, else a complaint.
-/// (CLI::Range would accept NaN.) `kind` names the quantity: "rate in Hz".
+/// (CLI::Range would accept NaN.) `kind` names the quantity in complaints: "rate in Hz".
 std::function<std::string(const std::string& text)> NumberWithin(double low, double high, const std::string& kind);
 
 }  // namespace etude

@@ -20,10 +20,10 @@ namespace {
 
 struct BridgeCommandOptions {
   std::vector<std::string> clips;
-  std::vector<std::string> to;  ///< corrective clips; empty = the coach's own among `clips`
+  std::vector<std::string> to;  ///< corrective clips; empty = the coach's own clips among `clips`
   std::string output;           ///< a tags file, "" = only the summary
   std::string check;            ///< a tags file to check; "" = none
-  /// Builtin:NAME or a file; "" = paper A's, or the system that the checked tags file names.
+  /// "builtin:NAME" or a file; "" = paper A's system, or the system that the checked tags file names.
   std::string fuzzy;
   double threshold = 0.4, wait_s = 1;
   int min_clips = 2, most_per_class = 0;
@@ -56,7 +56,7 @@ Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
   return LoadBridgeLibrary(bridge);
 }
 
-/// Copies the rules of a tags file into the options, so that its clips are tagged in the same way.
+/// Copies the rules of a tags file into the options, so that the clips are tagged by the same rules.
 BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions options) {
   options.threshold = tags.threshold;
   options.within_class = tags.within_class;
@@ -121,7 +121,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   auto options = std::make_shared<BridgeCommandOptions>();
   CLI::App* command =
       app.add_subcommand("bridge", "Find and tag the frames at which one clip can lead into another");
-  // The inputs and outputs.
+  // Define the inputs and outputs.
   command->add_option("clips", options->clips, "The clips of one library");
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
   // --check excludes most other options, because the tags file states the rules.
@@ -133,7 +133,7 @@ void DefineBridge(CLI::App& app, Action& action) {
       "--to", options->to,
       "Clips that every other clip must lead into; they are added to the library (default: head_shake,\n"
       "wave, puzzled and slow demonstrations, if they are among the clips)"));
-  // The rules of matching and tagging.
+  // Define the rules of matching and tagging.
   add(command->add_option("--threshold", options->threshold, "Fuzzy distance below which two frames match")
           ->check(NumberWithin(1e-6, 6, "threshold"))
           ->capture_default_str());

@@ -102,7 +102,7 @@ void DefineCalibrate(CLI::App& app, Action& action) {
   options->listener = TerminalListener();
   CLI::App* command =
       app.add_subcommand("calibrate", "The cameras of a rig, from measured points or pictures of boards");
-  // The inputs, the output, and the board.
+  // Define the inputs, the output, and the board.
   command->add_option("inputs", options->inputs,
                       "A file of point pairs; or for each camera a folder of pictures or a film");
   command->add_option("-o,--output", options->output, "The rig to write (YAML)");
@@ -112,7 +112,7 @@ void DefineCalibrate(CLI::App& app, Action& action) {
           "COLUMNSxROWSxSQUARE, squares and metres, @FIRST_CODE for a second board with codes of its own; or one of "
           "OpenCV's: chess:9x6x0.025, charuco:5x7x0.04 (its dictionary, print and layout are found)")
       ->capture_default_str();
-  // What is estimated, and in which world frame.
+  // Define what is estimated, and in which world frame.
   command->add_option("--method", options->method, "Of point pairs")
       ->check(CLI::IsMember(CalibrationNames()))
       ->capture_default_str();
@@ -138,7 +138,7 @@ void DefineCalibrate(CLI::App& app, Action& action) {
                    "pictures that are used)")
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
-  // Further outputs and comparisons.
+  // Define further outputs and comparisons.
   command->add_option("--picture", options->picture,
                       "Also draw the corners that were found, and their residuals (PNG)");
   command->add_option("--beside", options->beside,

@@ -86,7 +86,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   options->version = ETUDE_VERSION;
   options->listener = TerminalListener();
   CLI::App* command = app.add_subcommand("capture", "Recover the motion of a person from films by several cameras");
-  // The films and their rig.
+  // Define the films and their rig.
   command
       ->add_option("films", options->films, "One film per camera, all begun at the same moment (otherwise use --sync)")
       ->required();
@@ -108,8 +108,8 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->capture_default_str();
   command->add_option("--cameras", options->cameras, "The rig's cameras in the order of the films: left,right")
       ->delimiter(',')
-      ->allow_extra_args(false);  // otherwise the option would take the films that follow as its values
-  // The sources of the person's position.
+      ->allow_extra_args(false);  // otherwise the option would take the film names behind it as its values
+  // Define the sources of the person's position.
   auto* keypoints = command->add_option("--keypoints", options->keypoints, "A folder with keypoints for each film");
   auto* marks = command->add_option("--marks", options->marks, "A folder with annotation pictures for each film")
                     ->excludes(keypoints);
@@ -143,7 +143,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->capture_default_str();
   command->add_option("--layout", options->layout, "The order of the keypoints, if their number does not determine it")
       ->check(CLI::IsMember(KeypointLayoutNames()));
-  // The outputs, and the reference to compare with.
+  // Define the outputs, and the reference to compare with.
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc or .csv")->required();
   command->add_option("--points", options->points, "Also write the triangulated keypoints (.trc)");
   command->add_option("--film", options->film, "Also write the films with the skeleton drawn over them (.mp4)");
@@ -154,7 +154,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   command
       ->add_option("--distances", options->distances, "Also write that comparison, for `etude report --real` (.json)")
       ->needs(reference);
-  // How films, people and time are interpreted.
+  // Define how films, people and time are interpreted.
   command->add_option("--fit", options->fit, "How the rig's pictures were changed into films of another size")
       ->check(CLI::IsMember({"none", "letterbox", "stretch", "crop"}))
       ->capture_default_str();
@@ -174,7 +174,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
           "Smooth positions by a low pass of this frequency, Hz, for poses fitted frame by frame (0: no smoothing)")
       ->check(NumberWithin(0, 1000, "frequency in Hz"))
       ->capture_default_str();
-  // The limits of gaps, outliers and clocks.
+  // Define the limits of gaps, outliers and clocks.
   command->add_option("--longest-gap", options->max_gap_s, "Longest gap that is bridged, s")
       ->check(NumberWithin(0, 60, "gap in s"))
       ->capture_default_str();

@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// Recordings of people, which replace simulated people.
+/// Recordings of people, with which the check replaces simulated people.
 struct RecordedPeople {
   std::vector<std::string> streams;
   std::string labels;  ///< "" = each recording is one move
@@ -54,7 +54,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, const Re
   }
   Json checks_made = Json::array();
   int checks = 0, passed = 0;
-  // Run the checks; print each one when it ends.
+  // Run the checks, and print each one when it ends.
   const auto all_passed = CheckConformance(
       options, seat,
       [&](const ConformanceCheck& check) {
@@ -102,7 +102,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   }
   command->add_option("--task", options->task, "One of: " + Join(tasks))->required();
   command->add_option("--seat", options->seat, "The program's place in a loop: " + Join(seats, "; "));
-  // Recordings of people, for tasks that can use them.
+  // Define recordings of people, for tasks that can use them.
   CLI::Option* streams = command->add_option("--streams", options->people.streams,
                                              "Recordings of people for the problems, as in `etude run --streams`");
   streams->allow_extra_args(false);
@@ -111,7 +111,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
                    "Labels of the recordings (who did what when): a file, or a folder of tag streams")
       ->needs(streams);
   AddStreamReading(*command, options->people.reading);
-  // Limits, and the fence.
+  // Define limits, and the fence.
   command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, seconds")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();

@@ -16,7 +16,7 @@ namespace etude {
 namespace {
 
 Result<int> CiteCommand(const std::string& folder, const std::string& address, bool as_json) {
-  // The digest of the manifest identifies the run.
+  // Compute the digest of the manifest, which identifies the run.
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder));
   ASSIGN_OR_RETURN(const auto manifest, ReadWholeFile(Inside(folder) / "manifest.json"));
   const std::string digest = Digest().Add(std::string_view(manifest)).Hex();

@@ -86,14 +86,14 @@ Performer PerformerNamed(const std::string& name) {
   return name == "none" ? Performer::kNone : Performer::kFile;
 }
 
-/// Writes the files of a motion into the folder of a data set. Files of the set itself that are there stay.
+/// Writes the files of a motion into the folder of a data set. If files of the whole data set exist already, they stay.
 Result<void> WriteBids(const BidsFiles& files, const std::filesystem::path& folder, bool overwrite) {
   std::vector<std::pair<FilePath, const std::string*>> written;
   for (const auto& [name, bytes] : files) {
     const bool is_of_set = name.find('/') == std::string::npos;
     if (is_of_set && std::filesystem::exists(folder / name)) continue;
     RETURN_IF_ERROR(CheckOutput((folder / name).string(), overwrite));
-    written.emplace_back(Inside(folder) / name, &bytes);  // never through a link in it
+    written.emplace_back(Inside(folder) / name, &bytes);  // never through a link in the folder
   }
   for (const auto& [path, bytes] : written) RETURN_IF_ERROR(WriteFileAtomically(path, *bytes));
   return {};
@@ -131,7 +131,7 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   } else {
     RETURN_IF_ERROR(WriteFileAtomically(given.output, converted.bytes));
   }
-  // Report what was done.
+  // Report the conversion.
   if (given.as_json) {
     RETURN_IF_ERROR(PrintFacts("clip convert", {{"clip", references.front()},
                                                 {"output", given.output},
@@ -155,7 +155,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
           "The file to write: .bvh, .glb, .trc (OpenSim's markers), .mot (its angles), .csv, .c3d, .npz (NumPy); or a "
           "folder, for Motion-BIDS: data/")
       ->required();
-  // The part of the clip, and its changes.
+  // Define the part of the clip, and its changes.
   command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
   command
       ->add_option("--rate", options->rate_hz,
@@ -168,7 +168,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
       ->add_option("--character", options->character,
                    "Retarget to the bear or the mannequin (GLB only); none leaves out the file's meshes")
       ->check(CLI::IsMember({"bear", "mannequin", "none"}));
-  // How files are written and read.
+  // Define how files are written and read.
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
   AddClipReading(*command, options->reading, "--file-rate");
@@ -246,8 +246,8 @@ Json RolesAsJson(const Skeleton& skeleton, const JointMap& map) {
   return roles;
 }
 
-/// Writes a joint-map file for a skeleton with missing roles: the roles that were found, proposals by anatomy for the
-/// missing ones, and the names to choose from.
+/// Writes a joint-map file for a skeleton with missing roles. It holds the roles that were found, anatomical proposals
+/// for the missing roles, and the joint names to choose from.
 std::string UnfinishedMapFile(const Skeleton& skeleton) {
   const PartialRoles roles = FindPartialRoles(skeleton);
   std::string text =
@@ -316,7 +316,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   const auto map = FindJointMap(skeleton, options.clip, reading.roles ? &*reading.roles : nullptr,
                                 clips.front().clip.frames);
   RETURN_IF_ERROR(WritePreview(options, clips.front().clip, map ? &*map : nullptr));
-  // Roles are missing: write a file to fill in, and complain.
+  // If roles are missing, write a file to fill in, and complain.
   if (!map) {
     // Never overwrite the joint map that the user gave: it is being edited, and may be the output file.
     if (options.joint_map.empty() && writes) {
@@ -326,7 +326,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
     }
     return tl::unexpected(map.error());
   }
-  // All roles are known: print the map, and write it.
+  // If all roles are known, print the map and write it.
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("clip map", {{"clip", options.clip}, {"roles", RolesAsJson(skeleton, *map)}}));
   } else {

@@ -15,24 +15,24 @@ class App;
 
 namespace etude {
 
-/// Facts that a motion file may not state; "" = determined from the file.
+/// Options with facts that a motion file may not state; "" = the file decides.
 struct ClipReading {
   std::string joint_map;  ///< the name of a joint-map file
   std::string unit;       ///< "m", "cm", … or metres per unit as a number
   std::string up;         ///< "y" or "z"
   std::optional<double> rate_hz = {};
   bool keep_floor = false;
-  std::string marker_set = "";  ///< "" = the best that the file holds
+  std::string marker_set = "";  ///< "" = the marker set that fits the file best
 };
 
-/// Adds --joint-map, --unit, --up, --keep-floor and --marker-set, for every command that opens clips directly, and an option with the name `rate`
-/// for the frame rate of files ("" = no such option).
+/// Adds --joint-map, --unit, --up, --keep-floor and --marker-set, for every command that opens clips directly. Also
+/// adds an option named `rate` for the frame rate of files ("" = no such option).
 void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& rate = "--rate");
 
-/// Converts these options to OpenOptions. Fails if a file or a value cannot be read.
+/// Converts `reading` to OpenOptions. Fails if a file or a value cannot be read.
 Result<OpenOptions> ReadOptions(const ClipReading& reading);
 
-/// Parses --trim; returns nullopt for "".
+/// Parses the value of --trim (ParseTimeSpan); returns nullopt for "".
 Result<std::optional<TimeSpan>> ReadTrim(const std::string& text);
 
 /// Reads --fuzzy: builtin:NAME or a file; "" means paper A's system.

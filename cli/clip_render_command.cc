@@ -34,7 +34,7 @@ struct Size {
   int height = 0;
 };
 
-/// Parses a size such as "200x260"; returns `otherwise` for "".
+/// Parses a size such as "200x260", pixels; returns `otherwise` for "".
 Result<Size> ReadSize(const std::string& text, const Size& otherwise) {
   if (text.empty()) return otherwise;
   constexpr int kMinSide = 16, kMaxSide = 2048;  // pictures are drawn twice as large and then shrunk

@@ -30,15 +30,18 @@ namespace etude {
 namespace {
 
 struct CoachCommandOptions {
-  std::string song;               ///< the name of a built-in song, or a song file
-  std::string stream;             ///< a file of skeleton rows; "-": standard input
-  std::string moves;              ///< a moves file that teaches the recogniser the song's moves, "" = the built-in ones
-  std::string beats;              ///< a file with the times of the music's beats, "" = even beats at the song's tempo
+  std::string song;    ///< the name of a built-in song, or a song file
+  std::string stream;  ///< a file of skeleton rows; "-": standard input
+  /// A moves file from which the recogniser learns the song's moves, "" = the built-in moves.
+  std::string moves;
+  /// A file with the times of the music's beats, "" = evenly spaced beats at the song's tempo.
+  std::string beats;
   std::string click;              ///< a WAV to write, "" = none
   std::string format;             ///< the stream's format, "" = recognised by content
   std::optional<double> rate_hz;  ///< frame rate of streams without a clock
-  std::string recogniser;         ///< one of RecogniserNames(), "" = the recommended one
-  std::optional<double> right_from;  ///< minimum evidence for the verdict "right"; default: the recogniser's own
+  std::string recogniser;         ///< one of RecogniserNames(), "" = the recommended recogniser
+  /// Minimum evidence for the verdict "right"; default: the recogniser's own threshold.
+  std::optional<double> right_from;
   std::string policy = "at-first-mistake";
   std::string choice = "played";
   std::string join = "planted-feet";
@@ -67,7 +70,7 @@ constexpr const char* kCoachExamples =
     "  etude teach clap.csv jump.csv -o mine.yaml && etude coach groove --moves mine.yaml --stream -\n"
     "  etude clip convert builtin:warm_up me.csv && etude coach warm_up --now --brief --stream me.csv";
 
-/// The dance, and the moves that recognisers are taught, in the order of the dance.
+/// The dance, and the moves that recognisers learn, in the order of the dance.
 struct Lesson {
   Dance dance;
   std::vector<TaughtMove> taught;
@@ -79,7 +82,8 @@ Result<Song> LoadSong(const std::string& name, std::optional<double> tempo_bpm) 
   return ParseSong(text, name, tempo_bpm);
 }
 
-/// Replaces taught moves by those of a moves file. Fails if the file teaches a move that the dance does not have.
+/// Replaces the built-in definitions of moves by those of a moves file. Fails if the file defines a move that the dance
+/// does not have.
 Result<void> TeachMoves(const std::string& path, std::vector<TaughtMove>& taught) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   ASSIGN_OR_RETURN(auto moves, ReadMoves(text, path));
@@ -182,7 +186,7 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
 void DefineCoach(CLI::App& app, Action& action) {
   auto options = std::make_shared<CoachCommandOptions>();
   CLI::App* command = app.add_subcommand("coach", "Coach a dance live, from skeletons");
-  // The song, the stream, and what is known about the music.
+  // Define the song, the stream, and the facts about the music.
   command->add_option("song", options->song, "A song: a built-in one (etude list clips), or a file (.yaml)")
       ->required();
   command->add_option("--stream", options->stream, "A file of skeleton rows; -: standard input, live")->required();
@@ -191,7 +195,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_option("--beats", options->beats,
                       "Times of the music's beats: a text file with one time in seconds per line");
   command->add_option("--click", options->click, "Also write a click for every beat (.wav)");
-  // How performances are judged, and how the coach reacts.
+  // Define how performances are judged, and how the coach reacts.
   command
       ->add_option("--recogniser", options->recogniser,
                    "How performances are recognised (default: coached; key-pose if a move has no example)")
@@ -212,7 +216,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_option("--filter", options->filter, "Filter that smooths the skeletons")
       ->check(CLI::IsMember(FilterNames()))
       ->capture_default_str();
-  // How players dance, and how frames are read and printed.
+  // Define how players dance, and how frames are read and printed.
   command->add_flag("--mirror", options->mirror,
                     "Players mirror the coach: they move their right when it moves its left");
   command->add_flag("--now", options->now, "Dance at once, without a clap");

@@ -22,35 +22,36 @@ constexpr int kUnusableInput = 2;
 constexpr int kIncompleteRun = 3;
 constexpr int kInterrupted = 130;
 
-/// Prints a complaint in the standard form. Returns kUnusableInput, or kIncompleteRun if the error is this machine's.
+/// Prints a complaint in the standard form. Returns kUnusableInput, or kIncompleteRun if the error's cause is this
+/// machine.
 int Complain(const Error& error);
-/// Returns a command's exit code; for an error, complains and returns Complain's code.
+/// Returns a command's exit code. For an error, prints it as Complain does and returns Complain's code.
 int Finish(const Result<int>& code);
-/// Says that Ctrl-C stopped the work, and what remains of it. Returns kInterrupted.
+/// Prints that Ctrl-C stopped the work, and `what_is_left` of it. Returns kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; no files are kept"});
-/// Returns `code`, or, if another run has replaced the folder while files of this run were written into it, complains
-/// and returns kIncompleteRun.
+/// Returns `code`. If another run has replaced the folder while files of this run were written into it, complains and
+/// returns kIncompleteRun.
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code);
 /// Warns on standard error that data were read although no valid seal confirms them. If `why` is "", the seal is valid
 /// and nothing is printed.
 void TellUnsealed(const std::string& why);
 /// Reads a baseline, and warns if no seal confirms it. Fails if its seal is invalid, unless seals are ignored.
 Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
-/// Runs scenarios with a progress bar, and reports clips that were left out, damaged lines and missing locks. If it was
-/// stopped, it says so and returns nullopt.
+/// Runs scenarios with a progress bar, and reports clips that were left out, damaged lines and missing locks. If the
+/// run was stopped, reports that and returns nullopt.
 Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
 /// Prints the tables of a finished run, and the reasons of methods without an answer. Returns kNothingWorked if a
 /// method has no answer or no cell is ok.
 int ShowOutcome(const RunOutcome& outcome);
-/// Returns true if the parent had closed our standard output before the start, so that nobody reads it.
+/// Returns true if our standard output was closed before the start, so that nobody reads it.
 bool OutputWasClosed();
 /// Prints a title and indented lines; prints nothing if there are no lines.
 void PrintList(const std::string& title, const std::vector<std::string>& lines);
 
 // Each command is defined in a file of its name. `command_line` is recorded in host.json.
 
-/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run it only forecasts time and
-/// findings.
+/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run, only forecasts the time and
+/// the findings.
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude evaluate TRUTH RESULT…`: compares motions in files with their truths, and writes a run.
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action);
@@ -65,10 +66,10 @@ void DefineRows(CLI::App& app, Action& action);
 /// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit code 1 if one differs), or packs
 /// one cell into a file.
 void DefineReplay(CLI::App& app, Action& action);
-/// `etude cite DIR`: prints BibTeX, and a sentence that identifies the run.
+/// `etude cite DIR`: prints a BibTeX entry, and a sentence that identifies the run.
 void DefineCite(CLI::App& app, Action& action);
-/// `etude verify DIR`: recomputes and replays the results of a run (exit code 1 if any differ), signs it, and checks a
-/// signature.
+/// `etude verify DIR`: recomputes and replays the results of a run (exit code 1 if any result differs), signs the run,
+/// and checks a signature.
 void DefineVerify(CLI::App& app, Action& action);
 /// `etude gate`: exit code 0 = passed, 1 = regression or unmet expectation, 2 = bad input, 3 = incomplete.
 void DefineGate(CLI::App& app, Action& action);
@@ -78,8 +79,8 @@ void DefineCompare(CLI::App& app, Action& action);
 void DefineExport(CLI::App& app, Action& action);
 /// `etude score`: scores a folder of answers into a result folder.
 void DefineScore(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude check-method … -- CMD…`: tests whether a program speaks the protocol of external methods; exit code 1 if it
-/// does not.
+/// `etude check-method … -- CMD…`: tests whether a program implements the protocol of outside methods; exit code 1 if
+/// it does not.
 void DefineCheckMethod(CLI::App& app, Action& action);
 /// `etude list …`: lists what a scenario can name.
 void DefineList(CLI::App& app, Action& action);
@@ -92,9 +93,10 @@ void DefineGrades(CLI::App& clip, Action& action);
 /// `etude bridge`: finds bridge frames of clips and writes a tags file and a summary; or checks a tags file (exit code
 /// 2).
 void DefineBridge(CLI::App& app, Action& action);
-/// `etude transition FROM TO --at S -o FILE`: leads from one clip into another; exit code 1 if there is no way.
+/// `etude transition FROM TO --at S -o FILE`: writes a transition from one clip into another; exit code 1 if there is
+/// none.
 void DefineTransition(CLI::App& app, Action& action);
-/// `etude train`: learns a fuzzy system or a recogniser from clips, and prints its scores on clips that were held out.
+/// `etude train`: learns a fuzzy system or a recogniser from clips, and prints its scores on held-out clips.
 void DefineTrain(CLI::App& app, Action& action);
 /// `etude teach`: learns moves from recordings.
 void DefineTeach(CLI::App& app, Action& action);

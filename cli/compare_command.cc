@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// Loads a complete run. Fails for an incomplete one, because its worlds cannot be paired.
+/// Loads a complete run. Fails for an incomplete run, because its worlds cannot be paired.
 Result<FinishedRun> LoadWholeRun(const std::string& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, sealing));
   TellUnsealed(run.data.unsealed);
@@ -26,7 +26,7 @@ Result<FinishedRun> LoadWholeRun(const std::string& folder, Sealing sealing) {
   return run;
 }
 
-/// Returns a sentence on the limit of the verdicts: two runs of the same worlds show only changes of the code.
+/// Returns a sentence on the scope of the verdicts: two runs of the same worlds show only the effect of changed code.
 std::string ScopeSentence(const FinishedRun& run) {
   std::vector<std::string_view> others;
   for (const FinishedScenario& scenario : run.scenarios) {
@@ -43,7 +43,7 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   const std::vector<std::string> incomparable = DropIncomparable(before, after);
   const SnapshotComparison comparison = CompareSnapshots(before, after, {});
   const std::vector<std::string> systems = CompareSystems(run_a.data.system, run_b.data.system, before, after);
-  // The JSON form.
+  // Print the comparison as JSON.
   if (as_json) {
     Json facts = FactsOf(comparison);
     facts["incomparable"] = incomparable;
@@ -51,7 +51,7 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
     RETURN_IF_ERROR(PrintFacts("compare", std::move(facts)));
     return kSuccess;
   }
-  // The text form: moved metrics, unmatched cells, and a sentence that sums up.
+  // Print the comparison as text: moved metrics, unmatched cells, and a summary.
   PrintMoves(comparison, "A", "B", comparison.moves.size());
   PrintList("Only in A:", comparison.only_before);
   PrintList("Only in B:", comparison.only_after);

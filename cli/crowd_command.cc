@@ -30,7 +30,7 @@ namespace {
 struct CrowdCommandOptions {
   CrowdOptions crowd;
   double seconds = 2;
-  int steps = 100;  ///< maximum steps per frame; a character that misses its targets gets as many for a restart
+  int steps = 100;  ///< maximum steps per frame; if a character misses its targets, a restart may use as many again
   bool in_float = false;
   std::string output;  ///< a film file; "" = only the report
   int jobs = 0;
@@ -47,7 +47,7 @@ struct Timings {
   std::vector<double> times_ms;  ///< time of each frame
 };
 
-/// Prints the measured times, and returns them for programs.
+/// Prints the measured times, and returns them as JSON.
 Json Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
@@ -82,7 +82,7 @@ class FollowedCrowd {
     ik_.max_iterations = options.steps;
   }
 
-  /// Tracks all characters up to a frame. Frames must be asked for in ascending order.
+  /// Tracks all characters up to a frame. Call it with ascending frames.
   void FollowTo(int frame) {
     for (; next_ <= frame; ++next_) {
       const double begin = ProcessorTimeMs();
@@ -107,7 +107,7 @@ class FollowedCrowd {
   int next_ = 0;
 };
 
-/// Makes a film of every n-th frame while the crowd is tracked. Returns false if it was stopped.
+/// Makes a film of every n-th frame while the crowd is tracked. Returns false if the film was stopped.
 Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& followed, const FilmWatch& watch) {
   using Character = CrowdStage::Character;
   static_assert(std::is_trivially_copyable_v<Character>, "characters are passed on as they are stored in memory");

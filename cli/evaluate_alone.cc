@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads limits from a file, or from the shipped file of that name: "recorded".
+/// Reads limits from the file `name`, or from the shipped file of that name ("recorded").
 Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
   std::error_code none;
   const fs::path folder = ShippedFolder() / "scenarios" / "limits", shipped = folder / (name + ".yaml");
@@ -47,14 +47,14 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
   return limits;
 }
 
-/// For each kind of fault: the metric that is above 0 if a clip shows it, and the word for it.
+/// For each kind of fault: a metric that is above 0 if a clip shows the fault, and the fault's word.
 constexpr std::pair<std::string_view, std::string_view> kTelling[] = {
     {"floats_share", "floats"}, {"sinks_share", "sinks"},   {"skates_share", "skates"},
     {"jumps", "jumps"},         {"pops", "pops"},           {"freezes_share", "freezes"},
     {"bends_share", "bends"},   {"passes_share", "passes"}, {"stretches_max_percent", "stretches"},
     {"torn_max_cm", "torn"},    {"gaps_share", "gaps"},     {"wrong_rate", "wrong rate"}};
 
-/// Prints "2 not judged:" and at most twenty lines.
+/// Prints the number of lines and the heading ("2 not judged:"), then at most twenty lines.
 void PrintLines(std::string_view heading, const std::vector<std::string>& lines) {
   constexpr std::size_t kMaxLines = 20;
   fmt::print("{} {}{}\n", lines.size(), heading, lines.empty() ? "" : ":");

@@ -11,29 +11,30 @@
 
 namespace etude {
 
-/// The options of `etude evaluate --alone` beside those of every evaluation.
+/// The options of `etude evaluate --alone` that other evaluations do not have.
 struct AloneOptions {
   bool is_alone = false;
   std::optional<double> floor_m;
-  std::string limits;  ///< a file, or the name of one that comes with etude; "" = none
+  std::string limits;  ///< a file, or the name of a shipped file of limits; "" = none
 };
 
-/// Writes the scenario of motions without a truth.
+/// Writes the text of a scenario that judges motions without a truth.
 Result<std::string> ScenarioOfMotions(const std::vector<std::string>& files, const AloneOptions& options,
                                       const std::string& people);
 
-/// The clips of a run of motions without a truth.
+/// The clips of a run of motions without a truth, sorted by outcome.
 struct Triage {
-  std::size_t clips = 0, fault_free = 0;     ///< judged; those without a fault
-  std::map<std::string, std::size_t> kinds;  ///< by the word for a kind of fault, the clips that show it
+  std::size_t clips = 0, fault_free = 0;     ///< judged clips, and those of them without a fault
+  std::map<std::string, std::size_t> kinds;  ///< for each kind of fault (its word), the number of clips that show it
   bool has_limits = false;
-  // Lines: "METHOD, CLIP: why". A clip is either beyond its limits or, with faults, in `faulty`.
+  // Lines have the form "METHOD, CLIP: why". A clip beyond its limits is in `beyond_limits` only; any other clip with
+  // faults is in `faulty`.
   std::vector<std::string> faulty, beyond_limits, not_judged;
 };
 Triage TriageOf(const RunData& run);
 
-/// Prints how many clips show which faults, and names the clips that exceed their limits, those with other faults, and
-/// those that could not be judged.
+/// Prints how many clips show each fault. Then names the clips that exceed their limits, the other faulty clips, and
+/// the clips that could not be judged.
 void PrintTriage(const Triage& triage);
 
 }  // namespace etude

@@ -42,7 +42,7 @@ struct EvaluateOptions {
   std::string command_line;
 };
 
-/// Returns the columns of a CSV of pairs that name methods.
+/// Returns the columns of a CSV file of pairs that name methods.
 Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
   std::vector<NamedResult> results;
@@ -55,7 +55,7 @@ Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
   return results;
 }
 
-/// Returns the text of the scenario of pairs of files.
+/// Returns the text of a scenario that compares pairs of files.
 Result<std::string> ScenarioOfPairs(const EvaluateOptions& options) {
   const bool has_pairs = !options.pairs.empty();
   if (has_pairs != options.files.empty() || options.files.size() == 1) {
@@ -94,7 +94,7 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   return text + fmt::format("metrics: [{}]\n", Join(quoted));
 }
 
-/// Returns the agreement of every angle that both files of a pair have, for programs.
+/// Returns, as JSON, the agreement of every angle that both files of a pair have.
 Json FactsOf(const std::vector<AngleAgreement>& angles) {
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   const auto figure = [&](const AgreementFigure& one) {
@@ -118,7 +118,7 @@ Json FactsOf(const std::vector<AngleAgreement>& angles) {
   return list;
 }
 
-/// Returns true if any cell has an error of angles.
+/// Returns true if any cell has a metric of angle errors.
 bool HasAngles(const ScenarioSummary& summary) {
   for (const ConditionSummary& condition : summary.conditions) {
     for (const MethodSummary& method : condition.methods) {
@@ -157,7 +157,7 @@ void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreemen
   }
 }
 
-/// Returns the aggregates of every metric of every method, for programs.
+/// Returns, as JSON, the aggregates of every metric of every method.
 Json FactsOf(const ScenarioSummary& summary, const std::vector<AngleAgreement>& angles, const std::string& folder) {
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   Json methods = Json::array();
@@ -205,8 +205,8 @@ void PrintTable(const ScenarioSummary& summary) {
   }
 }
 
-/// Prints, once for each method, what was judged and how answers were changed; then the files that could not be judged.
-/// Rows are read one by one.
+/// Prints, once for each method, notes on what was judged and how answers were changed; then the files that could not
+/// be judged. Rows are read one by one.
 Result<void> PrintNotes(const std::filesystem::path& folder) {
   constexpr std::size_t kMaxFailures = 10;
   std::vector<std::string> told, failures;
@@ -233,7 +233,8 @@ Result<void> PrintNotes(const std::filesystem::path& folder) {
 
 constexpr const char* kScenarioFile = "evaluate.yaml";
 
-/// Names the argument that made a line of the scenario `text`, instead of the line, which the user never wrote.
+/// Replaces the place of an error in the generated scenario `text` by the command-line argument that caused it, because
+/// the user never wrote that text.
 Error AboutArguments(Error error, const std::string& text) {
   constexpr std::pair<std::string_view, std::string_view> kArguments[] = {
       {"truth", "the truth"},  {"pairs", "--pairs"},      {"joints", "--joints"},
@@ -241,7 +242,7 @@ Error AboutArguments(Error error, const std::string& text) {
       {"floor_m", "--floor"},  {"at_most", "--limits"},   {"music_beats", "--music-beats"},
       {"metrics", "--metric"}, {"methods", "the results"}};
   if (error.place.file != kScenarioFile) return error;
-  // Find the line's key; an indented line belongs to the key above it.
+  // Find the key of the line; an indented line belongs to the key above it.
   std::istringstream lines(text);
   std::string line;
   std::string found;
@@ -270,18 +271,19 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const auto& outcome = *ran;
   redirected.End();
   if (!outcome) return kInterrupted;
-  // Hours of motion give many rows, so rows are loaded only for what the summary does not hold.
+  // Hours of motion give many rows, so load the rows only if the summary lacks the needed data.
   ASSIGN_OR_RETURN(auto data, LoadRunOutline(outcome->folder));
   if (options.alone.is_alone || HasAngles(data.scenarios.front())) {
     ASSIGN_OR_RETURN(data, LoadRun(outcome->folder));
   }
   const ScenarioSummary& summary = data.scenarios.front();
-  // A pair that is not judged must not pass unnoticed; of motions alone, limits ask that every clip is.
+  // A pair that is not judged must not pass unnoticed. Among motions without a truth, clips that cannot be judged are
+  // an error only with limits.
   const bool lacks_some = !options.alone.is_alone && outcome->cells_ok < outcome->cells;
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  // If there are limits, a clip that cannot be judged counts as one that exceeds them.
+  // With limits, a clip that cannot be judged counts as a clip that exceeds them.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();
@@ -345,7 +347,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
                       "A metric to show in the table; all are measured (etude list metrics)");
   command->add_option(kJointMapOption, options->joint_map,
                       "A file that states which joints play which roles, the unit and the up axis");
-  // The outputs.
+  // Define the outputs.
   command->add_option("-o,--output", options->output, "Result folder (default: out/evaluate-1)");
   AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   command

@@ -17,15 +17,15 @@ namespace etude {
 /// Adds --json, for every command that prints facts.
 CLI::Option* AddJson(CLI::App& command, bool& as_json);
 
-/// Prints the findings of a command as one line of JSON: "command", "etude" (the version) and the members of `facts`,
-/// an object. The entry of that name in docs/schemas/facts.schema.json is its schema.
+/// Prints the findings of a command as one line of JSON with the members "command", "etude" (the version) and those of
+/// `facts`, which is an object. docs/schemas/facts.schema.json holds its schema under the name `command`.
 Result<void> PrintFacts(const std::string& command, Json facts);
 
-/// Redirects standard output to standard error during its lifetime, so that text for people does not mix with facts for
+/// While it lives, redirects standard output to standard error, so that text for people does not mix with facts for
 /// programs.
 class StdoutToStderr {
  public:
-  /// Has no effect unless `is_active`.
+  /// Redirects only if `is_active`.
   explicit StdoutToStderr(bool is_active);
   ~StdoutToStderr() { End(); }
   StdoutToStderr(const StdoutToStderr&) = delete;
@@ -37,7 +37,7 @@ class StdoutToStderr {
   int output_ = -1;  ///< a copy of the original standard output; −1 = not redirected
 };
 
-/// Returns the metrics that moved in a comparison, and the entries that only one side has.
+/// Returns, as JSON, the metrics that moved in a comparison, and the entries that only one side has.
 Json FactsOf(const SnapshotComparison& comparison);
 
 }  // namespace etude

@@ -51,7 +51,7 @@ struct ForecastCommandOptions {
 Json TripleOf(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
 Json FactsOf(const RigForecast& forecast, const ForecastOptions& options) {
-  // A list each of cameras, joints and changes.
+  // Write one list each of cameras, joints and changes.
   Json cameras = Json::array(), joints = Json::array(), changes = Json::array();
   for (const auto& [name, camera] : forecast.cameras) {
     cameras.push_back({{"camera", name}, {"place_m", TripleOf(camera.p_WC)}});
@@ -70,7 +70,7 @@ Json FactsOf(const RigForecast& forecast, const ForecastOptions& options) {
                        {"seen", worth.seen},
                        {"median_mm", worth.median_mm}});
   }
-  // The whole volume.
+  // Write the facts of the whole volume.
   return {{"rig", options.rig},
           {"cameras", std::move(cameras)},
           {"middle_m", {forecast.middle_m.x, forecast.middle_m.y}},
@@ -125,7 +125,7 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->capture_default_str();
   command->add_option("--floor", options->place.floor, "The height in m that becomes 0, or auto (the rig's)")
       ->capture_default_str();
-  // The volume in which people move.
+  // Define the volume in which people move.
   command->add_option("--size", asked->size, "Width (x), height and depth (z) of the volume, m")
       ->delimiter(',')
       ->expected(3)
@@ -137,7 +137,7 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->delimiter(',')
       ->expected(2)
       ->check(NumberWithin(-1000, 1000, "place in m"));
-  // The errors of keypoints (given, or measured in films) and of the calibration.
+  // Define the errors of keypoints (given, or measured in films) and of the calibration.
   auto* noise =
       command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
           ->check(NumberWithin(0.001, 1000, "deviation in px"))
@@ -170,7 +170,7 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->expected(3)
       ->check(NumberWithin(0, 1000, "deviation"))
       ->capture_default_str();
-  // The outputs.
+  // Define the outputs.
   command->add_option("--picture", options->picture,
                       "Also draw the errors at each height as a heat map, and the cameras from above (.png)");
   command->add_option("--table", options->table, "Also write the error at every place (.csv; its columns: below)");

@@ -50,7 +50,7 @@ int ExitCode(GateVerdict verdict) {
   return kIncompleteRun;
 }
 
-/// Prints each world in two lines: its difference, and the command that runs it again.
+/// Prints each far worse world in two lines: its difference, and the command that runs it again.
 void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
   std::vector<std::string> text;
   for (const TailLine& line : lines) {
@@ -128,7 +128,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   return UnlessReplaced(options.target, run.data, ExitCode(GateVerdictOf(report)));
 }
 
-/// Prints what moved between two baselines, for the worlds that both have.
+/// Prints the metrics that moved between two baselines, for the worlds that both contain.
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
@@ -138,7 +138,7 @@ void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
 }
 
 Result<int> Update(const GateOptions& options, const FinishedRun& run) {
-  // An incomplete run, or one with a method without answers, makes no baseline.
+  // Refuse to make a baseline from an incomplete run, or from a run that has a method without answers.
   if (const auto incomplete = WhyIncomplete(run); !incomplete.empty()) {
     PrintList("No baseline is made from an incomplete run:", incomplete);
     return kIncompleteRun;
@@ -155,7 +155,7 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
   RETURN_IF_ERROR(ReadBaseline(text, options.target));
   std::optional<Snapshot> before;
   if (std::error_code none; fs::exists(options.baseline, none)) {
-    // Never overwrite a file that is no baseline.
+    // Refuse to overwrite a file that is no baseline.
     ASSIGN_OR_RETURN(before, TakeBaseline(options.baseline, Sealing::kIgnored));
   }
   RETURN_IF_ERROR(WriteFileAtomically(options.baseline, text));
@@ -169,7 +169,8 @@ std::string RateText(const Rate& rate) {
                      rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
 }
 
-/// Says whether the gate keeps its promise; a few gates without an alarm are not enough to say it.
+/// Returns a sentence that says whether the gate keeps its error limits. A few gates without an alarm are too few to
+/// show it.
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate exceeds its error limits.";
   if (report.false_alarms.high > kFalseAlarmLimit) {

@@ -43,7 +43,7 @@ Interrupt::Interrupt() : piped_(std::signal(SIGPIPE, SIG_IGN)) { OnInterrupt(Req
 
 Interrupt::~Interrupt() {
   OnInterrupt(End);
-  std::signal(SIGPIPE, piped_);  // a closed output may end the program again
+  std::signal(SIGPIPE, piped_);  // from now on, a closed output may end the program
 }
 
 const std::atomic<bool>* Interrupt::requested() const { return &stop_requested; }

@@ -8,11 +8,12 @@
 namespace etude {
 
 /// Makes Ctrl-C (and SIGTERM) end the program at once, with a message and exit code 130. Use it for work that writes
-/// nothing before it is complete; other work uses Interrupt.
+/// nothing before the work is complete; for other work, use Interrupt.
 void EndWhenInterrupted();
 
-/// A guard for work that can be stopped. While it lives, the first Ctrl-C (or SIGTERM) requests a stop and the second
-/// one ends the program at once; writing to a child that has ended returns an error instead of ending the program.
+/// A guard for work that can be stopped. While it lives, the first Ctrl-C (or SIGTERM) requests a stop, and the second
+/// one ends the program at once. Meanwhile, writing to a child that has ended returns an error instead of ending the
+/// program.
 class Interrupt {
  public:
   Interrupt();
@@ -26,12 +27,12 @@ class Interrupt {
   void (*piped_)(int);
 };
 
-/// Runs `work` in a copy of this process, which Ctrl-C (and SIGTERM) kills at any point; `clean_up` then removes
+/// Runs `work` in a copy of this process. Ctrl-C (or SIGTERM) kills the copy at any point; then `clean_up` removes
 /// unfinished output. Returns the exit code of `work`. Use it for work with long single steps.
 int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up);
 
-/// Returns the result of writing a film, or false if Ctrl-C was pressed. Ctrl-C also ends the encoder, so the result
-/// may be the encoder's error; false replaces it.
+/// Returns `is_whole`, the result of writing a film, or false if Ctrl-C was pressed. Ctrl-C also ends the encoder, so
+/// `is_whole` may be the encoder's error.
 Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt);
 
 }  // namespace etude

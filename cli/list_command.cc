@@ -104,7 +104,7 @@ std::string CountOf(int count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// Returns the scenarios of files, or, without a folder, those that come with the program, by name.
+/// Returns, as JSON, the scenarios in a folder; without a folder, the scenarios that come with the program, by name.
 Result<Json> ScenariosAsJson(const std::string& folder) {
   std::vector<std::string> names = ShippedScenarios();
   if (!folder.empty()) {
@@ -219,8 +219,8 @@ int ListKeysCommand(KeysFormat format) {
 }
 
 enum class MetricsFormat {
-  kTable,     ///< one line each, for people at a terminal
-  kJson,      ///< everything including the test vectors (docs/schemas/metrics.schema.json)
+  kTable,     ///< one line for each metric, for people at a terminal
+  kJson,      ///< complete definitions with test vectors (docs/schemas/metrics.schema.json)
   kMarkdown,  ///< docs/reference/metrics.md
 };
 
@@ -247,7 +247,7 @@ Result<int> ListMetricsCommand(MetricsFormat format) {
 void DefineList(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("list", "List what can be named in a scenario");
   command->require_subcommand(1);
-  // Lists without further options.
+  // Define the lists that have no further options.
   const auto list = [&](const char* name, const char* help, Listing what) {
     CLI::App* listing = command->add_subcommand(name, help);
     auto as_json = std::make_shared<bool>(false);
@@ -260,7 +260,7 @@ void DefineList(CLI::App& app, Action& action) {
   list("recordings", "Print docs/reference/recordings.md: what recordings contain besides motions",
        Listing::kRecordings);
   list("faults", "The faults that `etude evaluate --alone` finds, with their thresholds", Listing::kFaults);
-  // Metrics: text, JSON or Markdown.
+  // Define the list of metrics: text, JSON or Markdown.
   auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
   CLI::Option* as_json =
@@ -272,7 +272,7 @@ void DefineList(CLI::App& app, Action& action) {
                                              : MetricsFormat::kTable;
     action = [=] { return Finish(ListMetricsCommand(format)); };
   });
-  // Keys of scenario files: text, Markdown or JSON Schema.
+  // Define the list of keys of scenario files: text, Markdown or JSON Schema.
   auto as_page = std::make_shared<bool>(false), as_schema = std::make_shared<bool>(false);
   CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");
   CLI::Option* page = keys->add_flag("--markdown", *as_page, "Print docs/reference/keys.md");
@@ -282,7 +282,7 @@ void DefineList(CLI::App& app, Action& action) {
     const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;
     action = [=] { return ListKeysCommand(format); };
   });
-  // Scenarios of the program or of a folder.
+  // Define the list of scenarios: those of the program, or of a folder.
   auto folder = std::make_shared<std::string>();
   CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios that come with etude, or those of a folder");
   scenarios->add_option("folder", *folder, "A folder, a file, or a name such as quick");

@@ -56,7 +56,7 @@ constexpr const char* kExamples =
     "Exit codes: 0 fine, 1 a method has no answer (gate: regression; replay, verify: a difference), 2 bad input\n"
     "(nothing is written), 3 incomplete, 130 interrupted.";
 
-/// Lists the options and subcommands that a wrong word at this point could have meant.
+/// Lists the options and subcommands that are allowed where a wrong word stands.
 std::vector<std::string> KnownWords(const CLI::App& app) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty(); })) {
@@ -75,8 +75,8 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
     command = command->get_subcommands().front();
     words += command->get_name() + " ";
   }
-  // Report an unknown word first: it explains the failure better than the missing argument that it causes.
-  // Words after "--" belong to another program.
+  // Report an unknown word first: it explains the failure better than the error about the missing argument, which often
+  // follows from it. Words after "--" belong to another program.
   std::vector<std::string> extras = app.remaining(true);
   extras.erase(std::ranges::find(extras, "--"), extras.end());
   std::string message = error.what();
@@ -96,8 +96,8 @@ bool RunsUnpinned(const CLI::App& app) {
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
-/// Prints the same help in every run and with every version of CLI11. CLI11 orders excluded options by their addresses,
-/// and its versions write defaults differently.
+/// Formats help identically in every run and with every version of CLI11. CLI11 orders excluded options by their
+/// addresses, and its versions write defaults differently.
 class OrderedHelp : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -139,8 +139,8 @@ Result<void> CheckNames(std::span<char*> arguments) {
   return {};
 }
 
-/// Opens standard streams that the parent has closed. Otherwise the next opened file would get the number of such a
-/// stream, and printed text would go into that file.
+/// Opens the standard streams that the parent has closed. Otherwise the next opened file would get the number of a
+/// standard stream, and printed text would go into that file.
 void OpenStandardStreams() {
   output_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) < 0;
   for (int descriptor = ::open("/dev/null", O_RDWR); descriptor >= 0; descriptor = ::dup(descriptor)) {
@@ -150,8 +150,8 @@ void OpenStandardStreams() {
   }
 }
 
-/// Raises the stack limit to the kernel's usual 8 MiB, as far as allowed. Fails below 1 MiB, where the deepest of our
-/// libraries would overflow the stack.
+/// Raises the stack limit to the kernel's usual 8 MiB, if that is allowed. Fails if less than 1 MiB is allowed, because
+/// some of our libraries would overflow such a stack.
 Result<void> TakeStack() {
   constexpr rlim_t kUsualStack = rlim_t{8} << 20, kMinStack = rlim_t{1} << 20;
   rlimit limit{};
@@ -188,7 +188,7 @@ int Main(int argc, char** argv) {
     return ComplainOfArguments(app, error);
   }
   if (auto choice = CheckRendererChoice(); !choice) return Complain(choice.error());
-  // Start again in the pinned environment, so that results do not depend on this shell.
+  // Restart in the pinned environment, so that results do not depend on this shell.
   if (!RunsUnpinned(app)) {
     if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   }
@@ -204,7 +204,7 @@ bool OutputWasClosed() { return output_was_closed; }
 
 int main(int argc, char** argv) {
   etude::OpenStandardStreams();
-  // The parent may have set it to be ignored, which would lose the exit status of our children.
+  // The parent may have set SIGCHLD to be ignored, which would lose the exit status of our children.
   std::signal(SIGCHLD, SIG_DFL);
   etude::EndWhenMappedFilesAreCut();
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a file-size limit then fails with an error that is reported

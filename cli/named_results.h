@@ -8,21 +8,21 @@
 
 namespace etude {
 
-/// A method and the patterns of its answers.
+/// A method and the file patterns of its answers.
 struct NamedResult {
   std::string name;
   std::vector<std::string> patterns;
 };
 
-/// Reads RESULT or NAME=PATTERN, one for each method; one without a name is named after its folder or file. Fails if
-/// several have no names: a shell may have put files in the place of a pattern.
+/// Reads arguments RESULT or NAME=PATTERN, one for each method. A method without a name is named after its folder or
+/// file. Fails if several arguments have no name, because a shell may have expanded a pattern into files.
 Result<std::vector<NamedResult>> ReadResults(std::span<const std::string> arguments);
 
-/// Does the same, but all arguments without names are one method, named after the only one, or "motions". Fails if some
-/// have names and others have none.
+/// Reads arguments FILE or NAME=PATTERN. All arguments without a name form one method; it is named after the argument
+/// if there is only one, else "motions". Fails if some arguments have names and others have none.
 Result<std::vector<NamedResult>> ReadMotions(std::span<const std::string> arguments);
 
-/// Writes the methods of a scenario; one without patterns has no `answers`.
+/// Writes the methods of a scenario as YAML; a method without patterns gets no key `answers`.
 std::string MethodsInYaml(std::span<const NamedResult> results);
 
 }  // namespace etude

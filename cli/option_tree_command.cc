@@ -11,8 +11,7 @@
 #include "engine/base/names.h"
 #include "io/files/files.h"
 
-// Texts generated from the option tree: shell completion, manual pages, and a page of all commands. None of them is
-// written by hand.
+// Texts that are generated from the option tree: shell completion, manual pages, and a page of all commands.
 
 namespace etude {
 namespace {
@@ -25,7 +24,7 @@ std::vector<const CLI::App*> CommandsOf(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty() && !sub->get_group().empty(); });
 }
 
-/// Calls `use` for the program, each command and each subcommand, with the words that name it: "clip info".
+/// Calls `use` for the program and for every command and subcommand, with the words that name it: "clip info".
 void ForEachCommand(const CLI::App& app, const std::string& words,
                     const std::function<void(const CLI::App& command, const std::string& words)>& use) {
   use(app, words);
@@ -46,10 +45,10 @@ std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> OptionsOf(c
   return options;
 }
 
-constexpr std::string_view kHelp = "help";  ///< "etude help COMMAND", which main turns into --help
+constexpr std::string_view kHelp = "help";  ///< "etude help COMMAND"; main turns it into "etude COMMAND --help"
 
-/// Returns the values that a command's arguments may have besides files: where scenarios are expected, those that come
-/// with etude.
+/// Returns the fixed values that a command's arguments may have besides files. Where a scenario is expected, these are
+/// the scenarios that come with etude.
 std::vector<std::string> ArgumentsOf(const CLI::App& command) {
   const auto asks_for = [&](const char* argument) { return command.get_option_no_throw(argument) != nullptr; };
   if (asks_for(kShellArgument)) return Shells();
@@ -69,8 +68,8 @@ std::string FollowersOf(const CLI::App& command) {
   return Join(words, " ");
 }
 
-/// Returns the branches of a shell's `case`, one per command; `write` makes a branch from a command's words and their
-/// followers.
+/// Returns the branches of a shell's `case`, one per command. `write` makes a branch from a command's words and the
+/// words that may follow.
 std::string Cases(const CLI::App& app,
                   const std::function<std::string(const std::string&, const std::string&)>& write) {
   std::string text;
@@ -79,8 +78,8 @@ std::string Cases(const CLI::App& app,
   return text;
 }
 
-/// Finds the command's words before the cursor, in bash and zsh: words without a dash that lead to a known command.
-/// `help` is not one of them, so commands are also offered after it.
+/// The code for bash and zsh that finds the command's words before the cursor: words without a dash that lead to a
+/// known command. `help` is not one of them, so commands are also offered after it.
 constexpr std::string_view kFindCommand = R"(  local at="" word
   for word in "${before[@]}"; do
     case "${at:+$at }$word" in
@@ -126,7 +125,7 @@ std::string FishCompletion(const CLI::App& app) {
   std::string text = "# Completion of etude for fish, made by `etude completion fish`.\n";
   std::vector<std::string> helped;
   ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
-    // The condition under which fish offers the following words.
+    // Write the condition under which fish offers the words that may follow.
     std::string when = "__fish_use_subcommand";
     if (!words.empty()) {
       when.clear();
@@ -154,14 +153,14 @@ std::string FishCompletion(const CLI::App& app) {
                           quoted(option->get_description()));
     }
   });
-  // Offer commands after `help`.
+  // Offer the commands again after `help`.
   return text + fmt::format(
                     "complete -c etude -n __fish_use_subcommand -a {0} -d 'What a command does'\n"
                     "complete -c etude -n '__fish_seen_subcommand_from {0}' -a {1}\n",
                     kHelp, quoted(Join(helped, " ")));
 }
 
-/// Escapes text for troff: so that no line is read as a request, and no dash as a hyphen.
+/// Escapes text for troff, so that no line is read as a troff request, and no dash as a hyphen.
 std::string Troff(const std::string& text) {
   std::string result;
   bool starts_line = true;
@@ -182,7 +181,7 @@ std::string Troff(const std::string& text) {
 std::string ManualPage(const CLI::App& command, const std::string& words) {
   std::string title = words.empty() ? "etude" : "etude " + words;
   std::ranges::replace(title, ' ', '-');
-  // The name and the synopsis.
+  // Write the name and the synopsis.
   const std::string about = command.get_description();
   const std::string brief = about.substr(0, about.find('\n'));
   std::string text = fmt::format(".TH {} 1 \"\" \"Etude {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B etude {}\n", title,
@@ -194,7 +193,7 @@ std::string ManualPage(const CLI::App& command, const std::string& words) {
     arguments += option->get_required() ? name + " " : "[" + name + "] ";
     told += fmt::format(".TP\n.I {}\n{}\n", Troff(option->get_name(true)), Troff(option->get_description()));
   }
-  // The description, the arguments, and the subcommands.
+  // Write the description, the arguments, and the subcommands.
   if (!CommandsOf(command).empty()) arguments += "COMMAND ";
   text += Troff(arguments + "[options]") + "\n.SH DESCRIPTION\n.nf\n" + Troff(about) + "\n.fi\n";
   if (!told.empty()) text += ".SH ARGUMENTS\n" + told;
@@ -203,7 +202,7 @@ std::string ManualPage(const CLI::App& command, const std::string& words) {
     text +=
         fmt::format(".TP\n.BR {}\n{}\n", Troff(title + "-" + sub->get_name()) + " (1)", Troff(sub->get_description()));
   }
-  // The options and the examples.
+  // Write the options and the examples.
   text += ".SH OPTIONS\n";
   for (const auto& [option, names] : OptionsOf(command)) {
     const std::string type = option->get_type_name();  // "INT:INT in [1 - 1024]"

@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// Fails if a path names a folder or a device, and, without `overwrite`, if a file exists there.
+/// Fails if a path names a folder or a device, or, without `overwrite`, an existing file.
 Result<void> CheckOutput(const std::string& path, bool overwrite);
 
 /// Prints that a file was written: to standard output, or to `stream` if standard output is for programs.

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kBarWidth = 32;
 
-/// Estimates the time for the remaining amount `left`, if the amount `done` took `seconds`.
+/// Estimates the time that the amount `left` will take if the amount `done` took `seconds`.
 std::string Remaining(double done, double left, double seconds) {
   if (done <= 0 || left <= 0) return "";
   return fmt::format(", about {:.0f} s to go", seconds / done * left);
 }
 
-/// Prints without throwing if standard error is closed (fmt::print would throw), because that must not end a run.
+/// Prints without throwing if standard error is closed. fmt::print would throw, and that would end a run.
 void Print(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace
@@ -32,7 +32,7 @@ bool ProgressBar::IsTooSoon(double share) const {
 
 void ProgressBar::Show(const Progress& progress) {
   if (progress.written) {
-    if (!is_writing_) *this = ProgressBar(Begins::kWhenItTakesLong);  // a bar of its own
+    if (!is_writing_) *this = ProgressBar(Begins::kWhenItTakesLong);  // writing has its own bar
     is_writing_ = true;
     const double share = *progress.written;
     return Show(share, "results summarised", Remaining(share, 1 - share, SecondsSince(began_)));

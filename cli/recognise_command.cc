@@ -28,7 +28,7 @@ struct RecogniseCommandOptions {
   std::vector<std::string> streams;  ///< a single "-" = standard input, live
   std::string moves;
   std::string labels;
-  std::string recogniser;  ///< "" = the recommended one
+  std::string recogniser;  ///< "" = the recommended recogniser
   std::string filter = "none", weights = "fixed";
   std::optional<double> threshold;
   std::vector<std::string> settings;  ///< "tolerance_scale=1.2"
@@ -50,8 +50,8 @@ constexpr const char* kRecogniseExamples =
     "  etude recognise take.txt --moves moves.yaml --labels labels.csv\n"
     "  etude recognise joints/ --labels actionLabel.txt --leave-one-person-out --recogniser dtw";
 
-/// Reads settings such as "tolerance_scale=1.2"; other settings keep their defaults. Fails for unknown settings and
-/// values out of range.
+/// Reads settings such as "tolerance_scale=1.2"; all others keep their defaults. Fails for unknown settings and values
+/// out of range.
 Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::vector<std::string>& given) {
   std::vector<double> values;
   std::vector<std::string> names;
@@ -76,8 +76,8 @@ Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::
   return values;
 }
 
-/// Returns the options for recognition: with the requested recogniser, or else with `recommended`, about which it
-/// prints a note.
+/// Returns the options for recognition, with the requested recogniser. If none is requested, takes `recommended` and
+/// prints a note about it.
 Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const RecogniserKind& recommended) {
   WatchOptions watch;
   watch.recogniser.kind = options.recogniser.empty() ? &recommended : FindRecogniser(options.recogniser);
@@ -225,9 +225,9 @@ void PrintMistakes(std::span<const Classified> verdicts) {
 }
 
 Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
-  // Several people teach each move: whole-body is recommended.
+  // Several people teach each move, so the recogniser whole-body is recommended.
   ASSIGN_OR_RETURN(const WatchOptions watch, OptionsOf(options, *FindRecogniser("whole-body")));
-  // Load the recordings, and classify each person's with what the others taught.
+  // Load the recordings. Classify each person's recordings with the moves that the other people taught.
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
   ASSIGN_OR_RETURN(const auto parts, PartsOf(options, loaded));
   ASSIGN_OR_RETURN(
@@ -271,7 +271,7 @@ Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
 void DefineRecognise(CLI::App& app, Action& action) {
   auto options = std::make_shared<RecogniseCommandOptions>();
   CLI::App* command = app.add_subcommand("recognise", "Recognise moves in a recording or a live stream");
-  // The inputs: recordings, taught moves, labels.
+  // Define the inputs: recordings, taught moves, labels.
   command->add_option("streams", options->streams, "Recordings, patterns, folders; - is standard input, live")
       ->required();
   auto* moves = command->add_option("--moves", options->moves, "The taught moves (etude teach)");
@@ -281,7 +281,7 @@ void DefineRecognise(CLI::App& app, Action& action) {
       ->add_flag("--leave-one-person-out", options->leave_one_person_out,
                  "Recognise each person with moves taught by the labels of all other people")
       ->excludes(moves);
-  // The recogniser and its settings.
+  // Define the recogniser and its settings.
   command
       ->add_option(
           "--recogniser", options->recogniser,

@@ -23,8 +23,8 @@ struct ReplayCommandOptions {
   std::string target;                 ///< a result folder, or a packed cell
   std::vector<std::string> cells;     ///< cell names; empty = all cells
   std::optional<std::size_t> sample;  ///< number of cells drawn by the run's seed; default: all
-  std::string pack_file;              ///< file into which the one cell is packed instead; "" = none
-  std::string baseline;               ///< baseline whose values are printed beside the cells' own; "" = none
+  std::string pack_file;              ///< the file into which one cell is packed instead of being replayed; "" = none
+  std::string baseline;               ///< the baseline whose values are printed beside the replayed ones; "" = none
   bool overwrite = false, as_json = false;
   int jobs = 0;
   OutsideRules outside;
@@ -36,7 +36,7 @@ void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
-/// The value of a cell's metric in a baseline, and its present value.
+/// A metric's value in a baseline, and its present value in the same cell.
 struct BaselineValue {
   std::string metric;
   std::optional<double> baseline, now;
@@ -109,7 +109,7 @@ Result<int> Pack(const ReplayCommandOptions& options) {
 
 Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   const Interrupt interrupt;
-  // A packed cell: replay it alone.
+  // If the target is a packed cell, replay it alone.
   ASSIGN_OR_RETURN(const auto key, TakeSecretKey(options.key_file));
   std::error_code error;
   if (!std::filesystem::is_directory(options.target, error)) {
@@ -118,12 +118,12 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
     }
     return ReplayFile(options.target, options.outside, key, options.as_json, interrupt);
   }
-  // A result folder: pack a cell, or replay cells.
+  // Otherwise the target is a result folder: pack a cell, or replay cells.
   if (!options.pack_file.empty()) return Pack(options);
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (options.cells.empty()) return Fail({}, "--baseline needs cells: name them with --cell");
-    // Also registers the metrics that the scenarios define.
+    // Loading the run registers the metrics that its scenarios define.
     RETURN_IF_ERROR(LoadRunOutline(options.target, options.sealing));
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }

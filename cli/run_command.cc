@@ -40,7 +40,7 @@ bool IsSkipped(const ConditionSummary& condition) {
   });
 }
 
-/// Returns the reason if every cell of a condition was skipped, else "".
+/// Returns the reason if every cell of a condition was skipped; else "".
 std::string WhySkipped(const ConditionSummary& condition, const std::string& scenario, const std::vector<Row>& rows) {
   if (!IsSkipped(condition)) return "";
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
@@ -105,7 +105,7 @@ std::vector<std::string> SilentMethods(const ScenarioSummary& scenario) {
 
 bool HasSilentMethod(const ScenarioSummary& scenario) { return !SilentMethods(scenario).empty(); }
 
-/// Returns the facts that `run --json` prints; `run` is null for a shard.
+/// Returns the facts that `etude run --json` prints; `run` is null for a shard.
 Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) {
   Json scenarios = Json::array(), silent = Json::array();
   for (const ScenarioSummary& scenario : run == nullptr ? std::span<const ScenarioSummary>() : run->scenarios) {
@@ -151,15 +151,15 @@ int ShowOutcome(const RunOutcome& outcome) {
 
 namespace {
 
-/// Warns that no lock keeps a second run from writing into the folder.
+/// Warns if no lock keeps a second run from writing into the folder.
 void TellUnlocked(const RunOutcome& outcome) {
   if (outcome.why_unlocked.empty()) return;
   Complain({{outcome.folder.string(), 0, 0},
             fmt::format("could not be locked ({}); make sure that no other run writes into it", outcome.why_unlocked)});
 }
 
-/// Prints the changes that were made to the content of the clips' files, one per line; if there are many, only the
-/// first ones.
+/// Prints the changes that were made to the content of the clips' files, one per line. If there are many, prints only
+/// the first ones.
 void TellChanges(const std::vector<LoadedChange>& changes) {
   constexpr std::size_t kShown = 40;
   for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {
@@ -169,7 +169,7 @@ void TellChanges(const std::vector<LoadedChange>& changes) {
     fmt::print("… and {} more changes of clips, see manifest.json\n", changes.size() - kShown);
 }
 
-/// Prints the facts of a run for programs, and returns `code` if that works.
+/// Prints the facts of a run as JSON. Returns `code`, or the code of a failure to print.
 int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
   std::optional<RunData> run;
   if (shard.IsWhole()) {
@@ -184,13 +184,13 @@ int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
 }  // namespace
 
 Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
-  // Run, with Ctrl-C as a request to stop.
+  // Run the scenarios; Ctrl-C requests a stop.
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
   ProgressBar bar;
   ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
   interrupt.reset();  // everything is written
-  // Report what was left out or damaged.
+  // Report clips that were left out, and damaged lines.
   TellUnlocked(outcome);
   TellChanges(outcome.changes);
   for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});
@@ -200,7 +200,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
         {{(outcome.folder / kJournalFile).string(), line, 0}, "is ignored: damaged, or a second line for its cell"});
   }
   if (outcome.fence.starts_with("none")) Complain({{}, "methods outside ran without a fence: " + outcome.fence});
-  // Stopped: the finished cells are kept for --resume.
+  // If the run was stopped, say that the finished cells are kept for --resume.
   if (!outcome.stopped) return std::optional(std::move(outcome));
   const std::size_t kept = outcome.cells + outcome.cells_answered;
   TellStopped({{},
@@ -217,7 +217,7 @@ int RunCommand(const RunOptions& options, bool as_json) {
   if (!finished) return Complain(finished.error());
   if (!*finished) return kInterrupted;
   const RunOutcome& outcome = **finished;
-  // A shard has no tables; merging makes them.
+  // A shard has no tables; merging the shards makes them.
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
                ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());
@@ -234,8 +234,8 @@ int MergeCommand(const MergeOptions& given) {
   MergeOptions options = given;
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
-  // The first half only reads the shards and finds those that do not belong together. Its bar starts late, so that a
-  // complaint is not printed beside a bar.
+  // During the first half, Merge only reads the shards and finds those that do not belong together. The bar of this
+  // half starts late, so that a complaint is not printed beside a bar.
   ProgressBar reading(ProgressBar::Begins::kWhenItTakesLong), writing;
   const auto outcome = Merge(options, [&](double share) { (share < 0.5 ? reading : writing).Show(share, "merged"); });
   interrupt.reset();
@@ -253,7 +253,7 @@ void AddOtherLibraries(CLI::App& command, bool& other_libraries) {
 }  // namespace
 
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
-  // The options that choose worlds, workers and outputs.
+  // Define the options that choose worlds, workers and outputs.
   auto options = std::make_shared<RunOptions>();
   auto shard = std::make_shared<std::string>();
   options->program_version = ETUDE_VERSION;
@@ -278,7 +278,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
     return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options, *as_json);
   });
   AddReuseKey(*command, options->reuse_key);
-  // The options for parts of a run, and for continuing one.
+  // Define the options for parts of a run, and for continuing a run.
   command->add_option("--shard", *shard, "Run part i of n, given as i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run that the folder holds");
   CLI::Option* resume =
@@ -308,7 +308,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   from->excludes(command->add_option(
       "--labels", options->labels,
       "Labels of --streams or --clips (who did which move when): a file, or a folder of tag streams"));
-  // Check combinations that CLI11 cannot express, and start.
+  // Check combinations that CLI11 cannot express, and start the run.
   command->callback([=, &action] {
     action = [=] {
       if (options->scenarios.empty() == options->from.empty()) {

@@ -30,9 +30,9 @@ constexpr const char* kSensorExamples =
     "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    compared with a simulated sensor\n"
     "  etude sensor fit kinect.txt --reference vicon.txt -o sensor.yaml     then `sensor: sensor.yaml` in a scenario";
 
-/// Facts about recordings that their files do not state.
+/// Options with facts about recordings that their files do not state.
 struct SensorReading {
-  std::string reference;                 ///< the same motion recorded by an optical system, "" = none
+  std::string reference;                 ///< a recording of the same motion by an optical system, "" = none
   std::optional<double> rate_hz;         ///< the recordings' frame rate
   std::optional<double> reference_rate;  ///< Hz
 };
@@ -78,8 +78,8 @@ double MissingShare(const JointRecording& recording) {
   return all > 0 ? static_cast<double>(missing) / all : 0;
 }
 
-/// Describes how the sensor is turned or tilted, if that is unusual; else "". Statistics are taken along its line of
-/// sight and across it, so a turn about that line changes none of them.
+/// Describes an unusual rotation or tilt of the sensor; "" if there is none. Statistics are computed along the line of
+/// sight and across it, so a rotation about that line changes none of them.
 std::string DescribeTurn(const JointRecording& recording) {
   std::vector<RecordedFrame> frames(recording.frames.size());
   for (std::size_t t = 0; t < frames.size(); ++t) frames[t].places = recording.frames[t];
@@ -142,8 +142,8 @@ std::string ShortName(const std::string& path, std::size_t longest) {
   return std::filesystem::path(path).stem().string().substr(0, longest);
 }
 
-/// Computes the statistics of recordings without a reference, one column each, and adds the recordings' facts to
-/// `facts`.
+/// Computes the statistics of recordings without a reference, one column for each, and adds facts about the recordings
+/// to `facts`.
 Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
   Columns columns;
   for (const std::string& file : options.files) {
@@ -226,7 +226,7 @@ struct SensorFitCommandOptions {
 
 constexpr int kCheckWorlds = 64;
 
-/// Prints a table of a sensor and a recording side by side, and returns it as an entry of `checks`.
+/// Prints a table that compares a sensor with a recording, and returns it as an entry of `checks`.
 Json PrintComparison(const char* title, const char* real_name, const RealRecording& real,
                      const SkeletonSensorOptions& sensor) {
   // Use random draws that the fit has not used.
@@ -242,7 +242,7 @@ Json PrintComparison(const char* title, const char* real_name, const RealRecordi
   return check;
 }
 
-/// Fits each half of the recording and compares it with the other half; if a half is too short, it only says so.
+/// Fits each half of the recording and compares the fit with the other half. If a half is too short, only prints that.
 void PrintHalves(const RealRecording& real, const SensorFitOptions& options, Json& checks) {
   const std::size_t frames = real.recording.frames.size();
   const auto first = MakeRealRecording(Excerpt(real.recording, 0, frames / 2), real.twin);
@@ -275,7 +275,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
                                        real.recording.DurationSeconds(), real.recording.frames.size()) +
                            WriteSensorFile(sensor, preset);
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
-  // Compare it with the recording, and fitted halves with each other.
+  // Compare the fitted sensor with the recording, and the fits of both halves with the other half.
   Json checks = Json::array();
   checks.push_back(PrintComparison(
       "Fitted to the whole recording, compared with a simulation by other random numbers:", "real", real, sensor));

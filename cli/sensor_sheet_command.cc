@@ -17,7 +17,7 @@ namespace {
 struct SensorSheetOptions {
   std::string scenario, output;
   std::optional<std::uint64_t> seed;
-  std::vector<std::string> clips;  ///< replaces the scenario's clips unless empty
+  std::vector<std::string> clips;  ///< if not empty, replaces the scenario's clips
   bool overwrite = false;
 };
 

@@ -13,7 +13,7 @@ class App;
 namespace etude {
 
 /// The options for reading recordings (--format, --rate, --body, --level, --reflect) and clips (--joint-map, --unit,
-/// --up, and --rate, too).
+/// --up, and also --rate).
 struct StreamArguments {
   std::string format;  ///< "" = recognised by content
   std::string level = "auto";
@@ -27,7 +27,7 @@ struct StreamArguments {
   Result<OpenOptions> ClipOptions() const;
 };
 
-/// Adds these options to a command.
+/// Adds the options of StreamArguments to a command.
 void AddStreamReading(CLI::App& command, StreamArguments& reading);
 
 }  // namespace etude

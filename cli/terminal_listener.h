@@ -4,7 +4,8 @@
 
 namespace etude {
 
-/// Returns a listener that prints to standard output, shows progress on standard error, and lets Ctrl-C stop a film.
+/// Returns a listener that prints to standard output and shows progress on standard error. With it, Ctrl-C stops a
+/// film.
 Listener TerminalListener();
 
 }  // namespace etude

@@ -37,13 +37,14 @@ struct TrainOptions {
   std::vector<std::string> clips;
   std::string output;              ///< a fuzzy system file
   std::string method = "genetic";  ///< "genetic" or "adaptive"
-  bool memberships = false;        ///< tune the membership functions, too
+  bool memberships = false;        ///< also tune the membership functions
   std::uint64_t seed = 1;
   int population = 40, generations = 60;
-  bool recogniser = false;       ///< learn the recogniser `learnt` instead, from simulated people who dance the clips
-  bool coached = false;          ///< learn the recogniser `coached` instead; `clips` are then songs
-  std::optional<int> sessions;   ///< number of simulated sessions for `recogniser` or `coached`; default: as for the
-                                 ///< built-in model
+  /// Learn the recogniser `learnt` instead of a fuzzy system, from simulated people who dance the clips.
+  bool recogniser = false;
+  bool coached = false;  ///< learn the recogniser `coached` instead of a fuzzy system; `clips` are then songs
+  /// Number of simulated sessions for `recogniser` or `coached`; default: the number for the built-in model.
+  std::optional<int> sessions;
   std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of their names
   bool overwrite = false, as_json = false;
   ClipReading reading;
@@ -75,7 +76,7 @@ struct Split {
   std::vector<std::vector<TrainingFrame>> learnt, held_out;
 };
 
-/// Chooses the clips that are held out: those whose names match the pattern, or else a randomly drawn share.
+/// Chooses the held-out clips: those whose names match the pattern, or a randomly drawn share.
 Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, const TrainOptions& options) {
   std::vector<bool> held_out(names.size(), false);
   const auto share = ParseNumber<double>(options.hold_out);
@@ -102,6 +103,7 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
 }
 
 Result<Split> LoadSplit(const TrainOptions& options) {
+  // Load the clips.
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, ProgressOf("clips read")));
@@ -117,6 +119,7 @@ Result<Split> LoadSplit(const TrainOptions& options) {
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
+  // Sample the frames of all clips on one body, and divide them.
   const BodyPose standing = PoseOf(Controls{});
   TrainingClips all = SampleClips(names, motions, MakeBodyProportions(standing, StandingHipHeight(standing)));
   Split split;
@@ -138,7 +141,7 @@ std::string ScoreLine(const char* what, ClipFrames clips, const FuzzySystem& sys
                      matches.close_matched);
 }
 
-/// Scores the paper's system and the tuned one, one line each.
+/// Scores the paper's system and the tuned system, one line each.
 std::vector<std::string> CompareSystems(const Split& split, const FuzzySystem& tuned) {
   const FuzzySystem paper;
   return {
@@ -146,7 +149,7 @@ std::vector<std::string> CompareSystems(const Split& split, const FuzzySystem& t
       "tuned:",   "  " + ScoreLine("learnt", split.learnt, tuned), "  " + ScoreLine("held out", split.held_out, tuned)};
 }
 
-/// Returns the same scores for programs; a set of fewer than two clips has no score.
+/// Returns the scores of CompareSystems as JSON; a set of fewer than two clips has no score.
 Json ScoresOf(const Split& split, const FuzzySystem& tuned) {
   Json scores = Json::array();
   for (const auto& [name, system] : {std::pair("paper", FuzzySystem()), {"tuned", tuned}}) {
@@ -241,7 +244,7 @@ Result<int> TrainCommand(const TrainOptions& options) {
   return kSuccess;
 }
 
-/// A model, and how it was made.
+/// A learnt model, and notes on how it was learnt.
 struct Trained {
   LearntModel model;
   std::vector<std::string> learnt_from;
@@ -295,7 +298,7 @@ Result<int> TrainRecogniserCommand(const TrainOptions& options) {
 void DefineTrain(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system or a recogniser from clips");
-  // The inputs and outputs; then the fuzzy system's options.
+  // Define the inputs and outputs; then the options of fuzzy systems.
   command->add_option("clips", options->clips, "Clips to learn from and to judge the result")->required();
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
   command->add_option("--method", options->method, "Learning method")
@@ -314,7 +317,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   command->add_option("--generations", options->generations, "Number of generations")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  // The options of recognisers.
+  // Define the options of recognisers.
   command->add_flag("--recogniser", options->recogniser, "Learn the recogniser `learnt`");
   command->add_flag("--coached", options->coached, "Learn the recogniser `coached`: CLIPS are built-in songs")
       ->excludes("--recogniser");

@@ -34,7 +34,7 @@ struct TransitionCommandOptions {
 
 Result<int> TransitionCommand(TransitionCommandOptions asked) {
   TransitionFileOptions& options = asked.transition;
-  // Make the transition; if there is none, nothing is written.
+  // Make the transition; WriteTransition writes nothing if there is none.
   RETURN_IF_ERROR(CheckOutput(options.output, asked.overwrite));
   ASSIGN_OR_RETURN(options.reading, ReadOptions(asked.reading));
   ASSIGN_OR_RETURN(const TransitionFile made, WriteTransition(options));
@@ -44,7 +44,7 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                           options.to, options.budget_s, made.why)});
     return kNothingWorked;
   }
-  // Report what was written.
+  // Report the transition.
   if (asked.as_json) {
     RETURN_IF_ERROR(PrintFacts("transition", {{"from", options.from},
                                               {"to", options.to},
@@ -79,6 +79,7 @@ void DefineTransition(CLI::App& app, Action& action) {
   TransitionFileOptions* options = &asked->transition;
   CLI::App* command =
       app.add_subcommand("transition", "Write a transition from one clip into another as a motion file");
+  // Define the clips, the time of the request, and the output.
   command->add_option("from", options->from, "The clip that plays first")->required();
   command->add_option("to", options->to, "The clip that plays afterwards")->required();
   command->add_option("--at", options->at_s, "When the second clip is requested: seconds of the first")
@@ -86,6 +87,7 @@ void DefineTransition(CLI::App& app, Action& action) {
       ->required();
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc, .csv, .c3d, .npz or .mot")
       ->required();
+  // Define how the transition is chosen and made.
   command->add_option("--wait", options->budget_s, "Longest time from the request until the second clip plays, s")
       ->check(NumberWithin(0, 3600, "time in s"))
       ->capture_default_str();

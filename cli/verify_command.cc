@@ -24,8 +24,8 @@
 namespace etude {
 namespace {
 
-/// The default sample size. If 5 % of very many cells are forged, the sample misses the forgery once in 21 cases
-/// (0.95^59); with fewer cells, less often.
+/// The default sample size. If 5 % of very many cells are forged, the sample misses every forged cell with probability
+/// 0.95^59, 1 in 21; with fewer cells, the probability is lower.
 constexpr const char* kDefaultSample = "59";
 constexpr const char* kWholeSample = "all";
 constexpr std::size_t kMaxSample = 10'000'000;
@@ -62,7 +62,7 @@ std::string ShareInWords(double chance) {
   return fmt::format("{:.3g} %", 100 * chance);
 }
 
-/// States the chance that the sample misses a forgery, and the seed by which it was drawn.
+/// Returns sentences with the probability that the sample misses a forgery, and with the seed by which it was drawn.
 std::string SampleInWords(const CellChoice& choice) {
   std::vector<std::string> missed;
   for (const MissedForgery& one : WhatIsMissed(choice)) {
@@ -81,7 +81,7 @@ std::string SampleInWords(const CellChoice& choice) {
       Join(missed), choice.dice);
 }
 
-/// Lists by method the rows that running cells again cannot verify.
+/// Lists, by method, the rows that cannot be verified by running their cells again.
 std::vector<std::string> NotVerified(const CellChoice& choice) {
   std::vector<std::string> lines;
   for (const MethodRows& method : choice.methods) {
@@ -112,7 +112,7 @@ Json FactsOf(const CellChoice& choice) {
           {"missed", std::move(missed)}};
 }
 
-/// Adds the checks of the report and of the files that a gate left there, if they exist.
+/// Adds the checks of the report and of the files that a gate left in its folder, if they exist.
 Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, std::vector<std::string>& not_verified) {
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, Sealing::kIgnored));
   if (run.scenarios.empty()) return {};  // the run has not ended
@@ -130,7 +130,7 @@ Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, st
 }
 
 Result<int> VerifyCommand(VerifyCommandOptions options) {
-  // Run without trusting the seal: a broken seal is one of the findings.
+  // Load the run without trusting its seal, because a broken seal is one of the findings.
   const Interrupt interrupt;
   ReplayOptions& replay = options.replay;
   ASSIGN_OR_RETURN(replay.key, TakeSecretKey(options.key_file));
@@ -159,7 +159,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   if (verified.choice) std::ranges::move(NotVerified(*verified.choice), std::back_inserter(not_verified));
   RETURN_IF_ERROR(AddReport(replay.folder, all, not_verified));
   if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was verified"});
-  // Print what agrees and what differs.
+  // Print the checks that agree and those that differ.
   std::size_t agree = 0;
   Json checks = Json::array();
   for (const Verified& one : all) {

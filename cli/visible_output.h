@@ -3,7 +3,8 @@
 namespace etude {
 
 /// Makes `stdout` safe for terminals, even if names of files or methods contain control characters: all output passes
-/// through Visible, which keeps line ends and tabs. JSON is unchanged, because WriteJson writes no such characters.
+/// through Visible, which keeps line ends and tabs. JSON does not change, because WriteJson writes no control
+/// characters.
 void MakeOutputSafe();
 
 }  // namespace etude

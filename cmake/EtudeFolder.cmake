@@ -1,24 +1,24 @@
-# One folder = one target. The name of the target, its sources and its tests all follow from the
-# folder's path, so that nothing can be listed in one place and forgotten in another.
+# One folder is one target. The names of the target, its sources and its tests follow from the folder's path, so that
+# nothing is listed in one place and forgotten in another.
 
-# Hardening for code that reads files of others.
+# Options that harden code which reads untrusted files.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT ETUDE_SANITIZE)
   set(ETUDE_HARDENING -D_FORTIFY_SOURCE=2 -fstack-protector-strong -fstack-clash-protection)
 endif()
 
-# etude_harness_options(): how bench, reports and cli are compiled. The work that takes time is in engine/ and sim/, so -O1 is
-# enough here and compiles faster. Nearly all of these folders read files, so all are hardened.
+# etude_harness_options(): sets the compiler options of bench, reports and cli. Long computations are in engine/ and
+# sim/, so -O1 is enough here and compiles faster. Nearly all of these folders read files, so all are hardened.
 macro(etude_harness_options)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     add_compile_options(-O1 ${ETUDE_HARDENING})
   endif()
-  link_libraries(fmt::fmt)  # the shared headers include it
+  link_libraries(fmt::fmt)  # the shared headers include fmt
   set(ETUDE_HEADERS etude_harness_headers)
 endmacro()
 
 # etude_headers(<target> LIBRARIES <target>... OPTIONS <option>... HEADERS <header>...)
-#   With ETUDE_UNITY, compiles headers once, for all folders where the variable ETUDE_HEADERS is <target> and the options are
-#   the same. Without, each file must include what it uses.
+#   With ETUDE_UNITY, compiles headers once for all folders with the same options in which the variable ETUDE_HEADERS is
+#   <target>. Without ETUDE_UNITY, each file must include what it uses.
 function(etude_headers TARGET)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;OPTIONS;HEADERS" ${ARGN})
   if(ETUDE_UNITY)
@@ -33,9 +33,9 @@ function(etude_headers TARGET)
 endfunction()
 
 # etude_folder(HARDENED DEPENDS <folder>... LIBRARIES <target>... PRIVATE_LIBRARIES <target>...)
-#   Makes the library etude_<path> of every .cc file of the current folder. HARDENED is for folders of engine/ that read files
-#   of others: an overwritten stack, or a write that the C library detects beyond a buffer's end, stops the program. Folders
-#   that only compute do without, because it costs time.
+#   Makes the library etude_<path> from every .cc file of the current folder. HARDENED is for folders of engine/ that
+#   read untrusted files: an overwritten stack, or a write beyond a buffer's end that the C library detects, stops the
+#   program. Folders that only compute are not hardened, because it costs time.
 function(etude_folder)
   cmake_parse_arguments(ARG "HARDENED" "" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
@@ -63,11 +63,12 @@ function(etude_folder)
 endfunction()
 
 # etude_shared_library(<target> NAME <file> EXPORT <name>)
-#   Makes lib<file>.so of a library for other programs, etude::<name>. The current folder's symbols.map lists its public symbols.
+#   Makes lib<file>.so of the library <target> for other programs, as etude::<name>. The current folder's symbols.map
+#   lists its public symbols.
 function(etude_shared_library TARGET)
   cmake_parse_arguments(ARG "" "NAME;EXPORT" "" ${ARGN})
   target_link_options(${TARGET} PRIVATE "-Wl,--version-script=${CMAKE_CURRENT_SOURCE_DIR}/symbols.map")
-  if(NOT ETUDE_SANITIZE AND NOT ETUDE_FUZZ)  # clang leaves those symbols to the program
+  if(NOT ETUDE_SANITIZE AND NOT ETUDE_FUZZ)  # clang expects those symbols in the program
     target_link_options(${TARGET} PRIVATE -Wl,-z,defs)
   endif()
   set_target_properties(${TARGET} PROPERTIES
@@ -78,15 +79,17 @@ function(etude_shared_library TARGET)
   target_include_directories(${TARGET} INTERFACE "$<INSTALL_INTERFACE:include/etude>")
 endfunction()
 
-# etude_unity(<target>): with ETUDE_UNITY, compiles the files of a folder a dozen at a time, and after the headers that
-# ETUDE_HEADERS names: of what the compiler reads in a file, more than nine tenths are headers. Files that Highway compiles once per instruction set stay alone.
+# etude_unity(<target>): with ETUDE_UNITY, compiles the files of a folder a dozen at a time, after the headers that
+# ETUDE_HEADERS names, because headers are more than nine tenths of the text that the compiler reads. Files that Highway
+# compiles once per instruction set are compiled alone.
 function(etude_unity TARGET)
   if(NOT ETUDE_UNITY)
     return()
   endif()
   set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC treats a .cc file that is compiled with others as a header, and warns of its types in unnamed namespaces.
+    # GCC treats a .cc file that is compiled together with others as a header, and warns about its types in unnamed
+    # namespaces.
     target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
   endif()
   get_target_property(sources ${TARGET} SOURCES)
@@ -101,8 +104,8 @@ function(etude_unity TARGET)
   endif()
 endfunction()
 
-# etude_compile_options(<option>... FILES <file>...): options of the current folder's library, or of some of its files alone,
-# which are then compiled without the headers of etude_headers: those belong to other options.
+# etude_compile_options(<option>... FILES <file>...): sets options of the current folder's library, or only of some of
+# its files. Such files are compiled without the headers of etude_headers, which were compiled with other options.
 function(etude_compile_options)
   cmake_parse_arguments(ARG "" "" "FILES" ${ARGN})
   if(ARG_FILES)
@@ -116,8 +119,8 @@ function(etude_compile_options)
 endfunction()
 
 # etude_embed(FUNCTION <name> HEADER <header> FILES <file>...)
-#   Puts files into the library of the current folder: a test, a worker and an installed program all find them.
-#   <header> declares the function that gives them.
+#   Embeds files into the library of the current folder, so that a test, a worker and an installed program all find
+#   them. <header> declares the function that returns them.
 function(etude_embed)
   cmake_parse_arguments(ARG "" "FUNCTION;HEADER" "FILES" ${ARGN})
   etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
@@ -135,18 +138,19 @@ function(etude_embed)
 endfunction()
 
 # etude_test_program(<name> UNOPTIMISED FOLDERS <folder>... DEPENDS <folder>... LIBRARIES <target>...)
-#   Makes the program etude_tests_<name> of every .cc file of the folders of tests/, and of all below them. A folder mirrors
-#   the one that it tests (tests/engine/motion tests engine/motion), which is linked. Each is one of ctest's tests, in the
-#   pinned environment (io/process): most single tests take less time than to start them (tests/README.md). The target
-#   etude_tests_<folder> builds its program. Tests whose names begin with HEAVY_ are one more, with the label "heavy".
-#   UNOPTIMISED, where the tests themselves compute little: they are compiled in less time than they would save.
+#   Makes the program etude_tests_<name> from every .cc file in and below the given folders of tests/. A folder mirrors
+#   the folder that it tests (tests/engine/motion tests engine/motion) and is linked with it. Each folder is one of
+#   ctest's tests, in the pinned environment (io/process), because starting a program takes longer than most single
+#   tests (tests/README.md). The target etude_tests_<folder> builds the folder's program. Tests whose names begin with
+#   HEAVY_ are a further test with the label "heavy". UNOPTIMISED is for tests that compute little: optimising would
+#   take more time than it saves.
 function(etude_test_program NAME)
   cmake_parse_arguments(ARG "UNOPTIMISED" "" "FOLDERS;DEPENDS;LIBRARIES" ${ARGN})
   set(program etude_tests_${NAME})
   set(patterns ${ARG_FOLDERS})
   list(TRANSFORM patterns REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/tests/\\1/*.cc")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${patterns})
-  list(FILTER sources EXCLUDE REGEX "/tests/(reports/support|fuzz/program|fuzz/readers)/")  # libraries and programs of their own
+  list(FILTER sources EXCLUDE REGEX "/tests/(reports/support|fuzz/program|fuzz/readers)/")  # targets of their own
   set(folders ${sources})
   list(TRANSFORM folders REPLACE "/[^/]*$" "")
   list(REMOVE_DUPLICATES folders)
@@ -157,7 +161,7 @@ function(etude_test_program NAME)
     set(ETUDE_HEADERS etude_tests_unoptimised_headers)
   endif()
   etude_unity(${program})
-  set_target_properties(${program} PROPERTIES BUILD_RPATH "${CMAKE_BINARY_DIR}")  # where modules are
+  set_target_properties(${program} PROPERTIES BUILD_RPATH "${CMAKE_BINARY_DIR}")  # the folder of the modules
   if(ETUDE_HAS_GOLD AND NOT ETUDE_SANITIZE)
     target_link_options(${program} PRIVATE -fuse-ld=gold)
   endif()
@@ -192,22 +196,22 @@ function(etude_test_program NAME)
   target_link_libraries(${program} PRIVATE etude_tests_support ${ARG_LIBRARIES} GTest::gtest GTest::gmock)
 endfunction()
 
-# etude_target_name(<absolute folder> <out>): engine/motion -> etude_engine_motion
+# etude_target_name(<absolute folder> <out>): engine/motion becomes etude_engine_motion.
 function(etude_target_name FOLDER OUT)
   file(RELATIVE_PATH path "${CMAKE_SOURCE_DIR}" "${FOLDER}")
   string(REPLACE "/" "_" name "etude_${path}")
   set(${OUT} ${name} PARENT_SCOPE)
 endfunction()
 
-# The environment that bench/run gives its workers, so that tests see the same bytes.
+# The environment that bench/run gives its workers, so that tests compute the same bytes.
 set(ETUDE_PINNED_ENVIRONMENT
   "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"
   "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1"
   "MESA_SHADER_CACHE_DISABLE=true"
   "LP_NUM_THREADS=0"
   "LC_ALL=C.UTF-8"
-  "PATH=/usr/bin:$ENV{PATH}")  # a fence shows no Python of a home
+  "PATH=/usr/bin:$ENV{PATH}")  # inside a fence, a Python in a home folder is not visible
 if(ETUDE_SANITIZE MATCHES "address")
-  # Finds constants that are initialised before a constant of another file on which they depend.
+  # Finds constants that are initialised before a constant of another file that they need.
   list(APPEND ETUDE_PINNED_ENVIRONMENT "ASAN_OPTIONS=check_initialization_order=1:strict_init_order=1")
 endif()

@@ -1,30 +1,33 @@
-# `cmake --install`, and packages of it (`cpack -G DEB`): the program, its modules, and what it finds beside itself by name.
-# The tree may be moved as a whole: nothing of it holds the prefix.
+# `cmake --install`, and packages (`cpack -G DEB`): the program, its modules, and the files that it finds beside itself
+# by name. The whole tree may be moved, because nothing in it contains the prefix.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(ETUDE_MODULES "${CMAKE_INSTALL_LIBDIR}/etude")
 file(RELATIVE_PATH modules_from_program "/${CMAKE_INSTALL_BINDIR}" "/${ETUDE_MODULES}")
-# Modules lie beside the built program, and in a folder of their own after installation. Both paths have one length, because CMake
-# would fill up the shorter one with empty names, and the loader takes an empty name as the working folder.
+# Modules lie beside the built program; after installation they have a folder of their own. Both paths have the same
+# length, because CMake would fill up the shorter one with empty names, and the loader would take an empty name as the
+# working folder.
 set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program};$ORIGIN" BUILD_WITH_INSTALL_RPATH ON)
 install(TARGETS etude RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(TARGETS etude_training_pagmo etude_clips_assimp LIBRARY DESTINATION "${ETUDE_MODULES}")
-if(TARGET etude_boards_opencv)  # optional, and not in packages, which would need all of OpenCV
+if(TARGET etude_boards_opencv)  # optional, and not in packages, because it would require all of OpenCV
   install(TARGETS etude_boards_opencv LIBRARY DESTINATION "${ETUDE_MODULES}" COMPONENT boards)
 endif()
 
 install(DIRECTORY scenarios examples DESTINATION share/etude USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
 install(DIRECTORY ci DESTINATION share/etude USE_SOURCE_PERMISSIONS)
 install(DIRECTORY docs/schemas DESTINATION share/etude)
-# The Python package has a folder of its own, which the fence shows to outside methods; Debian's Python finds it by a path file.
+# The Python package has a folder of its own, which the fence shows to outside methods. A path file tells Debian's
+# Python where it is.
 install(DIRECTORY python/etude DESTINATION share/etude/python PATTERN __pycache__ EXCLUDE)
 file(WRITE "${CMAKE_BINARY_DIR}/etude.pth" "../../../share/etude/python\n")
 install(FILES "${CMAKE_BINARY_DIR}/etude.pth" DESTINATION lib/python3/dist-packages)
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" PATTERN schemas EXCLUDE)
 install(DIRECTORY findings DESTINATION "${CMAKE_INSTALL_DOCDIR}" USE_SOURCE_PERMISSIONS)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-# Files to which pages link are installed where the program finds them; the links are those of the source tree.
+# Files that pages link to are installed where the program finds them. The list is made from the links in the source
+# tree.
 set(links "${CMAKE_BINARY_DIR}/doc_links")
 file(MAKE_DIRECTORY "${links}/docs")
 foreach(name docs/schemas examples scenarios ci)
@@ -35,7 +38,7 @@ foreach(name docs/schemas examples scenarios ci)
 endforeach()
 install(DIRECTORY "${links}/" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)
-# What Debian wants of each package.
+# Write what Debian requires of each package.
 set(changelog "${CMAKE_BINARY_DIR}/changelog.gz")
 execute_process(COMMAND gzip -9nc "${CMAKE_SOURCE_DIR}/CHANGELOG.md" OUTPUT_FILE "${changelog}" COMMAND_ERROR_IS_FATAL ANY)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS CHANGELOG.md)
@@ -84,10 +87,10 @@ write_basic_package_version_file("${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake" 
 install(FILES "${CMAKE_BINARY_DIR}/EtudeConfig.cmake" "${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake"
   DESTINATION "${config}" COMPONENT development)
 
-# Packages for two Debians are two versions, in the order of these: 0.3.0+deb12, 0.3.0+deb13.
+# Packages for two Debian releases have two versions, in the releases' order: 0.3.0+deb12, 0.3.0+deb13.
 cmake_host_system_information(RESULT system QUERY DISTRIB_INFO)
 set(package_version "${PROJECT_VERSION}")
-if(system_ID STREQUAL debian AND system_VERSION_ID)  # what comes after the last release has no number
+if(system_ID STREQUAL debian AND system_VERSION_ID)  # a Debian after the latest release has no number
   string(APPEND package_version "+deb${system_VERSION_ID}")
 endif()
 set(CPACK_PACKAGE_NAME etude)
@@ -117,8 +120,8 @@ set(CPACK_COMPONENTS_ALL program library development)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME etude)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libetude)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libetude-dev)
-# Debian's tools find linked libraries; those that are opened, started or read by name are listed here. The clips are those of
-# the quick suite.
+# Debian's tools find linked libraries. This list has the libraries and programs that Etude opens, starts or reads by
+# name. The clips are those of the quick suite.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 if(OSMESA_FOUND)
   set(draws libosmesa6)
@@ -127,7 +130,7 @@ else()
 endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${draws}, ffmpeg, fonts-dejavu-core, bubblewrap, assimp-testmodels")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "${draws}")  # which pictures are drawn with
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "${draws}")  # the libraries that draw pictures
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libetude (= ${package_version}), libglm-dev")

@@ -1,10 +1,10 @@
-# Every outside library, found once. Each heavy one is linked by a single folder (its "door").
+# Finds every outside library once. Each heavy library is linked by a single folder (its "door").
 find_package(PkgConfig REQUIRED)
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
-set(BLA_VENDOR Generic)  # not ATLAS, which Debian's Ceres brings along
+set(BLA_VENDOR Generic)  # not ATLAS, which Debian's Ceres would bring
 find_package(Ceres REQUIRED)
 find_package(hwy REQUIRED)
 find_package(LibXml2 REQUIRED)
@@ -28,12 +28,12 @@ pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 
-# Debian's Ceres package asks for ATLAS beside LAPACK and BLAS, but does not use it.
+# Debian's Ceres package requires ATLAS beside LAPACK and BLAS, but does not use it.
 get_target_property(ceres_needs Ceres::ceres INTERFACE_LINK_LIBRARIES)
 list(FILTER ceres_needs EXCLUDE REGEX "lib(f77blas|atlas)[.]")
 set_target_properties(Ceres::ceres PROPERTIES INTERFACE_LINK_LIBRARIES "${ceres_needs}")
 
-# Versions on which the bytes of a run may depend, for manifests.
+# The versions of libraries that may change the bytes of a run, for manifests.
 string(CONCAT ETUDE_PACKAGES
   "Ceres ${Ceres_VERSION}, Eigen ${Eigen3_VERSION}, Highway ${hwy_VERSION}, "
   "OpenEXR ${OpenEXR_VERSION}, Pagmo ${Pagmo_VERSION}, TinyGLTF ${TinyGLTF_VERSION}, cairo ${CAIRO_VERSION}, "

@@ -31,16 +31,16 @@ std::span<const MetricInfo> AllMetrics() {{
 }}  // namespace etude
 )";
 
-/// What stands in kSource.
+/// The texts that fill the placeholders of kSource.
 struct Table {
-  std::string vectors;  ///< an array per metric
+  std::string vectors;  ///< one array per metric
   std::string metrics;
   std::set<std::string> ids;
 };
 
 std::string Literal(std::string_view text) { return fmt::format("R\"__text__({})__text__\"", text); }
 
-/// A text that must be there, and be the key of one of `values`; gives what C++ has for it.
+/// Reads a required text that must be one of the names in `values`; returns the C++ code for it.
 std::string_view OneOf(Fields& fields, const char* key,
                        const std::vector<std::pair<std::string, std::string_view>>& values) {
   std::vector<std::string> allowed;
@@ -65,7 +65,8 @@ const std::vector<Node>& RequiredList(Fields& fields, const char* key) {
   return none;
 }
 
-/// `- key`, whose meaning stands in the domain's `inputs`, or `- key: meaning`.
+/// Returns the code for an input of a metric. The YAML is `- key: meaning`, or `- key` if the domain's `inputs` give
+/// the meaning.
 Result<std::string> InputCode(const Node& node, const Node* shared) {
   const bool has_meaning = node.kind == Node::Kind::kMapping && node.entries.size() == 1;
   const std::string key = has_meaning ? node.entries[0].key : node.scalar;
@@ -96,7 +97,7 @@ Result<std::string> VectorCode(const Node& node) {
                      tolerance, Literal(source));
 }
 
-/// The fields that are one value each, in the order of MetricInfo.
+/// Returns the code for the fields that hold a single value, in the order of MetricInfo.
 std::string FactsCode(Fields& fields) {
   std::string code = fmt::format("{{.id = {}, .version = {}", Literal(fields.RequiredText("id")),
                                  fields.Integer("version", 1, {.lowest = 1}));

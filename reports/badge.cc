@@ -14,7 +14,7 @@ std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
   return verdict ? kClasses[static_cast<std::size_t>(*verdict)] : "mixed";
 }
 
-/// Returns true if the verdict on these worlds is clear and the verdict for other units differs from it.
+/// Returns true if the verdict on these worlds is clear and the verdict for other units is another one.
 bool HoldsHereOnly(const Comparison& c) { return c.verdict != Verdict::kInconclusive && c.beyond.verdict != c.verdict; }
 
 }  // namespace

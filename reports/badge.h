@@ -17,15 +17,16 @@ std::string VerdictBadge(const std::optional<Verdict>& verdict);
 /// own unit and the verdicts agree, one label stands for both.
 std::string VerdictBadges(const MethodFinding& finding);
 
-/// Returns the verdict's sign: "▲", "▼", "=", "?"; "±" if it depends on the condition.
+/// Returns the sign of a verdict: "▲" better, "▼" worse, "=" equivalent, "?" inconclusive; "±" if the verdict depends
+/// on the condition.
 std::string_view VerdictSign(const std::optional<Verdict>& verdict);
 
-/// Returns the sign of a comparison, in brackets if it holds on these worlds only: "(▲)".
+/// Returns the sign of a comparison's verdict, in brackets if the verdict holds on these worlds only: "(▲)".
 std::string ComparisonSign(const Comparison& comparison);
 /// Returns the sign of a comparison as HTML in the label's colour, with words for screen readers.
 std::string ComparisonMark(const Comparison& comparison, SamplingUnit unit);
-/// Returns the sign of a finding over all its conditions as an HTML label, followed by `words`; "" if the finding
-/// compares nothing.
+/// Returns the sign of a finding over all its conditions as an HTML label, followed by `words`; "" if nothing was
+/// compared.
 std::string FindingBadge(const MethodFinding& finding, std::string_view words);
 
 }  // namespace etude

@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-// Names the file with the comparisons that the page leaves out.
+// The name, in words, of the file with the comparisons that the page leaves out.
 constexpr std::string_view kAllComparisons = "the CSV file of comparisons in report/tables";
 
 /// The texts of one comparison's table cells, not yet escaped.
@@ -47,7 +47,7 @@ std::string Notes(const Comparison& c) {
 
 std::string BothNotes(const Comparison& c, SamplingUnit unit) {
   std::string text = Notes(c);
-  // If worlds are the units, the result of `Notes` already has this reason.
+  // If worlds are the units, `Notes` has already written this reason.
   if (c.beyond.why_open.empty() || WorldsAreUnits(unit)) return text;
   return text + fmt::format("{}for {}: {}", text.empty() ? "" : "; ", OtherUnits(unit), c.beyond.why_open);
 }
@@ -101,7 +101,8 @@ std::string Legend(const ScenarioSummary& scenario) {
       with_baselines, FormatCount(static_cast<long long>(rivals)));
 }
 
-/// For every condition, visits its comparisons with baselines, then those with the strongest other method.
+/// Calls `visit` for every comparison of every condition: first those with baselines, then those with the strongest
+/// other method.
 template <typename Visit>
 void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -133,10 +134,11 @@ std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   return all;
 }
 
-/// Returns comparisons as an HTML table, grouped by metric. Writes at most `left` rows and subtracts them from `left`.
+/// Returns comparisons as an HTML table, grouped by metric. Writes at most `left` rows, and reduces `left` by their
+/// number.
 std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> shown, std::size_t& left) {
   const bool swept = scenario.conditions.size() > 1;
-  // Columns; the condition has one only if something is swept.
+  // Add the columns; a condition column only if something is swept.
   Table table{.label = "Comparisons", .style = "data", .columns = {{"Methods"}}};
   if (swept) table.columns.push_back({"Condition"});
   const auto number = [](const char* head, bool is_detail) {
@@ -150,7 +152,7 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
                                              number("p (Holm)", true),
                                              number("Effect", true),
                                              {.head = "Mind", .is_detail = true}});
-  // One row per comparison, below one heading row per metric.
+  // Add one row per comparison, below one heading row per metric.
   const std::string* metric = nullptr;
   for (const Shown& one : shown) {
     if (left == 0) break;
@@ -165,7 +167,7 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   return TableHtml(table);
 }
 
-/// Returns "holds", or the reason why there is no common verdict.
+/// Returns "holds", or the reason why the conditions have no common verdict.
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;
@@ -263,7 +265,7 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
 }
 
 std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
-  // The headings: first the comparison on these worlds, then what holds for other units.
+  // Write the headings: first the comparison on these worlds, then the verdict for other units.
   Table table;
   for (const char* head : {"scenario",        "condition",        "metric",        "baseline",        "method",
                            "pairs",           "differing",        "only_baseline", "only_method",     "neither",
@@ -275,7 +277,7 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
                            "beyond_verdict",  "beyond_why_open"}) {
     table.columns.push_back({head});
   }
-  // Values in the order of the headings.
+  // Write the values in the order of the headings.
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
     const Beyond& beyond = c.beyond;
     table.rows.push_back({{scenario.name,

@@ -12,7 +12,7 @@ namespace etude {
 /// Returns the heading of a group of rows: "orientation error (lower is better, 0.1° matters)".
 std::string MetricHeading(const std::string& metric);
 
-/// Returns a difference with a short unit: tables have no room for the words "percentage points".
+/// Returns a difference with a short unit ("pp" for percentage points), because tables have little room.
 std::string ShortDifference(double difference, const MetricWords& words);
 
 /// Explains the columns of the tables below.
@@ -37,10 +37,10 @@ std::size_t CountComparisons(const ScenarioSummary& scenario);
 /// are folded away. Returns "" if nothing is compared.
 std::string ComparisonTableHtml(const ScenarioSummary& scenario);
 
-/// Returns the same as a folded Markdown table.
+/// Returns the comparisons of ComparisonTableHtml as a folded Markdown table.
 std::string ComparisonTableMarkdown(const ScenarioSummary& scenario);
 
-/// Returns all comparisons as CSV: full precision, both tests, empty fields for missing values.
+/// Returns all comparisons as CSV with full precision and both tests; fields of missing values are empty.
 std::string ComparisonTableCsv(const ScenarioSummary& scenario);
 
 /// Returns a table of the verdicts that must hold under every value of some parameters (scenario key `across`). Each
@@ -48,7 +48,7 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario);
 /// scenario has no such key.
 std::string AcrossTableHtml(const ScenarioSummary& scenario);
 
-/// Returns the same as a Markdown table.
+/// Returns the verdicts of AcrossTableHtml as a Markdown table.
 std::string AcrossTableMarkdown(const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -12,18 +12,19 @@ namespace {
 
 constexpr std::string_view kTask = "plausibility", kWithin = "within_limits";
 
-/// The clips that show faults, and those that could not be judged.
+/// The clips that show faults, and the clips that could not be judged.
 struct FaultyClips {
-  Table table;           ///< those beyond their limits first, those that could not be judged last
-  std::string sentence;  ///< how many there are; empty if the run has no clips
-  std::size_t rows = 0;  ///< rows that the table would have without `most`
+  Table table;           ///< clips beyond their limits first, clips that could not be judged last
+  std::string sentence;  ///< the number of these clips in words; empty if the run has no clips
+  std::size_t rows = 0;  ///< the number of rows without the limit `most`
 };
 
-/// Collects these clips; the table has at most `most` of them.
+/// Collects the faulty clips of a run; the table has at most `most` rows.
 FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
   FaultyClips found;
   std::vector<TableRow> beyond, others, unjudged;
   std::size_t judged = 0;
+  // Sort the clips: beyond their limits, other faulty clips, clips that could not be judged.
   ForEachRow(run, [&](const Row& row, std::size_t) {
     if (row.task != kTask || row.result.status == Status::kSkipped) return;
     if (row.result.status != Status::kOk) {
@@ -40,6 +41,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
     (is_beyond ? beyond : others).push_back(std::move(line));
   });
   if (judged + unjudged.size() == 0) return found;
+  // Count them in a sentence.
   found.rows = beyond.size() + others.size() + unjudged.size();
   found.sentence = fmt::format("{} of {} show what no person does{}.", beyond.size() + others.size(),
                                Plural(static_cast<long long>(judged), "clip"),
@@ -49,6 +51,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
         fmt::format(" {} could not be judged.", Plural(static_cast<long long>(unjudged.size()), "further clip"));
   }
   found.sentence += " etude list faults states what each fault is.";
+  // Write the table, at most `most` rows.
   found.table = {.label = "Clips with faults",
                  .columns = {{.head = "Clip", .is_row_head = true},
                              {"Method"},

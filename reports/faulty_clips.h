@@ -8,15 +8,15 @@
 
 namespace etude {
 
-/// Returns the section with the clips of motions without a truth that show faults, those beyond their limits first,
-/// with each fault in words; "" for other runs.
+/// Returns the section of faulty clips, for scenarios whose motions have no truth. Clips beyond their limits come
+/// first; each fault is in words. "" for other runs.
 std::string FaultyClipsSection(const RunData& run);
 
-/// Returns the same table for Markdown, under a heading; "" for other runs.
+/// Returns the table of FaultyClipsSection as Markdown, under a heading; "" for other runs.
 std::string FaultyClipsMarkdown(const RunData& run);
 
-/// Returns a case for every clip of a scenario of motions without a truth: it fails if the clip exceeds its limits or
-/// cannot be judged; otherwise it says what faults the clip shows.
+/// Returns one JUnit case for every clip of a scenario whose motions have no truth. The case fails if the clip exceeds
+/// its limits or cannot be judged; otherwise it lists the faults of the clip.
 std::vector<JunitCase> ClipCases(const RunData& run, const std::string& scenario);
 
 }  // namespace etude

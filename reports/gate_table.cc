@@ -49,7 +49,7 @@ std::string WorldsText(const MetricMove& move) {
   return text;
 }
 
-/// Returns the nonzero counts of the movements: "2 worse, 3 better, 165 same".
+/// Returns the movements' nonzero counts: "2 worse, 3 better, 165 same".
 std::string MovementCounts(const std::vector<MetricMove>& moves) {
   std::string text;
   for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
@@ -62,7 +62,7 @@ std::string MovementCounts(const std::vector<MetricMove>& moves) {
   return text;
 }
 
-/// Returns the counts of the verdicts, without zeros: "12 expectations: 11 met, 1 unmet"; "" if there are no items.
+/// Returns the nonzero counts of outcomes: "12 expectations: 11 met, 1 unmet"; "" if there are no items.
 template <typename Items, typename OutcomeOf>
 std::string OutcomeCounts(const Items& items, std::string_view what, OutcomeOf outcome_of) {
   std::string text;
@@ -178,7 +178,8 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
   const std::string folder = report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder);
   const MoveIdentity& one = moves.front()->identity;
   const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition);
-  std::vector<std::pair<int, std::string>> worlds;  // trial, and a text that lists the metrics far worse in it
+  // Trial, and a text that lists the metrics that are far worse in its world.
+  std::vector<std::pair<int, std::string>> worlds;
   std::map<int, std::size_t> places;
   for (const MetricMove* move : moves) {
     const std::string& metric = move->identity.metric;
@@ -264,7 +265,7 @@ std::string FoldedAway(const std::string& title, const std::string& content) {
   return fmt::format("\n<details><summary>{}</summary>\n{}\n</details>\n", title, content);
 }
 
-/// Returns what the run says of its methods, which its page says, too.
+/// Returns the answers of the run's own findings as a table; the page of the run states the same answers.
 std::string AnswerTable(const std::vector<GateAnswer>& answers) {
   if (answers.empty()) return "";
   Table table{.columns = {{"scenario"}, {"condition"}, {"method"}, {"against"}, {"answer"}, {"decided by"}}};
@@ -328,13 +329,13 @@ std::string WriteGateMarkdown(const GateReport& report) {
   std::string text =
       fmt::format("## Etude gate of {}: {}{}\n\n", EscapeMarkdown(report.suite),
                   GateVerdictWords(GateVerdictOf(report)), report.baseline_file.empty() ? ", without a baseline" : "");
-  // What was judged, and what failed.
+  // Write what was judged, and what failed.
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
   text += List("**Incomplete**, so there is no overall verdict:", report.incomplete);
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
   text += List("**Answers that fell** (one from better to worse is a regression):", FallenLines(report));
-  // Changes: those that fail stay open, all others are folded away.
+  // Write the changes. Changes that fail the gate stay open; all others are folded away.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);
@@ -344,7 +345,8 @@ std::string WriteGateMarkdown(const GateReport& report) {
                        MoveTable(others) + WorldList("Single worlds that are far worse, too few to fail:",
                                                      TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
   }
-  // What could not be decided, which passes; what the run says; what could not be compared, and what changed.
+  // Write the claims that could not be decided (they pass), the run's answers, what could not be compared, and changed
+  // settings.
   const std::vector<std::string> undecided = ClaimsThatAre(report, ClaimOutcome::kUndecided);
   text += FoldedAway(fmt::format("Could not be decided ({})", undecided.size()), List("These pass:", undecided));
   text += FoldedAway(fmt::format("Answers of this run ({})", report.answers.size()), AnswerTable(report.answers));

@@ -12,7 +12,7 @@ namespace etude {
 struct GateTableRow {
   std::string scenario, condition, method, metric;
   std::string before, after;  ///< the metric's aggregate over all worlds
-  std::string difference;     ///< of the paired values, with its interval
+  std::string difference;     ///< the median (or mean) of the paired differences, with its interval
   std::string p;              ///< p-value after Holm's correction; kNoValue if nothing was tested
   std::string worlds;         ///< "12 of 60", with the numbers of lost values, gained values and far worse worlds
   std::string verdict;        ///< MovementWords; "worse in 5 worlds" if the tail rule decided
@@ -29,10 +29,11 @@ std::string RatioDetail(const RatioResult& ratio);
 
 /// Returns the name of a verdict: "pass", "regression", "incomplete".
 std::string_view GateVerdictWords(GateVerdict verdict);
-/// Returns one sentence on each kind of judgement: "12 expectations: 11 met, 1 unmet", "against the baseline, 170
+/// Returns one sentence for each kind of judgement: "12 expectations: 11 met, 1 unmet", "against the baseline, 170
 /// comparisons: 2 worse, 168 same".
 std::vector<std::string> GateSentences(const GateReport& report);
-/// Returns one line per answer that fell, or only for those that fail the gate.
+/// Returns one line for each answer that fell since the baseline; if `only_flipped`, only for the answers that fail the
+/// gate.
 std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped = false);
 /// Returns the counts of the moves: "170 comparisons: 2 worse, 3 better, 165 same".
 std::string CompareSentence(const SnapshotComparison& comparison);
@@ -44,21 +45,22 @@ struct TailLine {
   std::string replay;  ///< "etude replay out/now --cell …", quoted for a shell; "" for the line that counts the rest
 };
 
-/// Returns one line for each of the first `most` far worse worlds of one method under one condition; `moves` are that
-/// method's. Worlds that lost their answer come first, then the worst of each metric. A last line counts the rest.
+/// Returns one line for each of the first `most` far worse worlds of one method under one condition; `moves` are the
+/// movements of that method's metrics. Worlds that lost their answer come first, then the worst world of each metric. A
+/// last line counts the rest.
 std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
                                 std::size_t most);
 
-/// Returns such lines for all moves that fail, or for all others: at most `most_each` worlds of a method, and about
-/// `most` lines in total.
+/// Returns the lines of far worse worlds for all movements that fail the gate (`failing`), or for all others: at most
+/// `most_each` worlds of a method, and about `most` lines in total.
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most);
 
-/// Returns the findings of a gate as a comment on a pull request: the verdict, what fails, what else changed, what
+/// Returns the findings of a gate as a comment on a pull request: the verdict, the failures, other changes, and what
 /// could not be compared.
 std::string WriteGateMarkdown(const GateReport& report);
 
-/// Returns the same as JUnit XML: one suite per scenario, with one case per expectation, time rule and comparison. An
-/// incomplete run fails a case of the suite "gate".
+/// Returns the findings of a gate as JUnit XML: one suite per scenario, with one case per expectation, time rule and
+/// comparison. An incomplete run fails a case of the suite "gate".
 std::string WriteGateJunit(const GateReport& report);
 
 }  // namespace etude

@@ -51,7 +51,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
   return {"no cell broke", MetWhen(broken == 0), std::move(detail)};
 }
 
-/// Returns a case that cannot fail and that shows readers of CI the answer.
+/// Returns a case that cannot fail; it shows the answer to readers of CI.
 JunitCase TheAnswer(const ScenarioFindings& findings) {
   std::string said = findings.headline;
   for (const MethodFinding* finding : {&findings.answer, &findings.rival}) {
@@ -66,7 +66,8 @@ std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenar
   const ScenarioFindings findings = FindingsOf(run, scenario);
   std::vector<JunitCase> clips = ClipCases(run, scenario.name);
   std::vector<JunitCase> cases{EveryCellHasARow(run, scenario)};
-  if (clips.empty()) cases.push_back(NoCellBroke(findings));  // else each clip that cannot be judged is a case
+  // With clips, each clip that cannot be judged is a case already.
+  if (clips.empty()) cases.push_back(NoCellBroke(findings));
   if (findings.answer.is_compared) cases.push_back(TheAnswer(findings));
   for (const ExpectationResult& e : scenario.expectations) {
     cases.push_back({e.text, e.outcome, e.detail, fmt::format("judged on {}", TheseUnits(scenario.unit))});

@@ -25,9 +25,10 @@ struct JunitSuite {
 /// version, a property of each suite.
 std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites, const std::string& version);
 
-/// Returns the run as JUnit XML, one suite per scenario. Its cases are: one per expectation (failed if unmet, skipped
-/// if undecided), one that holds if every cell has a row, one that holds if no cell crashed, failed, timed out or gave
-/// an invalid answer, and instead of that one per clip of motions without a truth (ClipCases).
+/// Returns the run as JUnit XML, one suite per scenario. Each suite has one case per expectation (failed if unmet,
+/// skipped if undecided), and one case that passes if every cell has a row. A last case passes if no cell crashed,
+/// failed, timed out or gave an invalid answer; if the motions have no truth, one case per clip (ClipCases) stands in
+/// its place.
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

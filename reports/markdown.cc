@@ -26,13 +26,14 @@ std::string FindingText(const MethodFinding& finding) {
                      finding.why_open.empty() ? "" : EscapeMarkdown(fmt::format(" Open: {}.", finding.why_open)));
 }
 
-/// Returns the answer against the baseline and, if it is another method, against the strongest other one.
+/// Returns the answer against the baseline and, if the strongest other method is not the baseline, the answer against
+/// it.
 std::string AnswerText(const ScenarioFindings& findings) {
   std::string text = FindingText(findings.answer) + "\n";
   return HasOtherRival(findings) ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;
 }
 
-/// Returns what the worlds are and one sentence on each method; "" if the scenario describes neither.
+/// Returns the description of the worlds and one sentence on each method; "" if the scenario describes neither.
 std::string WhatIsComparedText(const ScenarioSummary& scenario) {
   std::string text = scenario.description.empty() ? "" : "\n" + EscapeMarkdown(scenario.description) + "\n";
   if (scenario.descriptions.empty()) return text;
@@ -47,11 +48,13 @@ std::string WhatIsComparedText(const ScenarioSummary& scenario) {
 
 std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
+  // Write the answer and the tables.
   std::string text = fmt::format("\n## {}\n\n{}\n\n{}", EscapeMarkdown(scenario.name),
                                  EscapeMarkdown(scenario.question), AnswerText(findings));
   if (!findings.figures.methods.empty()) text += TableMarkdown(FiguresTable(findings.figures, true));
   text += WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
   text += ComparisonTableMarkdown(scenario) + AcrossTableMarkdown(scenario) + '\n';
+  // Write the expectations, how cells ended, and why.
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view outcome = e.outcome == ClaimOutcome::kMet     ? "met"
                                      : e.outcome == ClaimOutcome::kUnmet ? "**not met**"

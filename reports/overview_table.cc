@@ -22,7 +22,7 @@ constexpr std::string_view kAllNumbers = "the CSV file in report/tables";
 
 struct OverviewCell {
   std::string value;
-  std::string interval = {};             ///< of the value; "" if it has none
+  std::string interval = {};             ///< interval of the value; "" if it has none
   std::string counted = {};              ///< "10 of 12" if some cells have no value, else ""
   std::optional<double> sorted_by = {};  ///< the value as a number
   const Comparison* baseline = nullptr;  ///< against the baseline; may be null
@@ -33,8 +33,8 @@ struct OverviewCell {
 
 struct OverviewRow {
   std::string method, condition;
-  std::string cell = {};                 ///< one of the row's cells, a recorded one if possible
-  std::string kept = {};                 ///< its HTML attribute if it was recorded
+  std::string cell = {};                 ///< one of the row's cells, if possible a recorded one
+  std::string kept = {};                 ///< HTML attribute of that cell, if it was recorded
   std::vector<OverviewCell> cells = {};  ///< one per metric
   bool is_yardstick = false;
 };
@@ -74,7 +74,7 @@ std::vector<std::string> AllMetricsOf(const ScenarioSummary& scenario) {
   return metrics;
 }
 
-/// Finds an example cell of every method under every condition, a recorded one if possible.
+/// Finds an example cell of every method under every condition, if possible a recorded one.
 class ExampleCells {
  public:
   ExampleCells(const RunData& run, const ScenarioSummary& scenario) : kept_(run) {
@@ -167,7 +167,7 @@ Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string
   return table;
 }
 
-/// Returns which values are missing and why, grouped by reason.
+/// Returns a list of the missing values, grouped by reason.
 std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
   std::map<std::string, std::vector<std::string>> metrics_of;
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -213,7 +213,7 @@ std::string VerdictOf(const Row& row) {
   return is_false && *is_false > 0 ? "✗ " + text : text;
 }
 
-/// Returns every pair of poses with each method's verdict; no rows if there are no such pairs.
+/// Returns one row for every pair of poses with each method's verdict; no rows if the worlds are not single pairs.
 Table PosePairs(const RunData& run, const ScenarioSummary& scenario, std::string_view poses, std::string_view apart) {
   Table table{
       .label = "Pair by pair",
@@ -222,7 +222,7 @@ Table PosePairs(const RunData& run, const ScenarioSummary& scenario, std::string
   for (const std::string& method : scenario.methods) table.columns.push_back({.head = method, .is_number = true});
   // Under a sweep, or with several pairs per world, a pair has no single verdict.
   if (scenario.task != "pose-distance" || scenario.conditions.size() != 1) return table;
-  // The first method's rows add the pairs; every method's rows fill in its verdicts.
+  // The first method's rows add the pairs; every method's rows add that method's verdicts.
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
     const auto alike = ValueOf(row, "called_alike");

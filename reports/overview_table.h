@@ -12,10 +12,11 @@ namespace etude {
 /// of their verdicts. Below it stand the missing values with reasons. If something is swept, a row is a method under a
 /// condition. Returns "" if no method has a value.
 std::string OverviewTableHtml(const RunData& run, const ScenarioSummary& scenario);
-/// Returns the same for the headline metrics without intervals; "" if there is only one.
+/// Returns the values of the headline metrics as a Markdown table, without intervals; "" if there is only one headline
+/// metric.
 std::string OverviewTableMarkdown(const ScenarioSummary& scenario);
 
-/// Explains the signs in such tables.
+/// Explains the signs in the tables of methods by metrics.
 inline constexpr std::string_view kSigns =
     "In tables the first sign is the verdict against the method’s baseline, the second the verdict against the "
     "strongest other method: ▲ better, ▼ worse, = no difference that matters, ? undecided, · not compared. A sign in "

@@ -29,7 +29,8 @@ constexpr const char* kMetric = "mpjpe_mm";
 
 std::string Millimetres(std::optional<double> mm) { return mm ? FormatNumber(*mm) : std::string(kNoValue); }
 
-/// Returns what a take measures: error, or agreement if its reference may come from the same keypoints.
+/// Returns the name of the quantity that a take measures: "error", or "agreement" if its reference may come from the
+/// same keypoints.
 std::string MeasureOf(const RealTake& take) { return take.recovery == "keypoints" ? "agreement" : "error"; }
 
 void AddRealRows(const RealTake& take, Table& table) {
@@ -41,7 +42,7 @@ void AddRealRows(const RealTake& take, Table& table) {
   }
 }
 
-/// Adds the rows of simulated takes; `rows` counts them over all scenarios.
+/// Adds the rows of simulated takes; adds their number to `rows`, which counts over all scenarios.
 void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table& table) {
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
@@ -57,12 +58,12 @@ void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table&
   }
 }
 
-// A second defence, in addition to escaping: the page may load nothing but the motions beside it.
+// A second defence besides escaping: the page may load nothing but the motions beside it.
 constexpr std::string_view kPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'self' file:; img-src data:; media-src "
     "data:";
 
-// Returns only the styles that the page uses.
+// Returns the styles that the page uses.
 std::string Styles(const RunData& run) {
   const bool shows_curves = std::ranges::any_of(run.scenarios, [&](const ScenarioSummary& scenario) {
     return ShowsPaperA(scenario) || ShowsPaperB(run, scenario) || ShowsPairs(scenario);
@@ -120,7 +121,7 @@ std::string HowToRead() {
                      kHowToRead, kSigns, kComparisonLegend);
 }
 
-/// Returns how much of a large run the pictures show; "" if they show all of it.
+/// Returns a sentence on how much of a large run the pictures show; "" if they show all of it.
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(
@@ -178,6 +179,7 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
   std::vector<ScenarioFindings> findings;
   for (const ScenarioSummary& scenario : run.scenarios) findings.push_back(FindingsOf(run, scenario));
 
+  // Write the header, the answers, and the run's film.
   std::string html = Head(run);
   html += fmt::format(
       "<body>{}<a class=\"skip\" href=\"#{}\">Skip to answers</a><main><header><p class=\"eyebrow\">Etude"
@@ -186,11 +188,13 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
       EscapeMarkup(FindingsOf(run).sentence + LeftOutSentence(run)));
   html += Answers(run, findings);
   html += fmt::format("{}{}{}", kMediaBegin, FilmElement(media.film, true), kMediaEnd);
+  // Write one card per scenario, and the sections about the whole run.
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);
   html += FaultyClipsSection(run);
   html += RealTakesSection(run, real);
   html += HowToRead();
   html += Footer(run);
+  // Add the scripts.
   html += "</main><script>";
   html += ChartJs();
   html += "</script><script>";

@@ -11,13 +11,14 @@ namespace {
 
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=";
-constexpr std::size_t kMaxDigits = 4;  // of a width or height, so that pictures stay within the page
+constexpr std::size_t kMaxDigits = 4;  // digits of a width or height; a limit keeps pictures within the page
 
-/// An element that may stand between marks, and its allowed attributes.
+/// An element that is allowed between marks, with its allowed attributes.
 struct Element {
   std::string_view name;
-  std::vector<std::string_view> attributes = {};  ///< "class=film" is fixed; "alt=" takes what IsAllowedValue allows
-  bool is_void = false;                           ///< has no closing tag
+  /// "class=film" allows this value only; "alt=" allows every value that IsAllowedValue accepts.
+  std::vector<std::string_view> attributes = {};
+  bool is_void = false;  ///< has no closing tag
 };
 
 using Elements = std::span<const Element>;
@@ -61,7 +62,8 @@ bool IsAllowedValue(std::string_view name, std::string_view value) {
                              [&](const char* type) { return IsData(value, type); });
 }
 
-/// Removes ' name="value"' or ' name' from the front of `tag`. Returns whether it is allowed; nothing if malformed.
+/// Removes ' name="value"' or ' name' from the front of `tag`. Returns true if the element allows this attribute;
+/// nothing if the text is malformed.
 std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element) {
   tag.remove_prefix(1);
   const std::size_t end = std::min(tag.find_first_of("= "), tag.size());
@@ -97,7 +99,7 @@ const Element* FindOpened(std::string_view tag, Elements elements) {
   return &*found;
 }
 
-/// Returns true if a text consists of these elements alone and closes each that it opens.
+/// Returns true if a text consists only of these elements, and closes each element that it opens.
 bool HoldsOnly(std::string_view html, Elements elements) {
   std::vector<std::string_view> open;
   for (std::size_t at = html.find('<'); at != std::string_view::npos; at = html.find('<', at)) {
@@ -123,7 +125,7 @@ PageCheck CheckPage(std::string_view page, std::string_view bare) {
   PageCheck check;
   while (true) {
     const std::size_t media = bare.find(kMediaBegin), takes = bare.find(kTakesBegin);
-    if (media == takes) break;  // both kinds of marks have been used up
+    if (media == takes) break;  // no marks of either kind are left
     const bool is_media = media < takes;
     const std::string_view end = is_media ? kMediaEnd : kTakesEnd;
     const std::size_t before = is_media ? media + kMediaBegin.size() : takes + kTakesBegin.size();

@@ -43,7 +43,7 @@ void AddTables(const RunData& run, std::vector<ReportText>& texts) {
   }
 }
 
-// Adds the motions that captures recovered, as BVH for other programs, and those that the page shows.
+// Adds the motions that captures recovered (as BVH, for other programs) and the motions that the page shows.
 Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
   for (const auto& [row, recorded] : RecordedRows(run)) {
     if (row->task != "capture") continue;
@@ -67,7 +67,7 @@ Result<std::vector<ReportText>> TextsOf(const RunData& run) {
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
   const FilePath folder = Inside(run_folder) / kReportFolder, films = Inside(run_folder) / kFilmsFolder;
   for (const FilePath& made : {folder, films}) RETURN_IF_ERROR(PlainFilesBelow(made));
-  // Writes the cheap texts first, so that they exist even if rendering the film fails.
+  // Write the cheap texts first, so that they exist even if rendering the film fails.
   ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
   for (const auto& [path, text] : texts) RETURN_IF_ERROR(WriteFileAtomically(folder / path, text));
 
@@ -87,7 +87,7 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
   ReportCheck check;
   ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
   const FilePath folder = Inside(run_folder) / kReportFolder, films = Inside(run_folder) / kFilmsFolder;
-  // The text files, byte for byte.
+  // Compare the text files, byte for byte.
   std::set<fs::path> names = {kPage, kGateMarkdown, kGateJunit};
   for (const auto& [path, text] : texts) {
     names.insert(path);
@@ -96,8 +96,8 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / path));
     if (found != text) check.differences.push_back((folder / path).string() + kOtherwise);
   }
-  // The page. Takes of real films do not belong to the run. One empty take stands for them, so that the rest of their
-  // section can be compared.
+  // Compare the page. Takes of real films do not belong to the run; one empty take stands for them, so that the rest of
+  // their section can be compared.
   bool has_media = false;
   if (const FilePath page = folder / kPage; Exists(page)) {
     ++check.files;
@@ -108,7 +108,7 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     if (compared.has_takes) check.not_compared.push_back(page.string() + ": rows of captures of real films");
     has_media = compared.has_media;
   }
-  // Files that the run does not make.
+  // Report files that do not come from the run.
   ASSIGN_OR_RETURN(const auto beside, PlainFilesBelow(folder));
   for (const fs::path& name : beside) {
     const bool is_picture = name.parent_path() == kPicturesFolder && name.extension() == ".exr";

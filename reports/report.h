@@ -23,9 +23,9 @@ struct ReportOptions {
 
 /// Writes the report of a run: `report/index.html` (self-contained), `report/summary.md`, `report/junit.xml`,
 /// `report/tables/*.{csv,tex}`, and, if the run kept recordings, `report/motions/*.{bvh,js}`, `report/pictures/*.exr`
-/// and `video/*.mp4`. Each file appears whole or not at all. Fails, naming the path, if a file cannot be written. A
-/// film that cannot be made is no failure: the page says why. Returns false, and writes no new page, if the films were
-/// stopped.
+/// and `video/*.mp4`. Each file is written completely or not at all. Fails, naming the path, if a file cannot be
+/// written. If a film cannot be made, the function does not fail; the page gives the reason. Returns false, and writes
+/// no new page, if the films were stopped.
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
 
 /// The files that `etude gate` writes beside a report.
@@ -33,16 +33,16 @@ constexpr const char *kGateMarkdown = "gate.md", *kGateJunit = "gate.xml";
 
 /// The result of comparing a report with its run.
 struct ReportCheck {
-  int files = 0;                          ///< that exist and were compared
+  int files = 0;                          ///< number of files that exist and were compared
   std::vector<std::string> differences;   ///< files that disagree with the run, or belong to no report
-  std::vector<std::string> not_compared;  ///< files that exist but were not compared, in words
+  std::vector<std::string> not_compared;  ///< descriptions of files that exist but were not compared
 };
 
-/// Compares the tables, motions and page of a folder with those that its run makes. Does not compare pictures, films
-/// and captures of real films.
+/// Compares the tables, motions and page in a folder with the same files made anew from its run. Does not compare
+/// pictures, films and captures of real films.
 Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder);
 
-/// Compares the files that a gate wrote beside the report with the result of a gate without a baseline.
+/// Compares the files that a gate wrote beside the report with the files of a gate without a baseline.
 Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::path& run_folder);
 
 }  // namespace etude

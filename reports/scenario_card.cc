@@ -30,7 +30,7 @@
 namespace etude {
 namespace {
 
-// A screen has no room for more steps; they would only make the page larger.
+// The maximum number of points per curve: a screen has no room for more, which would only make the page larger.
 constexpr std::size_t kMaxSteps = 120;
 // Beyond this ratio a linear axis squeezes all but the largest values into one line.
 constexpr double kLogarithmicFrom = 100;
@@ -50,16 +50,16 @@ bool NeedsLogarithm(const std::vector<double>& values) {
   return high / low > kLogarithmicFrom;
 }
 
-// Returns the same metric of the worst effector: "orientation_error_max_deg" for "orientation_error_deg".
+// Returns the name of the metric for the worst effector: "orientation_error_max_deg" for "orientation_error_deg".
 std::string WorstOf(const std::string& metric) {
   const std::size_t unit = metric.rfind('_');
   return unit == std::string::npos ? metric : metric.substr(0, unit) + "_max" + metric.substr(unit);
 }
 
 // Returns the first headline metric (or its variant for the worst effector) for which cells keep a series along this
-// axis, else the first metric with such a series. Skips three kinds of series: those that are no metric, because they
-// have pictures of their own; those that are all zero, which are errors of parts without a target; and shares, because
-// a median of yes and no says nothing.
+// axis, else the first metric with such a series. Skips three kinds of series: series that are no metric, because they
+// have pictures of their own; series of zeros, because they are errors of parts without a target; and shares, because a
+// median of yes and no is meaningless.
 std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
                                      const std::map<std::string, std::string>& method_of) {
   std::vector<std::string> found;
@@ -91,7 +91,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   if (scenario.conditions.empty()) return std::nullopt;
   const bool follows_motion = scenario.task == "tracking";
   const std::vector<SweptValue>& first = scenario.conditions.front().condition;
-  // The cells to draw, with their methods, and the metric.
+  // Find the cells to draw, their methods, and the metric.
   std::map<std::string, std::string> method_of;
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && (!follows_motion || row.condition == first)) method_of[row.Id()] = row.method;
@@ -100,7 +100,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   const auto name = FindCurve(run, scenario, axis, method_of);
   if (!name) return std::nullopt;
 
-  // The curves of each method's cells, and their medians.
+  // Collect the curves of each method's cells, and compute their medians.
   std::map<std::string, std::vector<const std::vector<double>*>> curves;
   for (const CellSeries& cell : run.series) {
     const auto method = method_of.find(cell.cell);
@@ -118,7 +118,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   }
   const std::size_t stride = std::max<std::size_t>(1, (longest + kMaxSteps - 1) / kMaxSteps);
 
-  // Caption and description in words.
+  // Write the caption and the description in words.
   const MetricWords words = WordsFor(*name);
   Chart chart;
   chart.is_wide = follows_motion;
@@ -140,7 +140,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
     for (const double value : Thinned(curve, stride)) values.push_back(value);
     methods.push_back({{"name", MethodLabel(scenario, method)}, {"values", std::move(values)}});
   }
-  // The data for the page's script.
+  // Write the data for the page's script.
   Json json{{"kind", "curves"},
             {"label", words.label},
             {"suffix", words.suffix},
@@ -179,7 +179,7 @@ std::string ChartFigure(const Chart& chart, const std::string& id) {
       EscapeScriptJson(chart.json));
 }
 
-/// Returns a folded part of the card; "" if it would be empty.
+/// Returns a folded part of the card; "" if `html` is empty.
 std::string Folded(const std::string& title, const std::string& html, std::string_view style = "") {
   if (html.empty()) return "";
   return fmt::format("<details{}><summary>{}</summary>{}</details>", style, EscapeMarkup(title), html);
@@ -193,7 +193,7 @@ std::string OtherPictures(const RunData& run, const ScenarioSummary& scenario, s
   return html.empty() ? "" : "<div class=\"plots\">" + html + "</div>";
 }
 
-/// Returns what the worlds are, and one sentence on each method.
+/// Returns the description of the worlds, and one sentence on each method.
 std::string WhatIsCompared(const ScenarioSummary& scenario) {
   std::string html;
   if (!scenario.description.empty()) html += fmt::format("<p>{}</p>", EscapeMarkup(scenario.description));
@@ -229,7 +229,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
   return Folded(title, html + "</ul>", unmet > 0 ? " class=\"unmet\"" : "");
 }
 
-/// Returns the first cell of a scenario that ended for this reason, to be run again.
+/// Returns the first cell of a scenario that ended for this reason, so that the reader can run it again.
 std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, const ReasonCount& reason) {
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.method == reason.method && row.result.status == reason.status &&
@@ -240,8 +240,8 @@ std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, con
   return "";
 }
 
-/// Returns a folded part on how the cells ended, what they reached, and why some failed. Its visible line counts the
-/// cells that are not ok.
+/// Returns a folded part on how the cells ended, which goals they reached, and why some failed. Its visible line counts
+/// the cells that are not ok.
 std::string Failures(const RunData& run, const ScenarioSummary& scenario, const ScenarioFindings& findings) {
   int others = 0;
   for (const ReasonCount& reason : findings.reasons) others += reason.cells;
@@ -277,15 +277,15 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Returns the sentence of a finding after `begin`; its tooltip says why the verdict is open.
+/// Returns the sentence of a finding as HTML after `begin`; if the verdict is open, the tooltip says why.
 std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
   return fmt::format("<p class=\"answer\"{}>{}{}</p>",
                      finding.why_open.empty() ? "" : fmt::format(" title=\"{}\"", EscapeMarkup(finding.why_open)),
                      begin, EscapeMarkup(finding.sentence));
 }
 
-/// Returns verdicts and sentence against the baseline and, if it is another method, against the strongest other one,
-/// whose sentence is folded away.
+/// Returns verdicts and sentence against the baseline and, if the strongest other method is not the baseline, against
+/// that method; the second sentence is folded away.
 std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;

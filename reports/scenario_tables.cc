@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kRowsPerFloat = 50;  // so many fit on a page of A4
+constexpr std::size_t kRowsPerFloat = 50;  // this number fits on a page of A4
 
 constexpr std::string_view kHead =
     "% Needs \\usepackage{booktabs}. The same figures with all their digits: the CSV files beside this one.\n";
@@ -88,7 +88,7 @@ Group OfMetric(const ScenarioSummary& scenario, const ConditionSummary& conditio
     for (const Comparison* c : comparisons) {
       std::ranges::move(ComparisonCells(*c, words), std::back_inserter(cells));
       group.push_back({std::move(cells)});
-      cells = {"", "", ""};  // only the method's first row has its own figures
+      cells = {"", "", ""};  // only the method's first row shows its own figures
     }
     if (!comparisons.empty()) continue;
     cells.resize(cells.size() + 5);

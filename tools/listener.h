@@ -13,23 +13,22 @@ namespace etude {
 /// Receives the messages and progress of a tool. Tools never print; the caller decides where text goes. The defaults
 /// are silent.
 struct Listener {
-  /// Receives text for people; lines end with '\n'.
+  /// Receives text for people; every line ends with '\n'.
   std::function<void(const std::string& text)> print = [](const std::string&) {};
-  /// Makes the callback that receives the progress of one piece of work; `what` names the counted things ("frames of
-  /// left.mp4").
+  /// Returns a callback for the progress of one piece of work; `what` names the counted things ("frames of left.mp4").
   std::function<OnProgress(std::string what)> progress = [](const std::string&) {
     return [](std::size_t, std::size_t) {};
   };
-  /// Runs `write`, which writes one film, with a FilmWatch that shows progress and can stop it. Returns the result of
-  /// `write`; false means that it was stopped.
+  /// Runs `write`, a function that writes one film, with a FilmWatch that shows its progress and can stop it. Returns
+  /// the result of `write`; false means that it was stopped.
   std::function<Result<bool>(const std::function<Result<bool>(const FilmWatch& watch)>& write)> film =
       [](const auto& write) { return write(FilmWatch{}); };
 };
 
-/// Prints that a file was written.
+/// Prints a message that a file was written.
 void TellWritten(const Listener& listener, const std::string& path);
 
-/// Prints lines and keeps them, for the page and the facts of a tool.
+/// Prints lines, and keeps them for the page and the JSON of a tool.
 struct MessageLog {
   std::function<void(const std::string& text)> print;
   std::vector<std::string> lines = {};

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Rounds to multiples of 1 / `per_unit`; returns 0 instead of -0, which JSON would show.
+/// Rounds to multiples of 1 / `per_unit`; returns 0 instead of −0, because JSON would show the sign.
 double Rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit + 0.0; }
 
 Json NumbersOf(const BodyPose& pose) {
@@ -141,8 +141,8 @@ Result<void> LiveCoach::Take(const SensedFrame& frame, const StreamRecording& me
 }
 
 void LiveCoach::Begin(const StreamRecording& meaning) {
-  // A device's coordinates begin at the device, so the sensor stands at the origin. For Etude's own format its position
-  // is unknown.
+  // The coordinates of a device begin at the device, so the sensor stands at the origin. In Etude's own format, the
+  // sensor's position is unknown.
   if (!meaning.is_level) options_.coach.sensor = {0, 0, 0};
   coach_ = std::make_unique<Coach>(transitions_, options_.coach, Coach::PolicyChoice{FindPolicy(options_.policy), {}});
   if (options_.plans_ahead) coach_->PlanAhead();

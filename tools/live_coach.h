@@ -19,11 +19,11 @@ namespace etude {
 Result<std::string> CoachHead(const Dance& dance);
 
 /// Returns one frame as a line of JSON (docs/coach.md). Positions are in metres, rounded to the millimetre; with
-/// `brief` the body is left out.
+/// `brief`, the line has no body.
 Result<std::string> CoachLine(const CoachOutput& output, std::int64_t frame, const Dance& dance, bool brief);
 
-/// The position in the music while a coach dances: taken from lines '#music 12.34' of the stream, else computed from
-/// the coach's own music commands.
+/// The position in the music while a coach dances. It comes from lines '#music 12.34' of the stream; without them, it
+/// is computed from the coach's own music commands.
 class MusicPosition {
  public:
   /// Pauses the music, or continues it at another position.
@@ -33,7 +33,7 @@ class MusicPosition {
   /// Returns the seconds since the start of the song; nullopt while the music is silent.
   std::optional<double> Seconds() const { return now_s_; }
 
-  /// Reads a line of the stream; a line that is not about music changes nothing. Fails on '#music' without seconds.
+  /// Reads a line of the stream; lines about other things change nothing. Fails on '#music' without seconds.
   Result<void> Take(std::string_view line, int number);
 
  private:
@@ -43,11 +43,12 @@ class MusicPosition {
 struct LiveCoachOptions {
   std::string policy;           ///< a name of LivePolicyNames()
   std::string filter;           ///< a name of FilterNames()
-  bool dances_at_once = false;  ///< begins to dance without waiting for a clap
-  bool plans_ahead = false;     ///< spreads planning over frames; set it for live streams
-  bool brief = false;           ///< leaves out bodies, and frames without a decision
+  bool dances_at_once = false;  ///< begin to dance without waiting for a clap
+  bool plans_ahead = false;     ///< spread planning over frames; set it for live streams
+  bool brief = false;           ///< leave out bodies, and frames without a decision
   CoachOptions coach = {};
-  std::function<void(const std::string& remark)> on_remark = {};  ///< receives warnings about the level of the stream
+  /// Receives a remark at the start if the sensor's tilt was corrected or trunks are far from upright.
+  std::function<void(const std::string& remark)> on_remark = {};
 };
 
 /// Runs a coach's session on a stream of skeletons, frame by frame. The session begins with the first frame, because

@@ -4,11 +4,11 @@ import json
 import math
 import sys
 
-DAMPING = 1e-3  # the greater, the shorter a step
+DAMPING = 1e-3  # a larger value gives shorter steps
 
 
 def total(numbers):
-    """Their sum, with the same bytes by every Python: sum() rounds otherwise since 3.12."""
+    """Returns the sum, to the same bits in every version of Python: sum() rounds differently since 3.12."""
     result = 0.0
     for number in numbers:
         result += number
@@ -36,7 +36,7 @@ def cross(a, b):
 
 
 def forward(tree, root, angles):
-    """Each joint's place and rotation, and the angles above it: (its number, the place it turns about, its axis)."""
+    """Returns each joint's position and rotation, and the angles that move it: (index, position of the axis, axis)."""
     joints = []
     for joint in tree["joints"]:
         if joint["parent"] is None:
@@ -53,7 +53,7 @@ def forward(tree, root, angles):
 
 
 def errors(tree, targets, joints):
-    """What each effector lacks: three numbers of place, three of rotation; and how each angle moves them."""
+    """Returns each effector's error (three numbers of position, three of rotation) and the Jacobian of the errors."""
     lacks, moves = [], []
     for effector, target in zip(tree["effectors"], targets):
         place, rotation, above = joints[effector["joint"]]
@@ -69,7 +69,7 @@ def errors(tree, targets, joints):
 
 
 def solve(matrix, right):
-    """Gauss's elimination of a symmetric, positive definite system."""
+    """Solves a symmetric, positive definite system by Gaussian elimination."""
     rows = [row + [value] for row, value in zip(matrix, right)]
     for i, pivot in enumerate(rows):
         for j in range(len(rows)):
@@ -85,7 +85,7 @@ def answer(tree, problem):
         lacks, moves = errors(tree, problem["targets"], forward(tree, problem["root"], angles))
         if max(map(abs, lacks)) < 1e-4:
             break
-        # The step J'(JJ' + damping)^-1 e, each angle within its limits.
+        # Take the step J'(JJ' + damping)^-1 e, and keep each angle within its limits.
         matrix = [[total(x * y for x, y in zip(a, b)) + DAMPING * (i == j) for j, b in enumerate(moves)]
                   for i, a in enumerate(moves)]
         weights = solve(matrix, lacks)

@@ -1,4 +1,5 @@
-// Inverse kinematics of 1,000 poses: a person's hands, head and foot are brought to where a random pose has them.
+// Solves inverse kinematics for 1,000 poses: the hands, head and foot of a person reach the positions that they have in
+// a random pose.
 #include <etude/kinematics.h>
 
 #include <algorithm>
@@ -11,7 +12,8 @@ using namespace etude;
 int main() {
   const KinematicTree body = MakeBodyTree(LimbLengths{});
   std::mt19937 dice(1);
-  const auto draw = [&](const AngleRange& range, double share) {  // from the middle of a joint's range
+  // A share of the way from the middle of a joint's range to its end.
+  const auto draw = [&](const AngleRange& range, double share) {
     const double middle = (range.lower + range.upper) / 2, half = share * (range.upper - range.lower) / 2;
     return middle + half * (2 * dice() / double(std::mt19937::max()) - 1);
   };

@@ -11,17 +11,18 @@ int main(int count, char** names) try {
   if (count != 2) throw BadInput("two_cameras CLIP.bvh");
   std::ifstream file(names[1], std::ios::binary);
   const Motion truth = ReadMotion(std::string(std::istreambuf_iterator<char>(file), {}), names[1]);
-  // In front and on the left, 4 m away; columns: the world's x, y, z as the camera has them.
+  // The cameras stand in front and on the left, 4 m away. The columns of R_CW are the world's axes x, y, z in the
+  // camera's frame.
   std::vector<NamedCamera> rig(2);
   rig[0].camera.R_CW = {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, rig[0].camera.p_WC = {0, 1, 4};
   rig[1].camera.R_CW = {{0, 0, -1}, {0, -1, 0}, {-1, 0, 0}}, rig[1].camera.p_WC = {4, 1, 0};
-  for (NamedCamera& each : rig) {  // from 27 measured points of a box
+  for (NamedCamera& each : rig) {  // calibrate each from 27 measured points of a box
     std::vector<PointPair> pairs;
     for (int i = 0; i < 27; ++i) pairs.push_back({{i % 3 - 1, i / 3 % 3, i / 9 - 1}, {}});
     for (PointPair& pair : pairs) pair.pixel = Project(each.camera, pair.world).value();
     each.camera = Calibrate(pairs, 640, 480).camera;
   }
-  const int left[] = {4, 5, 6, 12, 13, 14};  // roles, from the shoulder; the right one is four further on
+  const int left[] = {4, 5, 6, 12, 13, 14};  // roles from the shoulder on; the right side's roles are four higher
   std::vector<SeenPeople> seen(rig.size(), SeenPeople(truth.poses.size(), {SeenPerson{}}));
   for (std::size_t c = 0; c < rig.size(); ++c) {
     for (std::size_t f = 0; f < truth.poses.size(); ++f) {

@@ -1,4 +1,4 @@
-// Fuzzy features and bridge frames of two BVH files: two_clips WALK.bvh DANCE.bvh
+// Prints fuzzy features and bridge frames of two BVH files: two_clips WALK.bvh DANCE.bvh
 #include <etude/fuzzy.h>
 
 #include <cstdio>

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""OpenCV's background subtractors in the seat of capture's segmenter, at their own settings.
+"""OpenCV's background subtractors as the segmenter of the task capture, with OpenCV's default settings.
 
-Options: `subtractor`, "mog2" (Zivkovic 2004) or "knn" (Zivkovic and van der Heijden 2006); `empty_room`, whether it is
-shown the empty room first (true); `history`, how many pictures its memory holds (500, OpenCV's own). Shadows, which both
-tell apart, are no part of the person.
+Options: `subtractor`, "mog2" (Zivkovic 2004) or "knn" (Zivkovic and van der Heijden 2006); `empty_room`, true
+(the default) if the subtractor sees the empty room first; `history`, the number of pictures that it remembers (500,
+OpenCV's default). Both subtractors mark shadows; shadows do not count as the person.
 
-There is one picture of the empty room. MOG2 takes it for its background at once, with the variance that it assumes of
-what is new: shown the same picture again and again, it would learn that nothing ever varies. KNN assumes a variance
-throughout, and is shown the picture for a second, which fills its samples.
+There is one picture of the empty room. MOG2 gets it once and takes it as the background with an assumed variance; if it
+got the same picture repeatedly, it would learn a variance of zero. KNN always assumes a variance; it gets the picture
+for a second, which fills its samples.
 """
 import os
 
@@ -28,11 +28,11 @@ class Subtractor:
         self.options = options
 
     def begin(self, session, files):
-        cv2.setRNGSeed(1)  # the same for every camera: KNN throws dice
+        cv2.setRNGSeed(1)  # KNN draws random numbers: use the same ones for every camera
         kind, history = self.options.get("subtractor", "mog2"), self.options.get("history", HISTORY)
         self.subtractor, self.rate = SUBTRACTORS[kind](history=history), 1 / history
         if not self.options.get("empty_room", True):
-            self.rate = -1  # learns fast at first
+            self.rate = -1  # automatic: it learns fast at first
             return
         background = cv2.imread(os.path.join(files, session.background))
         self.subtractor.apply(background, learningRate=1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Finds the person in a picture: wherever the green differs by more than 24 levels from the empty room's."""
+"""Finds the person in a picture: the pixels whose green differs by more than 24 levels from the empty room."""
 import os
 import re
 from operator import sub
@@ -7,7 +7,7 @@ from operator import sub
 import etude
 
 MOST = 24
-CHANGED = bytes(abs(difference - 255) > MOST for difference in range(511))  # from -255 on
+CHANGED = bytes(abs(difference - 255) > MOST for difference in range(511))  # index 0 is the difference -255
 
 
 def read_green(path):

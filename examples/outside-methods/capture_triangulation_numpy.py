@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
-"""Capture as tools such as Pose2Sim do it (Pagnon, Domalain and Reveret 2022), on numpy's arrays: cameras by the direct linear
-transformation, every joint triangulated by itself, gaps bridged by straight lines, and a Butterworth low pass forwards and back.
+"""Captures motion as tools such as Pose2Sim do (Pagnon, Domalain and Reveret 2022), on numpy arrays. Cameras are
+calibrated by the direct linear transformation, each joint is triangulated alone, gaps are interpolated linearly, and a
+Butterworth low-pass filter runs forwards and backwards.
 
-Joints are where the annotator's strokes end. Options: `segmenter`, whose marks (the first); `cutoff_hz`, of the filter (6; 0: none);
-`order`, of the filter forwards and back, an even number (4).
+Joints lie at the ends of the annotator's strokes. Options: `segmenter`, the segmenter whose marks are used (the first);
+`cutoff_hz`, the cutoff frequency of the filter (6; 0 = no filter); `order`, the order of both passes together, an even
+number (4).
 """
 import etude
 import numpy as np
 
-SPINE = 0.45  # of the way from the hips' centre to the shoulders'
+SPINE = 0.45  # position of the spine between the hip centre (0) and the shoulder centre (1)
 
 
 def camera(points):
-    """The 3 × 4 matrix that takes points in metres to pixels: by at least six pairs, both sides scaled (Hartley and Zisserman,
-    algorithm 7.1 without its last step)."""
+    """Returns the 3 × 4 matrix that maps points in metres to pixels, from at least six normalised pairs (Hartley and
+    Zisserman, algorithm 7.1 without the final minimisation)."""
     world, pixels = np.array([p.world_m for p in points]), np.array([p.pixel for p in points])
 
     def scaled(at):
@@ -30,7 +32,8 @@ def camera(points):
 
 
 def triangulate(matrices, pixels):
-    """pixels: cameras × … × 2, NaN where a camera does not see; gives … × 3, NaN where fewer than two do."""
+    """Triangulates pixels, cameras × … × 2, NaN where a camera does not see the point. Returns … × 3, NaN where
+    fewer than two cameras see it."""
     rows = [row for matrix, seen in zip(matrices, pixels)
             for row in (seen[..., :1] * matrix[2] - matrix[0], seen[..., 1:] * matrix[2] - matrix[1])]
     rows = np.stack([row / np.linalg.norm(row[..., :3], axis=-1, keepdims=True) for row in rows], axis=-2)
@@ -40,7 +43,8 @@ def triangulate(matrices, pixels):
 
 
 def bridged(track):
-    """A track of frames × 3 without gaps: straight lines between, the nearest value before and behind; NaN when it is all gap."""
+    """Returns a track, frames × 3, with its gaps interpolated linearly, and with the nearest value before the first
+    and after the last point; NaN if the track has no point."""
     known = np.isfinite(track[:, 0])
     if not known.any():
         return track
@@ -49,11 +53,12 @@ def bridged(track):
 
 
 def low_pass(motion, rate_hz, cutoff_hz, order):
-    """Butterworth's filter over the first axis, forwards and back: sections of second order by the bilinear transformation,
-    the cutoff raised so that both passes together have it (Winter 2009); the ends are continued by point reflection."""
+    """Filters along the first axis with a Butterworth filter, forwards and backwards. The sections of second order
+    come from the bilinear transformation. The cutoff is raised, so that both passes together have the given one
+    (Winter 2009). The ends are extended by point reflection."""
     if not 0 < cutoff_hz < rate_hz / 2 or len(motion) < 4:
         return motion
-    sections = order // 4 or 1  # each pass has half of the order, each section two of it
+    sections = order // 4 or 1  # a pass has half of the order, a section the order two
     raised = cutoff_hz / (2 ** 0.5 - 1) ** (1 / (4 * sections))
     warped = np.tan(np.pi * min(raised / rate_hz, 0.49))
     pad = min(len(motion) - 1, 10)
@@ -81,9 +86,10 @@ class Triangulation:
         self.setting, self.options = setting, options
 
     def pixels(self, marks):
-        """Of one camera, frames × joints × 2: the mean of the strokes that end at a joint."""
+        """Returns the joints' pixels in one camera, frames × joints × 2: the mean of the ends of the strokes that
+        end at a joint."""
         joints = self.setting.joints
-        ends = np.full((len(marks), len(joints), 2, 2), np.nan)  # at most two strokes meet
+        ends = np.full((len(marks), len(joints), 2, 2), np.nan)  # at most two strokes end at a joint
         for frame, mark in enumerate(marks):
             for line, stroke in zip(self.setting.strokes, mark["strokes"] if mark else []):
                 if stroke:
@@ -93,7 +99,7 @@ class Triangulation:
         return np.where(known.any(axis=2), np.where(known, ends, 0).sum(axis=2) / np.maximum(known.sum(axis=2), 1), np.nan)
 
     def points(self, problem):
-        """The joints, frames × joints × 3, metres, without gaps."""
+        """Returns the joints, frames × joints × 3, metres, without gaps."""
         joints = self.setting.joints
         at = {name: joint for joint, name in enumerate(joints)}
         marks = problem.marks[self.options.get("segmenter", next(iter(problem.marks)))]

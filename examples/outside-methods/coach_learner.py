@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A learner in the coach's loop: does what the coach does a third of a second later, but leaves its arms hanging in every
-move that it has not been shown slowly. It never forgets, and never loses patience.
+"""A learner in the coach's loop. It does what the coach did a third of a second earlier, but leaves its arms hanging in
+every move that it has not been shown slowly. It never forgets, and never gives up.
 """
 from collections import deque
 
@@ -10,7 +10,7 @@ LAG = 10  # frames
 
 
 def hanging(pose, joints):
-    """The same body with both arms down along its sides."""
+    """Returns the pose with both arms hanging at the sides."""
     pose = list(pose)
     for side in ("left", "right"):
         chain = [joints.index(f"{side}_{joint}") for joint in ("shoulder", "elbow", "wrist", "hand")]

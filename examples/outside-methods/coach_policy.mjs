@@ -1,5 +1,5 @@
-// The policy of coach_policy.py in JavaScript, without any help: the protocol is a line of JSON each way
-// (docs/outside-methods.md).
+// The policy of coach_policy.py in JavaScript, without a helper library: the protocol is one line of JSON in each
+// direction (docs/outside-methods.md).
 import readline from "node:readline";
 
 const PROTOCOL = 1;

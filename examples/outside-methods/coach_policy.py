@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A policy in the coach's loop: a move that went wrong twice in a row is corrected, but after a correction the learner
-is left alone for three performances.
+"""A policy in the coach's loop: it corrects a move that went wrong twice in a row. After a correction it corrects
+nothing for three performances.
 """
 import etude
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A recogniser in the coach's loop: how well the angles of eight joints, as far as the window goes, correlate with the
-move asked for.
+"""A recogniser in the coach's loop. Its evidence is the correlation of the angles of eight joints, in the window so
+far, with the requested move.
 """
 import etude
 from detection_correlation import STRIDE, angles_of, normalised
@@ -27,7 +27,7 @@ class Correlation:
             self.rows.append(angles_of(seen.pose, self.joints))
             span = self.taught[self.move]
             rows = self.rows[-len(span):]
-            if len(rows) >= 0.9 * len(span):  # else too little of the move has been seen
+            if len(rows) >= 0.9 * len(span):  # otherwise too little of the move has been seen
                 alike = sum(x * y for x, y in zip(normalised(rows), normalised(span[-len(rows):])))
                 self.asked = max(self.asked, min(1.0, max(0.0, alike)))
         self.frame += 1

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Recognises moves by correlation: the angles of eight joints, as they run over one performance of a move, are laid
-along the learner's stream; where they correlate well enough, the move has been danced.
+"""Recognises moves by correlation. The angles of eight joints over one performance of a move are compared with every
+part of the learner's stream; where they correlate well enough, the learner has danced the move.
 """
 import math
 
 import etude
 
-# The angle at the middle joint.
+# Each triple gives the angle at its middle joint.
 ANGLES = [("shoulder_centre", "left_shoulder", "left_elbow"), ("left_shoulder", "left_elbow", "left_wrist"),
           ("shoulder_centre", "right_shoulder", "right_elbow"), ("right_shoulder", "right_elbow", "right_wrist"),
           ("hip_centre", "left_hip", "left_knee"), ("left_hip", "left_knee", "left_ankle"),
           ("hip_centre", "right_hip", "right_knee"), ("right_hip", "right_knee", "right_ankle")]
-ENOUGH = 0.75  # a correlation above it is a performance
-STRIDE = 3     # frames between the moments compared; ten a second are enough for a dance
+ENOUGH = 0.75  # a correlation of this or more is a performance
+STRIDE = 3     # every n-th frame is compared; ten frames a second are enough for a dance
 
 
 def angles_of(pose, joints):
@@ -30,7 +30,7 @@ def angles_of(pose, joints):
 
 
 def normalised(rows):
-    """One list of numbers, each angle about its mean over the rows, of length 1."""
+    """Returns all angles as one list of norm 1, each angle minus its mean over the rows."""
     means = [sum(column) / len(rows) for column in zip(*rows)]
     numbers = [x - m for row in rows for x, m in zip(row, means)]
     length = math.sqrt(sum(x * x for x in numbers)) or 1.0
@@ -42,7 +42,7 @@ class Correlation:
     def __init__(self, setting):
         self.joints, self.moves = setting.joints, {}
         for move in setting.moves:
-            if not move.poses:  # nobody else did it: nothing is known of it
+            if not move.poses:  # no other person has performed it, so nothing is known about it
                 continue
             step = STRIDE * move.rate_hz / 30
             count = int(len(move.poses) / step)
@@ -50,7 +50,7 @@ class Correlation:
 
     def answer(self, problem):
         rows = [angles_of(frame.pose, self.joints) for frame in problem.frames]
-        alike = {}  # by move: the frame at which a performance would end -> how well it correlates
+        alike = {}  # for each move: last frame of a possible performance -> correlation
         for move, taught in self.moves.items():
             span = STRIDE * (len(taught) // len(ANGLES))
             alike[move] = {start + span - 1: sum(x * y for x, y in
@@ -64,7 +64,7 @@ class Correlation:
             events.append({"right_at_frame": right[0] if right else None, "score": max(seen.values(), default=-1.0)})
         for move, found in alike.items():
             last = -math.inf
-            for end, value in sorted(found.items()):  # once per performance
+            for end, value in sorted(found.items()):  # raise one alarm per performance
                 if value >= ENOUGH and end - last > len(self.moves[move]) // len(ANGLES) * STRIDE / 2:
                     alarms.append({"move": move, "frame": end})
                     last = end

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Recognises moves by kernel ridge regression on numpy's arrays: what one trains in an afternoon on what `etude export` writes.
+"""Recognises moves by kernel ridge regression on numpy arrays, trained on data that `etude export` writes.
 
     etude export scenarios/full/rivals_detection.yaml -o data --seed 101 --trials 160      # people who are not judged
     python3 detection_kernel_numpy.py train data -o rival.npz
     python3 detection_kernel_numpy.py rival.npz                                            # what a scenario runs
 
-A performance is laid on the example moved in time as a whole, at the pace and lag that fit best. Measured is how far each limb is
-off, how it varies, and the clock; and all of that beyond what was usual of the same person in the session so far.
+A performance is aligned with the example by the pace and the lag that fit best. The measures are each limb's deviation
+from the example, its variation, and the timing; and then each of these minus what was usual for the same person earlier
+in the session.
 """
 import argparse
 import json
@@ -15,13 +16,13 @@ import sys
 
 import numpy as np
 
-SHARES = (np.arange(24) + 0.5) / 24        # of the example, at which it is compared
-LAGS_S = np.arange(-0.3, 1.21, 1 / 15)     # by which people may follow
-PACES = np.array([0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35])  # how much longer they may take
-PLAIN = 3                                  # of PACES: the example's own
-WIDTH, RIDGE = 0.5, 0.5                    # of the kernel and its ridge
-TRUST = 2                                  # performances after which half of what seems usual of a person is believed
-PRAISED = 0.9                              # of right performances, by the threshold
+SHARES = (np.arange(24) + 0.5) / 24        # positions in the example that are compared, as shares of its duration
+LAGS_S = np.arange(-0.3, 1.21, 1 / 15)     # allowed lags of a performance
+PACES = np.array([0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35])  # allowed durations, relative to the example's
+PLAIN = 3                                  # index of PACES: the example's own duration
+WIDTH, RIDGE = 0.5, 0.5                    # of the kernel, and of the ridge regression
+TRUST = 2                                  # after this many performances, a person's own median counts for half
+PRAISED = 0.9                              # share of right performances above the threshold
 
 
 class Body:
@@ -30,7 +31,8 @@ class Body:
         self.across = [(joints.index("left_" + part), joints.index("right_" + part)) for part in ("hip", "shoulder")]
 
     def limbs_of(self, poses, rate_hz):
-        """Frames × limbs × 3: where limbs point, seen by a body that faces one way; its heading is a second's mean."""
+        """Returns the directions of the limbs, frames × limbs × 3, relative to the body's heading, averaged over a
+        second."""
         poses = np.asarray(poses, dtype=float).reshape(len(poses), -1, 3)
         across = sum(poses[:, left] - poses[:, right] for left, right in self.across)[:, [0, 2]]
         frames = max(1, round(rate_hz))
@@ -43,7 +45,7 @@ class Body:
 
 
 def sampled(rows, at):
-    """Rows between rows, straight; beyond the ends the last."""
+    """Interpolates rows linearly at positions `at`; beyond the ends, returns the first or the last row."""
     at = np.clip(at, 0, len(rows) - 1)
     low = np.minimum(at.astype(int), max(len(rows) - 2, 0))
     part = (at - low).reshape(at.shape + (1,) * (rows.ndim - 1))
@@ -51,12 +53,12 @@ def sampled(rows, at):
 
 
 def measures(limbs, rate_hz, begin, end, example, example_s):
-    """What tells how one performance, in frames [begin, end), compares with the example."""
+    """Returns the measures of one performance, in frames [begin, end), against the example."""
     taught = sampled(example, SHARES * (len(example) - 1))
     starts, paces = LAGS_S[None, :, None], PACES[:, None, None]
     at = np.minimum(begin + (starts + SHARES * example_s * paces) * rate_hz, end - 1)
     gaps = ((sampled(limbs, at) - taught) ** 2).sum(axis=-1).mean(axis=-1)  # paces × lags × shares
-    unlikely = 0.01 * (LAGS_S - 0.2) ** 2 + 0.1 * np.log(PACES)[:, None] ** 2  # of fits alike the likelier one
+    unlikely = 0.01 * (LAGS_S - 0.2) ** 2 + 0.1 * np.log(PACES)[:, None] ** 2  # prefers usual lags and paces
     costs = gaps.mean(axis=-1)
     pace, lag = np.unravel_index(np.argmin(costs + unlikely), costs.shape)
     half = len(SHARES) // 2
@@ -67,15 +69,15 @@ def measures(limbs, rate_hz, begin, end, example, example_s):
     varies, shall_vary = ((about ** 2).sum(axis=-1).mean(axis=0) for about in (seen_about, taught_about))
     together = (seen_about * taught_about).sum(axis=-1).mean(axis=0)
     return np.concatenate([
-        np.sqrt(((seen - taught) ** 2).sum(axis=-1).mean(axis=0)),                    # off, a limb
-        np.sqrt(np.maximum(varies + shall_vary - 2 * together, 0)), np.sqrt(varies),  # about its mean
-        1 - (together + 0.02) / (shall_vary + 0.02),                                  # missing of the amplitude
+        np.sqrt(((seen - taught) ** 2).sum(axis=-1).mean(axis=0)),                    # deviation of each limb
+        np.sqrt(np.maximum(varies + shall_vary - 2 * together, 0)), np.sqrt(varies),  # variation about the mean
+        1 - (together + 0.02) / (shall_vary + 0.02),                                  # missing share of the amplitude
         [LAGS_S[lag], np.log(PACES[pace]), first, second, second - first, np.sqrt(costs.min()), np.sqrt(costs[PLAIN].min()),
          np.sqrt(gaps[PLAIN].min(axis=0).mean())]])
 
 
 class Eyes:
-    """Knows the moves, and what measures usually are."""
+    """Measures performances of known moves."""
 
     def __init__(self, joints, parents, moves):
         self.body = Body(joints, parents)
@@ -83,13 +85,14 @@ class Eyes:
                          for move in moves}
 
     def session(self, rate_hz, poses, events):
-        """Measures of each event, (move, begin, end); and those beyond the person's own before it, which nobody knows at first."""
+        """Returns the measures of each event, (move, begin, end)."""
         limbs = self.body.limbs_of(poses, rate_hz)
         return np.array([measures(limbs, rate_hz, begin, end, *self.examples[move]) for move, begin, end in events])
 
 
 def with_usual(own, usual):
-    """own: measures of a session's events, in time; usual: of people."""
+    """Returns the measures `own` of a session's events, in order of time, and beside them the same minus what is
+    usual: at first the median of all people, `usual`; later more and more the person's own median so far."""
     beyond = own - usual
     for i in range(len(own) - 1, 0, -1):
         beyond[i] -= i / (i + TRUST) * (np.median(own[:i], axis=0) - usual)
@@ -97,7 +100,7 @@ def with_usual(own, usual):
 
 
 def kernel(a, b):
-    """A Gaussian of each half of the measures, added."""
+    """Returns the sum of two Gaussian kernels, one for each half of the measures."""
     def gaussian(a, b):
         squares = (a ** 2).sum(axis=1)[:, None] + (b ** 2).sum(axis=1) - 2 * a @ b.T
         return np.exp(-WIDTH * squares / a.shape[1])
@@ -106,7 +109,7 @@ def kernel(a, b):
 
 
 def train(folders):
-    """Everything that the recogniser knows, out of exported folders."""
+    """Trains the recogniser on exported folders; returns its model."""
     own, right, sessions = [], [], []
     for folder in map(pathlib.Path, folders):
         for problem_file in sorted(folder.glob("inputs/*/*/*/problem.json")):
@@ -125,10 +128,10 @@ def train(folders):
     mean, scale = rows.mean(axis=0), rows.std(axis=0) + 1e-6
     rows = (rows - mean) / scale
     right, sessions = np.array(right), np.array(sessions)
-    share = np.where(right, right.mean(), 1 - right.mean())  # right and wrong weigh alike
+    share = np.where(right, right.mean(), 1 - right.mean())  # right and wrong performances have equal weight in total
     inverse = np.linalg.inv(kernel(rows, rows) + np.diag(2 * RIDGE * share))
     weights = inverse @ np.where(right, 1.0, -1.0)
-    # What each would have been given without its own session (the closed form of leaving a block out).
+    # Predict each session with a model trained without it (closed form of leave-one-block-out).
     left_out = np.where(right, 1.0, -1.0)
     for session in np.unique(sessions):
         block = sessions == session
@@ -158,7 +161,7 @@ def serve(file):
             rows = (with_usual(own, known["usual"]) - known["mean"]) / known["scale"]
             scores = kernel(rows, known["rows"]) @ known["weights"]
             return {"events": [{"right_at_frame": event.end_frame - 1 if score >= known["threshold"] else None, "score": float(score)}
-                               for event, score in zip(problem.events, scores)], "alarms": []}  # it spots nothing unasked
+                               for event, score in zip(problem.events, scores)], "alarms": []}  # it reports only requested moves
 
     etude.serve(Kernel)
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Inverse kinematics by damped least squares (Wampler 1986), in plain Python.
 
-Every step moves all angles by dq = (JᵀJ + λ²)⁻¹ Jᵀ e: e stacks what every effector lacks in position (metres) and
-rotation (radians), J tells how each angle moves it. Angles are kept within their limits, and a step that makes things
-worse is taken back and tried again with more damping (Levenberg 1944).
+Every step moves all angles by dq = (JᵀJ + λ²)⁻¹ Jᵀ e. Here e stacks the position errors (metres) and rotation errors
+(radians) of all effectors, and J is their Jacobian. Angles are kept within their limits. A step that increases the
+error is undone and tried again with more damping (Levenberg 1944).
 """
 import math
 
@@ -40,7 +40,8 @@ def axis_rotation(axis, angle):
 
 
 def forward(tree, root, angles):
-    """Places and rotations of all joints, and of every angle its joint's place and its axis in the world."""
+    """Returns the positions and rotations of all joints, and for every angle the position and the axis of its
+    rotation."""
     places, rotations, pivots = [], [], []
     for joint in tree["joints"]:
         if joint["parent"] is None:
@@ -59,7 +60,8 @@ def forward(tree, root, angles):
 
 
 def lacking(tree, targets, places, rotations):
-    """Six numbers per effector: from where it is to where it shall be; for small angles, the turn that is missing."""
+    """Returns six errors per effector: the way to its target, and the rotation vector to its target, for small
+    angles."""
     lacks = []
     for effector, target in zip(tree["effectors"], targets):
         rotation = rotations[effector["joint"]]
@@ -72,14 +74,14 @@ def lacking(tree, targets, places, rotations):
 
 
 def only_asked(tree, numbers):
-    """A world may ask for positions only, or for rotations only: the other three numbers of an effector are zero."""
+    """Sets the errors to zero that the world does not ask for: it may ask for positions only, or for rotations only."""
     names = tree.get("asked", ["position", "orientation"])
     asked = 3 * ["position" in names] + 3 * ["orientation" in names]
     return [number if asked[i % 6] else 0 for i, number in enumerate(numbers)]
 
 
 def moved_by(tree, affects, places, rotations, pivots):
-    """The Jacobian, one row per angle: how the six numbers of every effector change with it."""
+    """Returns the Jacobian, one row per angle: the change of the six numbers of every effector."""
     rows = []
     for angle, (pivot, axis) in enumerate(pivots):
         row = []
@@ -91,7 +93,7 @@ def moved_by(tree, affects, places, rotations, pivots):
 
 
 def solve(matrix, right):
-    """Gauss's elimination of a symmetric, positive definite system."""
+    """Solves a symmetric, positive definite system by Gaussian elimination."""
     n = len(right)
     rows = [row + [value] for row, value in zip(matrix, right)]
     for i in range(n):
@@ -117,7 +119,8 @@ def is_solved(tree, lacks):
 
 
 def prepare(setting, options):
-    """The setting, and which angles move which effector: those of its joint and of the joints above it."""
+    """Stores the setting, and finds the angles that move each effector: those of its joint and of the joints above
+    it."""
     tree = {**setting, "max_steps": min(setting["max_steps"], options.get("max_steps", 100)), "affects": []}
     for effector in tree["effectors"]:
         moves, joint = [False] * len(tree["angles"]), effector["joint"]
@@ -150,7 +153,7 @@ def answer(tree, problem):
         else:
             damping *= 4
     degrees = [math.degrees(a) for a in angles]
-    # Converting to degrees and back may step over a limit by the last digit.
+    # Converting to degrees and back may exceed a limit by a rounding error.
     degrees = [min(max(d, a["lower_deg"]), a["upper_deg"]) for d, a in zip(degrees, tree["angles"])]
     return {"angles_deg": degrees, "iterations": steps, "fk_evaluations": steps + 1}
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Inverse kinematics by Levenberg and Marquardt's method on numpy's dense arrays: what one writes in Python in an afternoon.
+"""Inverse kinematics by the Levenberg–Marquardt method on dense numpy arrays.
 
-All effectors' errors are stacked (metres, radians); each step solves (JᵀJ + λ diag JᵀJ) dq = Jᵀ e (Marquardt 1963). Angles that
-a step drives against their limits are held there and the step is taken without them.
+All effectors' errors are stacked (metres, radians); each step solves (JᵀJ + λ diag JᵀJ) dq = Jᵀ e (Marquardt 1963). If
+a step drives angles beyond their limits, these angles stay at the limits, and the step is computed again for the other
+angles.
 """
 import etude
 import numpy as np
@@ -39,7 +40,7 @@ class LevenbergMarquardt:
         self.goals = setting.position_goal_cm / 100, np.radians(setting.orientation_goal_deg)
 
     def look(self, root, targets, angles):
-        """What the effectors lack (effectors × 6), and how each angle changes what they have (effectors × 6 × angles)."""
+        """Returns the effectors' errors (effectors × 6) and their Jacobian (effectors × 6 × angles)."""
         places, turns, pivots, axes = [], [], np.empty((len(angles), 3)), np.empty((len(angles), 3))
         for joint, offset, rest in zip(self.setting.joints, self.offsets, self.rests):
             if joint.parent is None:

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Fills gaps with a network. The option `weights` names its file, absolute or beside this program: NumPy's .npz with w0,
-b0, w1, b1, … (tanh between layers), or .onnx (needs onnxruntime). Without it, a tiny network is made and used.
+"""Fills gaps with a network. The option `weights` names its file, absolute or beside this program: NumPy's .npz with
+w0, b0, w1, b1, … (tanh between layers), or .onnx (needs onnxruntime). Without it, a tiny network is trained and used.
 
     inbetween_network_numpy.py --make tiny.npz
 
-For each joint and frame, the network is given 7 numbers: the share s of the gap; where the velocity before the gap would
-lead by its end; and the way to the frame after it (rotation vectors in radians; for the root's place, metres). It returns
-3: the detour from the straight way, divided by s(1 - s). So it serves every skeleton.
+For each joint and frame, the network gets 7 numbers: the position s in the gap, 0…1; the change over the whole gap at
+the velocity before it; and the change to the frame after the gap (rotation vectors in radians; metres for the root's
+position). It returns 3 numbers: the deviation from the straight line, divided by s(1 - s). The network fits every
+skeleton, because it treats each joint alone.
 """
 import pathlib
 import sys
@@ -16,11 +17,11 @@ import numpy as np
 
 
 def make_tiny(hidden=64, examples=4000):
-    """A network that has learnt random cubics: a random layer, and one fitted by least squares."""
+    """Returns a network that has learnt random cubics: a random layer, and a layer fitted by least squares."""
     dice = np.random.default_rng(1)
     x = np.hstack([dice.uniform(0, 1, (examples, 1)), dice.normal(0, 1, (examples, 6))])
     s, leave, way = x[:, :1], x[:, 1:4], x[:, 4:]
-    wanted = (1 - s) * (leave - way)  # the cubic that leaves with this velocity and arrives with the mean one
+    wanted = (1 - s) * (leave - way)  # a cubic that begins with the velocity `leave` and ends with the mean velocity
     w0, b0 = dice.normal(0, 0.3, (7, hidden)), dice.normal(0, 0.3, hidden)
     seen = np.hstack([np.tanh(x @ w0 + b0), np.ones((examples, 1))])
     w1 = np.linalg.lstsq(seen, wanted, rcond=None)[0]
@@ -46,14 +47,14 @@ def load(path):
 
 
 def times(a, b):
-    """Products of quaternions (w, x, y, z)."""
+    """Multiplies quaternions (w, x, y, z)."""
     (aw, ax, ay, az), (bw, bx, by, bz) = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
     return np.stack([aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
                      aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw], -1)
 
 
 def vectors(turns):
-    """Rotation vectors of quaternions, at most half a turn long."""
+    """Returns the rotation vectors of quaternions; their lengths are at most π."""
     turns = turns * np.where(turns[..., :1] < 0, -1, 1)
     sine = np.linalg.norm(turns[..., 1:], axis=-1, keepdims=True)
     return turns[..., 1:] * np.where(sine < 1e-9, 2, 2 * np.arctan2(sine, turns[..., :1]) / np.maximum(sine, 1e-9))
@@ -75,7 +76,7 @@ class Network:
         before, last, after = past[-2], past[-1], future[0]
         turns = last[3:].reshape(-1, 4)
         back = turns * [1, -1, -1, -1]
-        # Each row is the root's place, or a joint relative to its last past rotation.
+        # Each row is the root's position, or a joint's rotation relative to that in the last past frame.
         relative = [np.vstack([pose[:3] - last[:3], vectors(times(back, pose[3:].reshape(-1, 4)))]) for pose in (before, after)]
         leave, way = -relative[0] * (problem.gap + 1), relative[1]
         frames = []

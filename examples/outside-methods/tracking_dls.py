@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Follows a motion by damped least squares: every frame begins at the answer to the one before."""
+"""Follows a motion by damped least squares: every frame starts from the answer to the frame before."""
 import etude
 import ik_dls
 

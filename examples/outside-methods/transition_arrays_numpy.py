@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Two joins of motion as numpy's arrays: what one writes in Python in an afternoon. The wanted clip begins at once.
+"""Two joins of clips on numpy arrays. The wanted clip begins at once.
 
-Options: `join`, "crossfade" (both clips go on, positions mixed by a smoothed step) or "inertialisation" (the new clip is shown,
-and what the old one was off dies away by a quintic: Bollo 2016); `blend_s`, over which (0.33). Mixed positions change the
-lengths of limbs: they are set right from the hip centre outwards.
+Options: `join`, "crossfade" (both clips continue, and a smoothstep blends their positions) or "inertialisation" (the
+new clip is shown, and its offset from the old clip decays by a quintic: Bollo 2016); `blend_s`, the blend length in
+seconds (0.33). Blended positions change the lengths of limbs; these are corrected from the hip centre outwards.
 """
 import etude
 import numpy as np
 
 
 def placed(poses, frame, onto, hips):
-    """The poses turned about the vertical and moved on the floor, so that `frame` lies on the pose `onto`: hip centre over
-    hip centre, heading on heading. hips: the indices of hip centre, left and right hip."""
+    """Returns the poses rotated about the vertical and moved on the floor, so that pose `frame` has the heading of
+    the pose `onto` and its hip centre's place on the floor. hips: the indices of hip centre, left and right hip."""
     centre, left, right = hips
 
     def heading(pose):
@@ -27,18 +27,18 @@ def placed(poses, frame, onto, hips):
 
 
 def crossfade(old, new, _, t):
-    """Frames × joints × 3 of both clips, t of each frame in 0…1."""
+    """Blends the two clips, each frames × joints × 3; t is each frame's position in the blend, 0…1."""
     weight = (t * t * (3 - 2 * t))[:, None, None]
     return (1 - weight) * old + weight * new
 
 
 def inertialisation(_, new, lag, t):
-    """lag: how far the old clip is off from the new one in the frame before, and where they change, 2 × joints × 3; with the
-    seconds between and those of the blend."""
+    """lag: the offsets of the old clip from the new one, 2 × joints × 3, in the frame before the change and at the
+    change; the seconds between these frames; and the blend length in seconds."""
     offsets, frame_s, blend_s = lag
     x0 = np.linalg.norm(offsets[1], axis=-1)
     along = offsets[1] / np.maximum(x0, 1e-9)[:, None]
-    v0 = np.minimum((x0 - (offsets[0] * along).sum(axis=-1)) / frame_s, 0)  # what would grow at first shall not
+    v0 = np.minimum((x0 - (offsets[0] * along).sum(axis=-1)) / frame_s, 0)  # no offset may grow at first
     end = np.minimum(blend_s, np.where(v0 < 0, -5 * x0 / np.where(v0 < 0, v0, 1), blend_s)) + 1e-9
     a0 = np.maximum((-8 * v0 * end - 20 * x0) / end ** 2, 0)
     a = -(a0 * end ** 2 + 6 * v0 * end + 12 * x0) / (2 * end ** 5)
@@ -65,7 +65,7 @@ class Arrays:
                         for joint, parent in enumerate(self.parents)]
 
     def with_limbs(self, poses):
-        """The poses with every limb as long as the character's."""
+        """Returns the poses with the limb lengths of the character."""
         fixed = poses.copy()
         for joint, parent in enumerate(self.parents):
             if parent is not None:

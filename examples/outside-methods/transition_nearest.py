@@ -1,21 +1,22 @@
 #!/usr/bin/env python3
-"""Goes over where the two clips look most alike: of all pairs of a frame that clip `from` shows soon enough and a frame
-of clip `to`, the pair with the smallest distance between poses (as in motion graphs: Kovar, Gleicher, Pighin 2002).
+"""Changes clips where they look most alike. Candidates are all pairs of a frame that clip `from` shows soon enough and
+a frame of clip `to`; it takes the pair with the smallest distance between poses (as in motion graphs: Kovar, Gleicher,
+Pighin 2002).
 
-Poses are compared as Etude lays them on each other: hip centre over hip centre on the floor, heading on heading.
+Before poses are compared, they are aligned as Etude aligns them: by hip centre on the floor, and by heading.
 """
 import math
 
 import etude
 
-LOOK_AHEAD = 2  # poses this many frames later are compared as well, so that the motions agree and not only the poses
+LOOK_AHEAD = 2  # poses this many frames later are compared too, so that not only poses but also velocities agree
 
 
 def laid_down(pose, joints):
-    """The pose with its hip centre over the origin, facing along z."""
+    """Returns the pose with its hip centre above the origin, facing along z."""
     at = {name: 3 * i for i, name in enumerate(joints)}
     x0, z0 = pose[at["hip_centre"]], pose[at["hip_centre"] + 2]
-    # From the right hip to the left one is the body's own x axis.
+    # The body's x axis points from the right hip to the left hip.
     dx = pose[at["left_hip"]] - pose[at["right_hip"]]
     dz = pose[at["left_hip"] + 2] - pose[at["right_hip"] + 2]
     length = math.hypot(dx, dz) or 1.0

@@ -15,7 +15,7 @@ def mpjpe(cell, setting):
     joints = len(setting.joints)
     total = 0.0
     for pose, true_pose in zip(found, truth):
-        of_pose = 0.0  # not sum(), which rounds otherwise since Python 3.12
+        of_pose = 0.0  # not sum(), which rounds differently since Python 3.12
         for joint in range(joints):
             of_pose += distance(pose, true_pose, joint)
         total += 1000 * of_pose / joints

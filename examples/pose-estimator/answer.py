@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""A neural estimator as a method without marks: an exported data set in, answers for `etude score` out.
+"""Answers an exported data set with a neural estimator, which needs no marks.
 
     etude export SCENARIO -o DATA
     answer.py DATA ANSWERS [--cameras N]
     etude score DATA ANSWERS -o RESULT --name movenet
 
-Cameras are calibrated from the problem's own point pairs (DLT), each of twelve joints is triangulated from all pictures,
-weighed by the estimator's scores, and filled over time where fewer than two cameras are sure of it; hands, feet, head and
-spine hang from the twelve by the limb lengths that every method is told. What the estimator said is kept in
-ANSWERS/.keypoints: with that, answers are made anew without it. The truth is not read.
+Cameras are calibrated from the problem's own point pairs (DLT). Each of twelve joints is triangulated from all
+pictures, weighted by the estimator's scores; where fewer than two cameras are sure of it, it is interpolated over time.
+Hands, feet, head and spine are placed from the twelve by the limb lengths that every method gets. The estimator's
+keypoints are kept in ANSWERS/.keypoints; later calls reuse them. The truth is not read.
 """
 
 import argparse
@@ -19,15 +19,15 @@ import subprocess
 import numpy as np
 
 HERE = pathlib.Path(__file__).parent
-SURE = 0.2  # keypoints below are passed over
+SURE = 0.2  # keypoints with a lower score are ignored
 COCO = {"left_shoulder": 5, "right_shoulder": 6, "left_elbow": 7, "right_elbow": 8, "left_wrist": 9, "right_wrist": 10,
         "left_hip": 11, "right_hip": 12, "left_knee": 13, "right_knee": 14, "left_ankle": 15, "right_ankle": 16}
 EARS = (3, 4)
-SPINE = 0.45  # of the way up the trunk
+SPINE = 0.45  # position of the spine between the hip centre (0) and the shoulder centre (1)
 
 
 def calibrate(pairs):
-    """The 3 × 4 matrix that shows world points at their pixels: least squares after Hartley's normalisation."""
+    """Returns the 3 × 4 matrix that maps world points to pixels, by least squares after Hartley's normalisation."""
     world = np.array([pair["world_m"] for pair in pairs], float)
     pixels = np.array([pair["pixel"] for pair in pairs], float)
 
@@ -49,7 +49,8 @@ def calibrate(pairs):
 
 
 def triangulate(matrices, seen):
-    """The point of least weighted distances in the pictures (its rows over their depths, three rounds), or None."""
+    """Returns the point with the least weighted pixel distances (linear; three rounds divide its rows by depth), or
+    None."""
     sure = [(matrix, u, v, score) for matrix, (u, v, score) in zip(matrices, seen) if score >= SURE]
     if len(sure) < 2:
         return None
@@ -69,7 +70,8 @@ def triangulate(matrices, seen):
 
 
 def fill(track):
-    """Straight between the frames that have a point, held before and after; None when none has."""
+    """Interpolates linearly between frames with a point, and repeats the first and the last one; None without a
+    point."""
     known = [k for k, point in enumerate(track) if point is not None]
     if not known:
         return None
@@ -78,7 +80,7 @@ def fill(track):
 
 
 def body(joints, ears, lengths):
-    """All twenty places, frames × 3 each, by name."""
+    """Returns the positions of all twenty joints by name, frames × 3 each."""
     def unit(v):
         return v / np.maximum(np.linalg.norm(v, axis=1, keepdims=True), 1e-9)
 
@@ -100,14 +102,14 @@ def body(joints, ears, lengths):
 
 
 def unpack(folder):
-    """Makes the pictures of an exported take, the frames of its lossless films: camera-1-0000.png, …."""
+    """Writes the frames of an exported take's lossless films as pictures: camera-1-0000.png, …."""
     for film in folder.glob("camera-*.mkv"):
         subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", film, "-start_number", "0",
                         folder / f"{film.stem}-%04d.png"], check=True)
 
 
 def estimate(folder, problem):
-    """Seventeen [u, v, score] of every picture, by its name."""
+    """Returns seventeen keypoints [u, v, score] for every picture, by the picture's name."""
     unpack(folder)
     pictures = [str(folder / name) for camera in problem["cameras"] for name in camera["pictures"]]
     return json.loads(subprocess.run(["node", HERE / "estimate.mjs", *pictures], check=True, stdout=subprocess.PIPE).stdout)

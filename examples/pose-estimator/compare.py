@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""How hard pictures are for a neural estimator: rendered ones, by scenario's condition, beside real ones.
+"""Measures how hard pictures are for a neural estimator: rendered pictures, by condition of a scenario, and real ones.
 
     etude export SCENARIO -o DATA
     compare.py --export DATA [--real FOLDER --calibration FILE.toml --reference FILE.trc] [--estimate]
 
-A line per condition, and one for the real pictures: how many have a person, how sure the estimator is, and how far its
-twelve limb joints lie from the truth (rendered) or from the reference of several cameras (real), in per cent of the
-body's height in the picture. Real pictures are called NAME-FRAME.png, NAME a camera of the calibration file (Pose2Sim's
-TOML), FRAME counted from 0; --stored NAME=SCALE,LEFT,TOP where they are stored otherwise than calibrated.
+Prints one line per condition, and one for the real pictures: the share in which a person is found, the estimator's mean
+score, and the distances of its twelve limb joints from the truth (rendered) or from a reference by several cameras
+(real), in per cent of the body's height in the picture. Real pictures are called NAME-FRAME.png: NAME is a camera of
+the calibration file (Pose2Sim's TOML), FRAME counts from 0. --stored NAME=SCALE,LEFT,TOP says how a camera's pictures
+were scaled and shifted after the calibration.
 """
 
 import argparse
@@ -24,22 +25,23 @@ import numpy as np
 from answer import unpack
 
 HERE = pathlib.Path(__file__).parent
-SURE = 0.3      # a person is there when the twelve joints' mean score reaches this
-NEAR = 5        # per cent of the body's height
+SURE = 0.3      # a person is found if the twelve joints' mean score reaches this
+NEAR = 5        # a joint is near if its distance is at most this, per cent of the body's height
 
-# COCO's number: role in Etude, marker of the reference
+# Index in COCO: (role in Etude, marker of the reference).
 JOINTS = {5: ("left_shoulder", "LShoulder"), 6: ("right_shoulder", "RShoulder"), 7: ("left_elbow", "LElbow"),
           8: ("right_elbow", "RElbow"), 9: ("left_wrist", "LWrist"), 10: ("right_wrist", "RWrist"),
           11: ("left_hip", "LHip"), 12: ("right_hip", "RHip"), 13: ("left_knee", "LKnee"),
           14: ("right_knee", "RKnee"), 15: ("left_ankle", "LAnkle"), 16: ("right_ankle", "RAnkle")}
 COLUMNS = list(JOINTS)
-# From the head down one leg: a body's height, as both kinds of truth can tell it.
+# A body's height is the length of the chain from the head down one leg, which both kinds of truth contain.
 ROLES_DOWN = ["head", "shoulder_centre", "spine", "hip_centre", "left_hip", "left_knee", "left_ankle"]
 MARKERS_DOWN = ["Head", "Neck", "Hips", "LHip", "LKnee", "LAnkle"]
 
 
 class Camera:
-    """OpenCV's pinhole camera; pixels have their corner at (0, 0) when `half` is 0.5."""
+    """OpenCV's pinhole camera. The corner of the first pixel is (0, 0) if `half` is 0.5; its centre is (0, 0) if
+    `half` is 0."""
 
     def __init__(self, matrix, distortion, rotation, translation, half=0.0):
         self.matrix = np.array(matrix, float).reshape(3, 3)
@@ -50,7 +52,7 @@ class Camera:
         self.half = half
 
     def project(self, points):
-        """Pixels and depths of points (n × 3)."""
+        """Returns the pixels and depths of points (n × 3)."""
         seen = points @ self.rotation.T + self.translation
         x, y = seen[:, 0] / seen[:, 2], seen[:, 1] / seen[:, 2]
         k1, k2, p1, p2, k3 = self.distortion
@@ -63,7 +65,7 @@ class Camera:
 
 
 def rotation_of(vector):
-    """Rodrigues' formula."""
+    """Returns the rotation matrix of a rotation vector (Rodrigues' formula)."""
     vector = np.array(vector, float)
     angle = np.linalg.norm(vector)
     if angle == 0:
@@ -91,7 +93,7 @@ def read_toml(path):
 
 
 def read_trc(path):
-    """Markers by name, frames × 3, in the cameras' world: the file has Y up, the cameras have Z up."""
+    """Returns the markers by name, frames × 3, in the cameras' world: the file has Y up, the cameras have Z up."""
     lines = path.read_text().splitlines()
     names = [name for name in lines[3].split("\t")[2:] if name.strip()]
     values = np.array([[float(cell) for cell in line.split("\t")[2:2 + 3 * len(names)]] for line in lines[5:] if line.strip()])
@@ -101,7 +103,7 @@ def read_trc(path):
 
 
 def height_of(chain):
-    """Median over frames of the way along the chain (a list of frames × 3), metres."""
+    """Returns the median length of a chain over frames, metres; the chain is a list of positions, frames × 3 each."""
     return float(np.median(sum(np.linalg.norm(b - a, axis=1) for a, b in zip(chain, chain[1:]))))
 
 
@@ -110,7 +112,7 @@ class Figures:
         self.people, self.scores, self.errors = [], [], []
 
     def add(self, keypoints, camera, points, height, stored=(1, 0, 0)):
-        """One picture: what was found, and the twelve true points."""
+        """Adds one picture: the keypoints found in it, and the twelve true points."""
         found = np.array(keypoints)[COLUMNS]
         pixels, depths = camera.project(points)
         scale, left, top = stored

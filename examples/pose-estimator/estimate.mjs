@@ -8,7 +8,7 @@ import {PNG} from 'pngjs';
 
 import {MoveNet} from './movenet.mjs';
 
-const CENTRE = 0.5;  // COCO counts from the first pixel's centre, MoveNet here from its corner
+const CENTRE = 0.5;  // MoveNet counts pixels from the first pixel's corner, COCO from its centre
 
 const isCoco = process.argv[2] === '--coco';
 const pictures = process.argv.slice(isCoco ? 3 : 2);

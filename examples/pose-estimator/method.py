@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""The neural estimator as a method that Etude asks, behind its fence (docs/outside-methods.md):
+"""The neural estimator as an outside method, which Etude runs in its fence (docs/outside-methods.md):
 
     - {name: movenet, exec: [/usr/bin/python3, examples/pose-estimator/method.py], time_s: 120}
 
-Options: `cameras`, the first so many of each problem's cameras alone (all).
+Options: `cameras`, the number of each problem's cameras that are used, from the first on (all).
 """
 import pathlib
 

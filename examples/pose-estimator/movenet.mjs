@@ -1,5 +1,5 @@
 // MoveNet Lightning (Google, Apache-2.0), a neural estimator of one person's 17 COCO keypoints, on the CPU without a
-// browser. The weights are those in the npm package @vladmandic/human.
+// browser. The weights are in the npm package @vladmandic/human.
 import fs from 'node:fs';
 import {fileURLToPath} from 'node:url';
 
@@ -8,10 +8,10 @@ import {loadGraphModel} from '@tensorflow/tfjs-converter';
 import * as tf from '@tensorflow/tfjs-core';
 
 const INPUT_SIZE = 192;
-const LEAST_SCORE = 0.2;     // of a keypoint that may say where the person is
-const TRUNK_MARGIN = 1.9;    // the crop's half side over the trunk's reach from the hips
-const BODY_MARGIN = 1.2;     // … and over that of all keypoints seen
-const SMALLEST_CROP = 32;    // pixels
+const LEAST_SCORE = 0.2;     // minimum score of a keypoint that helps to locate the person
+const TRUNK_MARGIN = 1.9;    // half the crop's side ÷ the trunk's largest distance from the hips
+const BODY_MARGIN = 1.2;     // half the crop's side ÷ the largest distance of any seen keypoint from the hips
+const SMALLEST_CROP = 32;    // minimum side of the crop, pixels
 const SHOULDERS = [5, 6], HIPS = [11, 12];
 
 const folderOf = (name) => fileURLToPath(new URL(`node_modules/${name}`, import.meta.url));
@@ -22,7 +22,7 @@ const wholeOf = (picture) => {
   return {u: (picture.width - side) / 2, v: (picture.height - side) / 2, side};
 };
 
-/** INPUT_SIZE × INPUT_SIZE × 3 numbers: every one the mean of the pixels beneath it, black outside the picture. */
+/** Returns INPUT_SIZE × INPUT_SIZE × 3 numbers: each is the mean of the pixels that it covers, 0 outside the image. */
 function resample(picture, square) {
   const values = new Int32Array(INPUT_SIZE * INPUT_SIZE * 3);
   const step = square.side / INPUT_SIZE, samples = Math.max(2, Math.ceil(step));
@@ -48,8 +48,8 @@ function resample(picture, square) {
 }
 
 /**
- * The square about a person whose trunk is seen, the hips in its middle: as MoveNet's makers crop
- * ("determine_crop_region" of their tutorial), so that limbs that were not found are within. The whole picture when no
+ * Returns the square around a person whose trunk is seen, with the hips in its middle, as MoveNet's authors crop
+ * ("determine_crop_region" of their tutorial); it also holds limbs that were not found. Returns the whole picture if no
  * shoulder or no hip is seen.
  */
 function squareAround(keypoints, picture) {
@@ -82,8 +82,9 @@ export class MoveNet {
   }
 
   /**
-   * The 17 keypoints in COCO's order as [u, v, score]: pixels from the top left corner, 0…1. Found in the whole
-   * picture, then once more in the square around the person; the surer of both. Pictures are independent of each other.
+   * Returns the 17 keypoints in COCO's order as [u, v, score]: pixels from the top left corner, and 0…1. They are found
+   * in the whole picture, then once more in the square around the person; the result with the higher score is returned.
+   * Pictures are independent of each other.
    * @param picture {width, height, data}, data four bytes a pixel (RGBA)
    */
   estimate(picture) {

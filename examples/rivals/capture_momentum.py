@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Momentum (Meta, MIT) as a method of task capture: a body of twenty joints, fitted to triangulated joints frame by
-frame by its Gauss–Newton solver, with its Python package `pymomentum` (`geometry`, `solver2`).
+"""Momentum (Meta, MIT) as a method of the task capture. Its Python package `pymomentum` (`geometry`, `solver2`) fits a
+body of twenty joints to triangulated joints, frame by frame, with Momentum's Gauss–Newton solver.
 
-Joints are triangulated as in `capture_triangulation_numpy.py`, without its filter. Bones have their median lengths.
-Momentum counts in centimetres. Options: `segmenter`, whose marks (the first); `iterations` of each frame (30);
-`regularization` (1e-5).
+Joints are triangulated as in `capture_triangulation_numpy.py`, but not filtered. Bones have their median lengths.
+Momentum's unit is the centimetre. Options: `segmenter`, the segmenter whose marks are used (the first); `iterations` of
+each frame (30); `regularization` (1e-5).
 """
 import pathlib
 import sys
@@ -16,11 +16,12 @@ sys.path.insert(1, str(pathlib.Path(__file__).parents[1] / "outside-methods"))
 from capture_triangulation_numpy import Triangulation  # noqa: E402
 
 CM = 100
-PER_JOINT = 7  # Momentum's numbers of a joint: three translations, three rotations, a scale
+PER_JOINT = 7  # parameters of a joint in Momentum: three translations, three rotations, a scale
 
 
 def character_of(geometry, joints, parents, points):
-    """The body of a person whose joints lie at `points`, frames × joints × 3 in cm. It rests in the first pose."""
+    """Returns the body of a person whose joints are at `points`, frames × joints × 3 in cm. The first pose is its
+    rest pose."""
     bones = []
     for number, name in enumerate(joints):
         parent = joints.index(parents[number]) if parents[number] else -1
@@ -30,7 +31,7 @@ def character_of(geometry, joints, parents, points):
         bones.append(geometry.Joint(name=name, parent=parent, pre_rotation=np.array([0, 0, 0, 1], np.float32),
                                     translation_offset=offset.astype(np.float32)))
     skeleton = geometry.Skeleton(joint_list=bones)
-    # The parameters: where the root is, and three rotations of every joint that has a child.
+    # The parameters are the root's position, and three rotations of every joint that has a child.
     numbers = [(f"{joints[0]}_t{axis}", k) for k, axis in enumerate("xyz")]
     numbers += [(f"{name}_r{axis}", PER_JOINT * number + 3 + k) for number, name in enumerate(joints) if name in parents
                 for k, axis in enumerate("xyz")]

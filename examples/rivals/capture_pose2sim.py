@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Pose2Sim (Pagnon, Domalain and Reveret 2022) as a method of task capture: its own triangulation and filter, by its
-documented calls `Pose2Sim.triangulation(config)` and `Pose2Sim.filtering(config)`, from the annotator's marks.
+"""Pose2Sim (Pagnon, Domalain and Reveret 2022) as a method of the task capture. It runs Pose2Sim's triangulation and
+filter, by the documented calls `Pose2Sim.triangulation(config)` and `Pose2Sim.filtering(config)`, on the annotator's
+marks.
 
-The marks become HALPE_26 keypoints in OpenPose's JSON files, the clicked points a calibration in its TOML; its TRC file
-becomes the poses. Hands, which HALPE_26 lacks, hang from the forearms. Options: `segmenter`, whose marks (the first);
-`config`, settings of Pose2Sim that replace ours, such as `{filtering: {type: kalman}}`.
+The marks are written as HALPE_26 keypoints in OpenPose's JSON files, and the clicked points as a calibration in
+Pose2Sim's TOML. Pose2Sim's TRC file gives the poses. HALPE_26 has no hands; they extend the forearms. Options:
+`segmenter`, the segmenter whose marks are used (the first); `config`, settings of Pose2Sim that replace ours, such as
+`{filtering: {type: kalman}}`.
 """
 import contextlib
 import json
@@ -29,7 +31,7 @@ NAMES = {"left_foot": "LBigToe", "right_foot": "RBigToe", "head": "Head", "shoul
 
 
 def decomposed(matrix):
-    """Intrinsic matrix, rotation vector and translation of a 3 × 4 camera matrix (RQ decomposition)."""
+    """Returns the intrinsic matrix, rotation vector and translation of a 3 × 4 camera matrix (RQ decomposition)."""
     flip = np.eye(3)[::-1]
     q, r = np.linalg.qr((flip @ matrix[:, :3]).T)
     inside, rotation = flip @ r.T @ flip, flip @ q.T
@@ -47,7 +49,7 @@ def decomposed(matrix):
 
 
 def calibration(cameras, size):
-    """Pose2Sim's calibration file. Its world has Z up: x, y, z are z, x, y of ours."""
+    """Returns Pose2Sim's calibration file. Its world has Z up: its x, y, z are our z, x, y."""
     text = ""
     for number, points in enumerate(cameras, 1):
         inside, rotation, translation = decomposed(camera(points) @ np.array(
@@ -59,7 +61,7 @@ def calibration(cameras, size):
 
 
 def write_keypoints(folder, name, pixels, joints):
-    """pixels: frames × joints × 2 of one camera; a missing keypoint has the likelihood 0."""
+    """Writes one camera's keypoints; pixels: frames × joints × 2. A missing keypoint gets the likelihood 0."""
     folder.mkdir(parents=True)
     for frame, seen in enumerate(pixels):
         numbers = np.zeros((26, 3))
@@ -72,7 +74,7 @@ def write_keypoints(folder, name, pixels, joints):
 
 
 def read_trc(path):
-    """Positions of each marker by its name: {frame: [x, y, z]}."""
+    """Returns the positions of each marker by its name: {frame: [x, y, z]}."""
     lines = path.read_text().splitlines()
     markers = [name for name in lines[3].split("\t")[2:] if name]
     found = {name: {} for name in markers}
@@ -115,7 +117,7 @@ class Pose2SimMethod(Triangulation):
                 "filtering": {"display_figures": False, "save_filt_plots": False, "make_c3d": False},
                 "logging": {"use_custom_logging": True}}, self.options.get("config", {}))
             before = os.getcwd()
-            os.chdir(project)  # it looks for the folder "calibration" here
+            os.chdir(project)  # Pose2Sim looks for the folder "calibration" here
             try:
                 Pose2Sim.triangulation(config)
                 Pose2Sim.filtering(config)

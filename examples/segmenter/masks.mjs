@@ -10,9 +10,9 @@ import {PNG} from 'pngjs';
 
 import {Segmenter} from './segmenter.mjs';
 
-/** The pictures of a film, three bytes a pixel, as ffmpeg decodes them: every frame once, turned upright. */
+/** Yields the pictures of a film, three bytes a pixel, as ffmpeg decodes them: every frame once, rotated upright. */
 async function* picturesOf(film) {
-  // ffmpeg itself says the size after turning: the first frame as a PNG.
+  // ffmpeg tells the size after rotation: decode the first frame as a PNG.
   const first = spawnSync('ffmpeg', ['-v', 'error', '-i', film, '-frames:v', '1', '-f', 'image2pipe', '-c:v', 'png', '-'],
                           {maxBuffer: 1 << 28});
   if (first.status !== 0) throw new Error(`${film}: ${first.stderr ?? first.error}`);

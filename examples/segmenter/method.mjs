@@ -1,4 +1,4 @@
-// The segmenter as a seat that Etude asks in a run (docs/outside-methods.md):
+// The segmenter as a seat of an outside method in a run (docs/outside-methods.md):
 //   - {name: blazepose, recovery: silhouettes, seat: segmenter, exec: [node, examples/segmenter/method.mjs], time_s: 60}
 import fs from 'node:fs';
 import path from 'node:path';
@@ -15,7 +15,7 @@ function readPpm(file) {
   return {width: Number(width), height: Number(height), channels: 3, data: bytes.subarray(head.length)};
 }
 
-/** COCO's uncompressed run lengths, down the columns, background first. */
+/** Returns COCO's uncompressed run lengths, down the columns, background first. */
 function runsOf(mask, {width, height}) {
   const counts = [];
   let value = false, run = 0;

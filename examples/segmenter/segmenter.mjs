@@ -1,4 +1,4 @@
-// One person's mask by BlazePose (Google, Apache-2.0), on the CPU without a browser. The weights are those in the npm
+// Finds one person's mask with BlazePose (Google, Apache-2.0), on the CPU without a browser. The weights are in the npm
 // package @mediapipe/pose.
 import fs from 'node:fs';
 import {fileURLToPath} from 'node:url';
@@ -8,25 +8,26 @@ import * as tf from '@tensorflow/tfjs-core';
 
 import {TfLite} from './tflite.mjs';
 
-const SIDE = 256;                           // pixels of the network's input and of its mask
-const LANDMARKS = 0, PRESENCE = 1, MASK = 2;  // outputs
-const NUMBERS = 5;                          // of a landmark: u, v, depth, visibility, presence
-const MIDDLE = 33, RIM = 34;                // landmarks: the hips' middle; a point on the circle around the body
-const MARGIN = 1.25;                        // of the square around that circle, as its makers crop
+const SIDE = 256;                           // side of the network's input and of its mask, pixels
+const LANDMARKS = 0, PRESENCE = 1, MASK = 2;  // indices of the network's outputs
+const NUMBERS = 5;                          // numbers per landmark: u, v, depth, visibility, presence
+// Landmarks: the middle of the hips, and a point on the circle around the body.
+const MIDDLE = 33, RIM = 34;
+const MARGIN = 1.25;                        // side of the crop ÷ diameter of that circle, as BlazePose's authors crop
 const LEAST_PRESENCE = 0.5;
 
 const folderOf = (name) => fileURLToPath(new URL(`node_modules/${name}`, import.meta.url));
 
-/** A square of a picture: its middle and side in pixels, and the angle by which its "up" is turned, clockwise. */
+/** A square of a picture: its middle and side in pixels, and the clockwise rotation of its "up", in radians. */
 const wholeOf = ({width, height}) => ({u: width / 2, v: height / 2, side: Math.max(width, height), angle: 0});
 
-/** The vectors in the picture of one step to the right and down in the network's input. */
+/** Returns the steps in the picture, pixels, for one pixel to the right and one pixel down in the network's input. */
 function stepsOf({side, angle}) {
   const step = side / SIDE, cos = step * Math.cos(angle), sin = step * Math.sin(angle);
   return {right: [cos, sin], down: [-sin, cos]};
 }
 
-/** SIDE × SIDE × 3 numbers 0…1: each is a mean of the pixels beneath, 0 outside the picture. */
+/** Returns SIDE × SIDE × 3 numbers 0…1: each is the mean of the pixels that it covers, 0 outside the picture. */
 function resample({width, height, data, channels}, square) {
   const {right, down} = stepsOf(square), samples = Math.max(1, Math.round(square.side / SIDE));
   const values = new Float32Array(SIDE * SIDE * 3), share = 1 / (255 * samples * samples);
@@ -46,7 +47,7 @@ function resample({width, height, data, channels}, square) {
   return values;
 }
 
-/** The probability of the person at each pixel of the picture, 0…255, from the network's logits in a square. */
+/** Returns the probability of the person at each pixel of the picture, 0…255, from the network's logits in a square. */
 function spread(logits, square, {width, height}) {
   const {right, down} = stepsOf(square), scale = (SIDE / square.side) ** 2;
   const mask = new Uint8Array(width * height), last = SIDE - 1;
@@ -79,8 +80,8 @@ export class Segmenter {
   }
 
   /**
-   * The mask of the person in a picture that is independent of all others: found in the whole picture, then twice more
-   * in the square around the body. One byte a pixel, 0…255; all 0 if there is no person.
+   * Returns the mask of the person in one picture: found first in the whole picture, then twice more in the square
+   * around the body. The mask has one byte a pixel, 0…255; all are 0 if there is no person. Pictures are independent.
    * @param picture {width, height, data, channels}
    */
   mask(picture) {

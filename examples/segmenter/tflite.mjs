@@ -1,8 +1,9 @@
-// Runs a TensorFlow Lite model on TensorFlow.js: the file's operators, one after the other. Only those of BlazePose are
-// known; another one is refused by its number (BuiltinOperator in TensorFlow's schema.fbs, whose field numbers these are).
+// Runs a TensorFlow Lite model with TensorFlow.js: it executes the file's operators one after the other. It knows only
+// the operators of BlazePose; it refuses any other by its number (BuiltinOperator in TensorFlow's schema.fbs; the field
+// numbers below are from the same file).
 import * as tf from '@tensorflow/tfjs-core';
 
-/** Reads a FlatBuffer's tables: `at(table, i)` is where the i-th field lies, 0 if it is absent. */
+/** Reads a FlatBuffer's tables: `at(table, i)` is the position of the i-th field, 0 if it is absent. */
 class Tables {
   constructor(bytes) {
     this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -46,7 +47,7 @@ const READERS = {
 const PADDINGS = ['same', 'valid'];
 const ACTIVATIONS = {0: (x) => x, 1: tf.relu, 3: tf.relu6};
 
-/** Of every operator: (tables, its options, its inputs, the shape of its output) => its output. */
+/** For every operator, a function (tables, options, inputs, shape of the output) => output. */
 const OPERATORS = {
   0: (t, o, [a, b]) => ACTIVATIONS[t.byte(o, 0)](tf.add(a, b)),
   3: (t, o, [x, weights, bias]) => {
@@ -87,7 +88,7 @@ export class TfLite {
     if (unknown) throw new Error(`operator ${unknown.code} of TensorFlow Lite is not known`);
   }
 
-  /** The outputs numbered `wanted` (of the model's list) for an input tensor. Call within tf.tidy. */
+  /** Returns the outputs `wanted` (indices into the model's list) for an input tensor. Call within tf.tidy. */
   run(input, wanted) {
     const values = this.constants.slice();
     values[this.input] = input;

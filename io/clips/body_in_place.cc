@@ -6,7 +6,8 @@
 namespace etude {
 namespace {
 
-/// Returns the joints that a reader placed in each frame; empty if there are none.
+/// Returns, for each frame, the joints that the file does not show and that the reader placed by a rule; empty if the
+/// file shows every joint in every frame.
 std::vector<JointSet> UnseenIn(const OpenedClip& opened) {
   const std::size_t frames = opened.body.motion.poses.size();
   std::vector<JointSet> unseen(frames);
@@ -35,7 +36,7 @@ Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options) {
   own.body.rate_hz = clip.clip.rate_hz;
   own.body.keep_floor = true;
   ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(clip), own));
-  // Bodies of markers whose floor was moved when they were read are put back.
+  // UnderstandClip may have moved the floor of a body of markers to height 0: move the body back.
   BodyConversion& body = opened.body;
   const double floor_m = body.floor * body.metres_per_unit;
   for (BodyPose& pose : body.motion.poses) {

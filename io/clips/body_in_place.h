@@ -12,11 +12,11 @@
 
 namespace etude {
 
-/// The body of a clip where its file has it.
+/// The body of a clip at the position and the rate that its file gives.
 struct BodyInPlace {
   BodyMotion motion;                    ///< the twenty joints at the file's own rate and heights, metres, Y up
-  double begin_s = 0;        ///< the time of the first frame: a leading T-pose, and frames of a file before its body is
-                             ///< whole, are left out
+  /// The time of the first frame: a leading T-pose, and frames before the body is complete, are left out.
+  double begin_s = 0;
   double lost_after_s = 0;   ///< FaultOptions::lost_after_s
   double lost_before_s = 0;  ///< FaultOptions::lost_before_s
   std::vector<JointSet> unseen = {};    ///< FaultOptions::unseen
@@ -24,11 +24,11 @@ struct BodyInPlace {
   std::vector<std::string> notes = {};  ///< BodyConversion::changes
 };
 
-/// How the faults of such a body are sought, on this floor (FaultOptions::floor_m).
+/// Returns the options for finding faults in this body; `floor_m` becomes FaultOptions::floor_m.
 FaultOptions FaultOptionsOf(const BodyInPlace& body, std::optional<double> floor_m = {});
 
-/// Finds the body of a clip as UnderstandClip does, and puts it back to the height that the file says. Fails as that
-/// function does.
+/// Finds the body of a clip with UnderstandClip, and moves it back to the height that it has in the file. Fails if
+/// UnderstandClip fails.
 Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options);
 
 /// Reads one clip (ReadOneClip) and finds its body.

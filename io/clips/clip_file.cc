@@ -59,7 +59,7 @@ Result<std::string> ReadBeside(const std::string& path, const std::string& uri, 
   const fs::path folder = fs::canonical(fs::path(path), error).parent_path();
   const fs::path file = fs::canonical(folder / uri, error);
   if (error) return fail(error.message());
-  // A link may lead anywhere, so compare the resolved paths.
+  // A link may point anywhere, so compare the resolved paths.
   const auto ends = std::ranges::mismatch(folder, file);
   if (ends.in1 != folder.end()) return fail("a link that leads out of the folder");
   auto bytes = reader.Read(file);
@@ -79,7 +79,7 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
   return file;
 }
 
-/// Makes a clip file of a motion that is a body already; the notes say where it comes from and what was changed.
+/// Makes a clip file of a motion that is a body already; `notes` says where the motion comes from and what was changed.
 ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path,
                     std::vector<std::string> notes) {
   ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
@@ -116,7 +116,7 @@ Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, Capped
   return ReadAcclaimMotion(bytes, skeleton, path);
 }
 
-/// Returns the roles that the bones of a VRM file play. Spine, hands, feet and the crown are found as in other files.
+/// Returns the roles that the bones of a VRM file play. The usual search finds spine, hands, feet and the crown.
 std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
   constexpr std::pair<const char*, Role> kBones[] = {
       {"leftUpperArm", Role::kLeftShoulder}, {"rightUpperArm", Role::kRightShoulder},
@@ -147,12 +147,12 @@ Result<double> BidsRate(const std::string& file, CappedReader& reader) {
   return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
 }
 
-/// Reads an array of joints, whose rate the file does not tell. `said` describes how the array was turned to Y up; it
-/// ends the note.
+/// Makes a clip file from an array of joints; the array itself states no frame rate. `said` describes how the array was
+/// turned to Y up; the note ends with it.
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                              const std::string& path, const OpenOptions& options, const std::string& said = "") {
   std::string note;
-  // An array that was turned is not turned again, or a handstand would become a stance.
+  // Do not rotate an array twice: the search for the up axis would turn a handstand into a stance.
   const auto up = said.empty() ? ToldUp(options) : std::optional(UpAxis::kY);
   ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, up));
   joints.remark = said.empty() ? note : note + "; " + said;
@@ -179,7 +179,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   const Token first = has_text ? scanner.Next() : Token{};
 
   ClipFile file;
-  // Arrays: our own bodies, motions of AMASS and Kimodo, or positions of joints.
+  // Try arrays: our own bodies, motions of AMASS and Kimodo, or positions of joints.
   if (IsZip(bytes)) {
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
     if (IsBodyNpz(arrays)) {
@@ -191,7 +191,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
         if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
         return file;
       }
-      // Other joints, or gaps: the body is found by the joints' names.
+      // For other joints, or for tracks with gaps, the joints' names determine the body.
       return FileOfJoints(ClipFormat::kNpz, raw, path, options);
     }
     if (IsKimodoNpz(arrays)) {
@@ -212,7 +212,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
     return FileOfArray(array, layout, path, options);
   }
-  // Motion-BIDS: rows of numbers, whose names and rate are in two files beside.
+  // Try Motion-BIDS: a table of numbers; two files beside it hold the columns' names and the rate.
   constexpr std::string_view kBidsEnd = "_motion.tsv";
   if (path.ends_with(kBidsEnd)) {
     const std::string stem = path.substr(0, path.size() - kBidsEnd.size());
@@ -221,10 +221,10 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, rate_hz, {path, stem + "_channels.tsv"}));
     return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, ArrayUp());
   }
-  // Markers, and recordings of runs.
+  // Try markers, and recordings of runs.
   if (auto markers = ReadMarkers(bytes, path, options)) return *std::move(markers);
   if (options.recorded != nullptr && options.recorded->IsRecording(bytes)) return options.recorded->Read(bytes, path, options);
-  // Text formats of bodies: OpenSim's angles and DeepMimic's motions.
+  // Try text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
     std::string note = "angles of the model in the file's header";
     ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note));
@@ -234,7 +234,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
     return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
   }
-  // glTF, GLB, and FBX, which is converted to GLB first.
+  // Try glTF, GLB, and FBX, which is converted to GLB first.
   const bool is_fbx = IsFbx(bytes);
   if (first.text == "{" && bytes.find("\"asset\"") == std::string::npos) {
     return Fail(scanner.At(first), "{}", DescribeOtherFile(bytes, first.text));
@@ -258,7 +258,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     file.roles = RolesOfBones(content.bones, file.figure.skeleton);
     return file;
   }
-  // Acclaim and BVH; any other file is described in the complaint.
+  // Try Acclaim and BVH; the complaint describes any other file.
   if (IsAcclaimMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader));
     return FileOfOne(ClipFormat::kAcclaim, std::move(clip));

@@ -41,7 +41,7 @@ enum class ClipFormat {
 /// "NPZ", "NPY", "Motive", "MOT", "Motion-BIDS", "recording" or "built-in".
 std::string_view FormatName(ClipFormat format);
 
-/// How a clip that is a body already was made.
+/// The origin of a clip whose file already holds a body.
 struct MadeBody {
   /// The source of the body, and every change that was made to the file's content, as sentences for users.
   std::vector<std::string> changes;
@@ -54,11 +54,13 @@ struct MadeBody {
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
   Character figure;                       ///< a skeleton, and meshes if the file has any
-  std::vector<Clip> clips;                ///< on that skeleton; none in some glTF; one per person in a marker file
-  std::vector<MadeBody> bodies = {};      ///< one for each clip, if they are bodies already
+  /// Clips on that skeleton; some glTF files have none, a marker file has one per person.
+  std::vector<Clip> clips;
+  std::vector<MadeBody> bodies = {};      ///< one for each clip if the clips are bodies already; else empty
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
-  std::vector<MarkerMotion> shown = {};  ///< of each clip made of markers: MarkerBody::shown, if `keeps_shown`
+  /// MarkerBody::shown of each clip that was made from markers; filled only if `keeps_shown` is set.
+  std::vector<MarkerMotion> shown = {};
   bool has_rate = true;                  ///< false: the file gives no rate, so a rate was assumed
 };
 
@@ -66,20 +68,24 @@ struct ClipFile {
 struct OpenOptions {
   std::optional<JointMapOverrides> roles;  ///< the user's joint map (--joint-map)
   BodyOptions body;
-  std::string marker_set = "";                ///< of marker files: the set to use (MarkerSetKeys); "" = the best
-  bool keeps_shown = false;                   ///< of marker files: also make SourceClip::shown
-  const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
+  /// For marker files: the marker set to use (MarkerSetKeys); "" = the set that fits best.
+  std::string marker_set = "";
+  bool keeps_shown = false;  ///< for marker files: also fill SourceClip::shown
+  /// Reads "RUN#CELL@NAME"; null = a reference of this form is treated as a file.
+  const RecordedMotions* recorded = nullptr;
 };
 
-/// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is taken.
+/// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is
+/// allocated.
 constexpr std::uintmax_t kMaxClipFileBytes = 500'000'000;
 
 /// Reads a motion file; the content decides the format, not the name. Known are BVH, glTF, GLB, FBX, DeepMimic's
-/// motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy, arranged as `layout` says:
-/// JointsOfArray), and markers in C3D, TRC, Motive's CSV or joint CSV (as FindMarkerBodies does). The buffers of a
-/// .gltf are read only from its own folder and below; links that lead out of it are refused. The skeleton of an AMC is
-/// the ASF file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` gives what marker files
-/// do not say. Its `recorded` reads the recordings of runs; without it, they are refused as files without motion.
+/// motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy; JointsOfArray explains
+/// `layout`), and markers in C3D, TRC, Motive's CSV or joint CSV (FindMarkerBodies). The buffers of a .gltf are read
+/// only from its own folder and below; links that lead out of that folder are refused. The skeleton of an AMC is the
+/// ASF file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` supplies facts that marker
+/// files do not state. `options.recorded` reads the recordings of runs; if it is null, recordings are refused as files
+/// without motion.
 Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout = std::nullopt,
                               const OpenOptions& options = {});
 

@@ -16,15 +16,15 @@ namespace etude {
 
 class RecordedFigure;  // sim/character
 
-/// A motion from which worlds can be made: 30 Hz, metres, Y up, feet on the floor.
+/// A motion from which worlds can be made, at 30 Hz, in metres, with Y up and the feet on the floor.
 struct LibraryClip {
   std::string name;    ///< "builtin:clap", "01_01" (the file's name without folder and extension), "dance#Jump"
-  std::string source;  ///< the reference that opens it again: "builtin:clap", a path, or "path.glb#Jump"
+  std::string source;  ///< the reference that opens the clip again: "builtin:clap", a path, or "path.glb#Jump"
   BodyMotion motion;
-  std::optional<Move> move;  ///< the authored move, with its key poses; only built-in moves have one
+  std::optional<Move> move;  ///< the authored move, with its key poses; absent unless the clip is a built-in move
   RestBody body = {};        ///< the performer's body at rest; it has no joints if the body was not measured
   std::shared_ptr<const RecordedFigure> figure = {};  ///< the file's figure; null if the file has no meshes
-  std::vector<std::string> changes = {};  ///< what was found in the file, and every change that was made to its content
+  std::vector<std::string> changes = {};  ///< findings about the file, and every change that was made to its content
 };
 
 /// The clips of one scenario, in order. Trial t uses clip t modulo the number of clips.
@@ -37,9 +37,9 @@ struct ClipLibrary {
 /// Returns the collection that a clip belongs to: the folder of its file, or "builtin".
 std::string CollectionOf(const LibraryClip& clip);
 
-/// Loads every reference, in order, as ExpandReference expands it; every animation of a glTF file becomes a clip of its
-/// own. Fails with the name of a reference that cannot be found, read or understood. `place` is the position of the
-/// references, for complaints. `on_progress` gets the number of references done.
+/// Expands every reference (ExpandReference) and loads its clips, in order; every animation of a glTF file becomes a
+/// clip of its own. Fails with the name of a reference that cannot be found, read or understood. `place` is the
+/// position of the references, for complaints. `on_progress` gets the number of references done.
 Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place,
                               const OpenOptions& options = {}, const OnProgress& on_progress = {});
 

@@ -31,7 +31,7 @@ bool ParseSeconds(std::string_view text, double& seconds) {
   return seconds >= 0;
 }
 
-// The same limit as for BVH files that are read, bytes.
+// The maximum size of a resampled clip, bytes; reading a BVH file has the same limit.
 constexpr double kMaxResampledBytes = 1e9;
 
 /// Converts a clip of another unit and up axis to metres and Y up.
@@ -69,7 +69,7 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
-/// Adds the edits that the user asked for to the list of changes; `from_hz` is the clip's rate if it is resampled here.
+/// Adds the user's edits to the list of changes. If the clip is resampled here, `from_hz` is its rate before.
 void AddEdits(std::optional<double> from_hz, const ConvertOptions& options, std::vector<std::string>& changes) {
   if (options.trim) changes.emplace_back("trimmed");
   if (from_hz && options.rate_hz && *options.rate_hz != *from_hz) {
@@ -97,7 +97,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
                                       const ConvertOptions& options) {
   Converted converted{.bytes = "", .note = "own skeleton", .changes = {}};
   std::vector<Clip> clips;
-  // Edit each clip. GLB is in metres with Y up, so clips of formats without a fixed unit are converted.
+  // Edit each clip. GLB requires metres and Y up, so clips of formats without a fixed unit are converted.
   for (const SourceClip& source : sources) {
     auto edited = Edited(source.clip, options);
     if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);
@@ -144,7 +144,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
   Converted converted;
   std::vector<Clip> clips;
   BodyPose rest = StandingPose();
-  // Trim each clip and turn it into a body motion, mirrored and retargeted as asked.
+  // Trim each clip, and turn it into a body motion; mirror and retarget it if the options require that.
   for (SourceClip& source : sources) {
     auto part = TrimTo(source.clip, options.trim);
     if (!part) return Fail({source.source, 0, 0}, "{}", part.error().message);
@@ -164,7 +164,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (format == MotionFormat::kBids) converted.files = WriteMotionBids(motion, name, options.version);
     if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
     if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(motion);
-    // The rest pose of a body with its own proportions is the canonical stance, scaled to its limb lengths.
+    // The rest pose of a body with its own proportions is the canonical stance scaled to its limb lengths.
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
     if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest);
     if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);

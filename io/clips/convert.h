@@ -23,9 +23,9 @@ Result<TimeSpan> ParseTimeSpan(const std::string& text);
 /// Returns this part of a clip, or the whole clip without a span. An open end is the end of the clip.
 Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span);
 
-/// kBids is a folder of files.
+/// The formats that can be written. kBids (Motion-BIDS) is a folder of files; every other format is one file.
 enum class MotionFormat { kBvh, kGlb, kTrc, kCsv, kC3d, kNpz, kMot, kBids };
-/// Returns the format of a file by the extension of its name. It is never kBids.
+/// Returns the format of a file by the extension of its name, never kBids. Fails on an unknown extension.
 Result<MotionFormat> FormatOfName(const std::string& path);
 
 /// The figure that performs a converted motion.
@@ -39,23 +39,23 @@ struct ConvertOptions {
   bool retarget = false;  ///< write a body with the canonical proportions
   Performer performer = Performer::kFile;
   OpenOptions open;
-  std::string version = "";  ///< the program's version, for formats that store it
+  std::string version = "";  ///< the version of Etude, for formats that store it
 };
 
-/// The bytes of the converted file, and what was done, in plain words.
+/// A converted file, and a description of the conversion for users.
 struct Converted {
   std::string bytes;
   BidsFiles files = {};  ///< for kBids, instead of `bytes`
   std::string note;      ///< "own skeleton", "as a body: Plug-in Gait", …
-  /// Every change that was made to the file's content; each once, also for several clips.
+  /// Every change that was made to the file's content. A change that concerns several clips is listed once.
   std::vector<std::string> changes;
 };
 
 /// Converts the clips of one file: exactly one, or any number for GLB. A clip keeps its own skeleton (and its meshes,
 /// from glTF to GLB) unless the result must be a body: with `ground`, `retarget`, a performer, or a format that holds
 /// only joints. BVH becomes GLB in metres and Y up, so its unit must be known: it is found from the roles or given in
-/// `options`. Fails if several clips go to a format other than GLB, if a performer goes to a format other than GLB, and
-/// on the errors of trimming, resampling and UnderstandClip.
+/// `options`. Fails if a format other than GLB is to hold several clips or a performer, and if trimming, resampling or
+/// UnderstandClip fails.
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options);
 
 }  // namespace etude

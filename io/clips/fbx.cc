@@ -22,7 +22,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, by its run path
+constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, through its run path (RPATH)
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
 constexpr std::size_t kMaxGlbBytes = std::size_t{1} << 30;
 constexpr unsigned kMinVersion = 7;
@@ -93,8 +93,8 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& i
   return ReceiveAll(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// The child process: answers each file with kSaidGlb, two lines (the reader's name, the longest time between keys) and
-/// the GLB file, or with kSaidComplaint and a complaint.
+/// Runs in the child process. Answers each file with kSaidGlb, two lines (the reader's name, the longest time between
+/// keys) and the GLB file; or with kSaidComplaint and a complaint.
 int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);
@@ -102,7 +102,7 @@ int ReadFilesInChild(int socket) {
   for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(fatal, SIG_DFL);
   std::string missing, name;
   GlbOfFbxBytes* read = nullptr;
-  // Load the module once; without it, every file gets the same complaint.
+  // Load the module once. If that fails, every file gets the same complaint.
   if (void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL); module == nullptr) {
     missing = std::string("an FBX file, for which assimp is not there (") + ::dlerror() +
               "); install Debian's libassimp-dev, and build again";
@@ -157,7 +157,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
           "joints whose pre-rotations, post-rotations and orders are left out, because RotationActive is not set: {}",
           inactive));
     }
-    constexpr double kLong = 0.1;  // seconds; between closer keys, no curve goes far from a straight line
+    constexpr double kLong = 0.1;  // seconds; between keys that are closer, every curve is nearly a straight line
     if (const double apart = std::strtod(said->c_str() + name + 1, nullptr); apart > kLong) {
       remarks.push_back(
           fmt::format("its keys are up to {:.2f} s apart: between them joints go the shortest way at an "
@@ -172,7 +172,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     const std::string why = said->size() < 2 ? kReaderFailed : said->substr(1, kMaxMessageBytes);
     return Fail({path}, "{}{}", why, said->size() > 1 + kMaxMessageBytes ? " …" : "");
   }
-  // The child ended without an answer: tell limits that were reached from a crash.
+  // The child ended without an answer: distinguish an exceeded limit from a crash.
   const int status = child_->Wait();
   child_.reset();
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;

@@ -9,22 +9,22 @@
 
 namespace etude {
 
-/// The function of the module `etude_clips_assimp.so`. It converts the bytes of an FBX file to a GLB file: on success
-/// it returns true, `said` holds the GLB bytes and `longest_s` the longest time between two different keys of a joint;
-/// on failure it returns false and `said` holds a complaint.
+/// The function of the module `etude_clips_assimp.so`. It converts the bytes of an FBX file to a GLB file. On success
+/// it returns true; `said` then holds the GLB bytes, and `longest_s` the longest time between two different keys of a
+/// joint, in seconds. On failure it returns false, and `said` holds a complaint.
 using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said, double& longest_s);
 
-/// Returns true if `bytes` begin as an FBX file does, binary or text.
+/// Returns true if `bytes` begin like a binary or text FBX file.
 bool IsFbx(std::string_view bytes);
 
 /// The motion of an FBX file.
 struct FbxMotion {
   std::string glb;          ///< a GLB file with the nodes and animations of the FBX file, in metres, Y up
-  std::string reader;       ///< the library that read it and its build ID: "libassimp.so.5 (0f3c…)"
-  std::string remark = "";  ///< what was left out or replaced; "" if nothing was
+  std::string reader;       ///< the library that read the file, and its build ID: "libassimp.so.5 (0f3c…)"
+  std::string remark = "";  ///< what was left out or replaced; "" if nothing
 };
 
-/// The beginning of the complaint about a file that crashed its reader; the signal's number follows.
+/// The beginning of the complaint about a file that crashed its reader; the number of the signal is appended.
 inline constexpr std::string_view kReaderCrashed = "a damaged FBX file: its reader ended with signal";
 
 /// Reads the motion of FBX files, one after the other; meshes, materials, cameras and lights are left out. Files may be

@@ -38,7 +38,7 @@ struct FbxNode {
   FbxRange properties, children;
 };
 
-/// Reads the nodes of one level; stops at the null record, or at a record that ends beyond its range.
+/// Reads the nodes of one level. Stops at the null record, or at a record whose end lies outside `range`.
 std::vector<FbxNode> NodesIn(std::string_view bytes, FbxRange range) {
   constexpr std::size_t kVersionAt = 23;
   constexpr std::uint32_t kLongOffsets = 7500;
@@ -105,7 +105,7 @@ std::vector<FbxProperty> TableOf(std::string_view bytes, const FbxNode& node) {
   return entries;
 }
 
-/// Returns whether the template of models sets RotationActive.
+/// Returns true if the template of models sets RotationActive.
 bool IsActiveByTemplate(std::string_view bytes, const FbxNode& definitions) {
   bool is_active = false;
   for (const FbxNode& type : NodesIn(bytes, definitions.children)) {
@@ -137,7 +137,7 @@ std::size_t LeaveOutOfBinary(std::string_view bytes, std::string& changed) {
         if (IsIgnored(property.name) && !IsZero(bytes, property)) ignored.push_back(std::move(property));
       }
       if (is_active || ignored.empty()) continue;
-      // Overwrite with zeros in a copy; the size stays the same.
+      // Overwrite the numbers with zeros in a copy of the file; its size stays the same.
       if (changed.empty()) changed = bytes;
       for (const FbxProperty& property : ignored) {
         for (const FbxRange& number : property.numbers) {

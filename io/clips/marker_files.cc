@@ -106,7 +106,7 @@ std::optional<UpRule> UpRuleOf(ClipFormat format) {
     case ClipFormat::kGlb:
       return GltfUp();
     case ClipFormat::kFbx: {
-      UpRule of_file = GltfUp();  // assimp has already turned the scene as its settings say
+      UpRule of_file = GltfUp();  // assimp has already rotated the scene by the file's own settings
       of_file.evidence = UpEvidence::kFile;
       of_file.source = "the settings in the file";
       return of_file;

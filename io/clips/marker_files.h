@@ -12,26 +12,28 @@
 
 namespace etude {
 
-/// Return what the user gave by an option or in a joint map: the up axis, the metres per unit, and whether the floor is
+/// Return the user's choices, from an option or a joint map: the up axis, the metres per unit, and whether the floor is
 /// kept.
 std::optional<UpAxis> ToldUp(const OpenOptions& options);
 std::optional<double> ToldUnit(const OpenOptions& options);
 bool KeepsFloor(const OpenOptions& options);
-/// Returns what the user gave of arrays of positions: rate, unit and up axis.
+/// Returns the user's options for arrays of positions: rate, unit and up axis.
 ArrayOptions ToldOfArrays(const OpenOptions& options);
 
-/// Returns what the format of a clip with a skeleton says about its up axis; nullopt for BVH and Acclaim.
+/// Returns the rule for the up axis that the format of a clip with a skeleton defines; nullopt for BVH and Acclaim.
 std::optional<UpRule> UpRuleOf(ClipFormat format);
 
 /// Returns true for the formats of markers, and for files of joint positions that are read like markers.
 bool IsOfMarkers(ClipFormat format);
 
-/// Makes a clip of every body that the markers show. `rule` says how the up axis is found if the user gives none.
+/// Finds every body that the markers show, and makes a clip of each. `rule` says how the up axis is found if the user
+/// gives none.
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
                                const OpenOptions& options, UpRule rule);
 
-/// Makes a clip of the body that joints of any names show. They are in metres on their own floor, with Y up, whatever
-/// the options say of these: the arrays' reader has heeded them. Its note includes the motion's.
+/// Makes a clip of the body in a motion whose joints may have any names. The positions are in metres with Y up and stay
+/// on their own floor: the reader of arrays has already applied the options for unit and up axis, so they are ignored
+/// here. The notes of `motion` are added to the clip's changes.
 Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path, OpenOptions options);
 
 /// Reads a file of markers (C3D, TRC, Motive's CSV, joint CSV); returns nullopt if the file is of another kind.

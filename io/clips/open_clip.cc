@@ -23,7 +23,7 @@ Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
   return std::vector<SourceClip>{{reference, reference, ClipFormat::kBuiltin, std::move(clip), nullptr}};
 }
 
-/// Finds the clip of that name. Exporters write "Armature|Jump"; "Jump" alone is enough if only one name ends so.
+/// Finds the clip named `name`. Exporters write "Armature|Jump"; "Jump" is accepted if only one name ends with it.
 std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::string& name) {
   const auto exactly = std::ranges::find(clips, name, &Clip::name);
   if (exactly != clips.end()) return exactly;
@@ -50,13 +50,13 @@ Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, s
   return {};
 }
 
-/// Returns the roles that the user assigned, else those of the file; null without either.
+/// Returns the roles that the user assigned, else those that the file assigns; null if neither does.
 const JointMapOverrides* TaughtBy(const OpenOptions& options, const std::optional<JointMapOverrides>& file) {
   if (options.roles && !options.roles->joints.empty()) return &*options.roles;
   return file ? &*file : nullptr;
 }
 
-/// Moves the root to the hips in clips whose file has it at the chest or head. Clips with meshes keep their skeleton.
+/// Moves the root to the hips if the clip's file has it at the chest or head. A clip with meshes keeps its skeleton.
 void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) {
   const auto has_scales = [](const LocalPose& pose) {
     return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
@@ -68,8 +68,8 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
   clip = WithRootAt(clip, root);
 }
 
-/// Finds the ground of a file with several clips. Returns nullopt if the skeleton has no roles; UnderstandClip then
-/// says which are missing.
+/// Finds the ground shared by the clips of a file that holds several. Returns nullopt if the skeleton has no roles;
+/// UnderstandClip then reports which are missing.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
   const auto map =
@@ -80,8 +80,8 @@ std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, co
   return map ? FindGround(file.clips, *map, told) : std::nullopt;
 }
 
-/// Undoes scales of the frames that the rest pose does not have, and says so in the remarks. A skeleton without roles
-/// is left unchanged.
+/// Removes scales that the frames have but the rest pose does not, and adds a remark that says so. A skeleton without
+/// roles is left unchanged.
 void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& options) {
   const auto has_scales = [](const Clip& clip) {
     return std::ranges::any_of(clip.frames, [&](const LocalPose& frame) {
@@ -102,7 +102,7 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   }
 }
 
-/// Opens a clip of our own skeleton, which has one joint for every role, with the role's name.
+/// Opens a clip of our own skeleton, which has one joint for every role; the joint's name is the role's name.
 Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& options) {
   OpenedClip opened{.source = std::move(source), .map = {}, .body = {}};
   for (const Role role : AllRoles()) {
@@ -117,7 +117,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   } else {
     opened.body.changes.emplace_back("the canonical body");
   }
-  // Markers were already turned and scaled as the user asked; our own arrays and angles are turned here.
+  // Markers were already rotated and scaled by the user's options; our own arrays and angles are rotated here.
   const bool is_turned = options.up == UpAxis::kZ && !is_ours && !IsOfMarkers(opened.source.format);
   if (is_turned) {
     opened.body.found_up = {.axis = AxisOf(UpAxis::kZ), .evidence = UpEvidence::kTold};
@@ -140,7 +140,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   for (const LocalPose& frame : clip.frames) {
     ComputeGlobals(clip.skeleton, frame, globals);
     BodyPose pose = Evaluate(opened.map, globals);
-    // A sensor's hip centre need not be midway between its hips, where Evaluate puts it.
+    // The hip centre of a sensor need not lie midway between its hips, where Evaluate puts it.
     if (opened.source.format != ClipFormat::kBuiltin) {
       pose[Role::kHipCentre] = globals[opened.map[Role::kHipCentre].joint].position;
     }
@@ -173,7 +173,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const auto shown_of = [&](std::size_t i) {
     return file.shown.empty() ? nullptr : std::make_shared<const MarkerMotion>(std::move(file.shown[i]));
   };
-  // A file of one motion: '#' in the reference has no meaning, except for the layout of an .npy array.
+  // If the format holds one motion, '#' in the reference has no meaning, except for the layout of an .npy array.
   const bool has_animations =
       file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
   const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;
@@ -189,7 +189,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
                     shown_of(0)});
     return only;
   }
-  // A file of several clips: undo scales and find the common ground before one clip is chosen.
+  // If the file holds several clips, undo scales and find the common ground before one clip is chosen.
   std::map<std::string, MadeBody> bodies;
   for (std::size_t i = 0; i < file.bodies.size(); ++i) bodies[file.clips[i].name] = file.bodies[i];
   std::map<std::string, std::shared_ptr<const MarkerMotion>> shown;
@@ -231,7 +231,7 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   RootAtHips(source.clip, source.character != nullptr, source.remarks);
   ASSIGN_OR_RETURN(
       auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles), source.clip.frames));
-  // The ground of the whole file overrides what one clip would show.
+  // The ground of the whole file has priority over the ground that one clip shows.
   if (source.ground) {
     if (!told.up) told.found_up = source.ground->found_up;
     told.floor = source.ground->floor;

@@ -16,30 +16,30 @@ namespace etude {
 
 /// A clip as its file stores it.
 struct SourceClip {
-  std::string name;    ///< "01_01", "Med_General#Dance": the file's name without folder and extension, and the
-                       ///< animation; "builtin:clap"
-  std::string source;  ///< the reference that opens it again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
+  /// "01_01", "Med_General#Dance": the file's name without folder and extension, and the animation; "builtin:clap".
+  std::string name;
+  std::string source;  ///< the reference that opens the clip again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
   ClipFormat format = ClipFormat::kBvh;
   Clip clip;
-  /// The file's own figure if it has meshes; its skeleton is the clip's. All clips of the file share it.
+  /// The file's figure, if the file has meshes. The clip uses its skeleton, and all clips of the file share the figure.
   std::shared_ptr<const Character> character;
   std::optional<Ground> ground = {};  ///< the ground shared by all clips of the file; only if the file holds several
   std::optional<MadeBody> made = {};  ///< set if the clip is a body already: it is in metres, with Y up
-  std::vector<std::string> remarks = {};  ///< repairs made while reading the file; UnderstandClip appends them to the
-                                          ///< body's note
-  std::optional<JointMapOverrides> roles = {};  ///< as in ClipFile::roles; those of OpenOptions have priority
-  std::shared_ptr<const MarkerMotion> shown = {};  ///< as in ClipFile::shown; null for other clips
+  /// Repairs made while reading the file; UnderstandClip appends them to the body's note.
+  std::vector<std::string> remarks = {};
+  std::optional<JointMapOverrides> roles = {};     ///< ClipFile::roles; the roles in OpenOptions have priority
+  std::shared_ptr<const MarkerMotion> shown = {};  ///< this clip's entry of ClipFile::shown; null if there is none
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all
-/// animations of a glTF, or the animation named behind '#'. That name may leave out the prefix that exporters write
-/// ("Jump" for "Armature|Jump"). Fails if no such animation exists, and lists those that do. `options` may override the
-/// frame rate of files, and help to find the ground.
+/// animations of a glTF, or the animation named after '#'. The name may omit the prefix that exporters write ("Jump"
+/// for "Armature|Jump"). Fails if the animation does not exist, and lists the animations of the file. `options` may
+/// override the frame rate, and helps to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
-/// Reads the only clip that a reference names. Fails if it names several, and lists them.
+/// Reads the only clip that a reference names. Fails if the reference names several clips, and lists them.
 Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& options);
 
-/// A clip with its roles found and its body's motion.
+/// A clip, the roles of its joints, and the motion of its body.
 struct OpenedClip {
   SourceClip source;
   JointMap map;

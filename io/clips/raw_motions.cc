@@ -32,7 +32,7 @@ RawMotion OfMarkers(const MarkerMotion& shown) {
   return raw;
 }
 
-/// Returns the rotation of axes that may be scaled.
+/// Returns the rotation part of a matrix of axes that may be scaled.
 glm::dquat RotationOf(const glm::dmat3& axes) {
   const auto unit = [](const glm::dvec3& axis) { return glm::dot(axis, axis) > 0 ? glm::normalize(axis) : axis; };
   return glm::normalize(glm::quat_cast(glm::dmat3(unit(axes[0]), unit(axes[1]), unit(axes[2]))));
@@ -40,7 +40,7 @@ glm::dquat RotationOf(const glm::dmat3& axes) {
 
 /// Converts a clip with a skeleton; `unit` is the length of its unit in metres.
 RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
-  // The rotation of Upright: X stays, Z becomes Y.
+  // The rotation that Upright applies: X stays, Z becomes Y.
   const glm::dquat turn =
       up == UpAxis::kY ? glm::dquat(1, 0, 0, 0) : glm::quat_cast(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0));
   RawMotion raw;
@@ -69,8 +69,8 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   return raw;
 }
 
-/// Returns true if the joint that carries both hips is a pelvis by its name or its place, or was told to play the hip
-/// centre.
+/// Returns true if the joint that carries both hips is a pelvis by its name or its position, or if the user's roles
+/// make it the hip centre.
 bool CarriesAsPelvis(const RawMotion& raw, const JointMap& map, const JointMapOverrides* told) {
   if (told != nullptr && told->joints.contains(Role::kHipCentre)) return true;
   std::string name = raw.joints[map[Role::kHipCentre].joint];
@@ -89,7 +89,7 @@ std::string NamesOf(const std::vector<Role>& roles) {
   return Join(names);
 }
 
-/// Returns notes on what was converted and assumed.
+/// Returns notes on the conversions and assumptions that were made.
 std::vector<std::string> NotesOn(const OpenedClip& opened) {
   const BodyConversion& body = opened.body;
   std::vector<std::string> notes = {fmt::format("1 unit = {:.4g} cm ({})", 100 * body.metres_per_unit, body.unit)};
@@ -103,7 +103,7 @@ std::vector<std::string> NotesOn(const OpenedClip& opened) {
   return notes;
 }
 
-/// Returns what an .npz file says of contacts; empty if it says nothing.
+/// Returns the foot contacts that an .npz file stores; empty if it stores none.
 Result<std::vector<bool>> ContactsIn(const std::string& reference, std::size_t frames) {
   const std::string path = FileOf(Split(reference).path);
   ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path));
@@ -121,7 +121,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
   if (source.shown != nullptr) {
     raw = OfMarkers(*source.shown);
   } else {
-    // UnderstandClip finds roles, unit and up axis; its resampling and the floor that it finds are not used.
+    // UnderstandClip finds roles, unit and up axis; its resampling and its floor are not used.
     const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
     OpenOptions how = options;
     how.body.drop_t_pose = false;
@@ -135,7 +135,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
     const JointMapOverrides* told = options.roles ? &*options.roles : nullptr;
     if (!is_body && !CarriesAsPelvis(raw, opened.map, told)) raw.roles[Index(Role::kHipCentre)] = -1;
     if (is_body && !keeps_rig) {
-      raw.rotations.clear();  // made up by RigClip
+      raw.rotations.clear();  // RigClip invented these rotations; the file has none
       raw.rest_rotations.clear();
       raw.rest_positions.clear();
     } else {
@@ -160,7 +160,7 @@ bool BeginsAsZip(const std::string& reference) {
   return file.read(head.data(), static_cast<std::streamsize>(head.size())) && IsZip(head);
 }
 
-/// Converts arrays of positions, with no character in between.
+/// Converts arrays of positions directly, without a skeleton.
 Result<RawMotion> OfArrays(const Npz& arrays, const std::string& reference, const OpenOptions& options) {
   ASSIGN_OR_RETURN(auto raw, ReadRawNpz(arrays, reference, ToldOfArrays(options)));
   if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);

@@ -8,20 +8,22 @@
 
 namespace etude {
 
-/// Converts a clip to what its file holds: every frame at the file's own rate, on the file's own floor, with its gaps,
-/// in metres and Y up. A leading T-pose stays. Of a skeleton it takes all joints; of markers, the joints that the
-/// marker set determines and all other markers. Joints that a reader only estimates by a rule are left out. The hip
-/// centre is the file's own: the joint that carries both hips, unless it is not named so and lies further than 0.4
-/// thigh lengths from their middle at rest (an OpenNI torso does); else it is midway between the hips (AddMidwayHips).
-/// Contacts are read from an .npz that has them (ReadFootContacts). Fails as UnderstandClip does: without roles, unit
-/// and up axis are unknown. `keeps_rig`: bodies keep the rotations that RigClip made up.
+/// Returns the motion as the file of a clip holds it: every frame at the file's own rate, on the file's own floor, with
+/// its gaps, in metres and Y up. A leading T-pose stays. A skeleton gives all its joints; markers give the joints that
+/// the marker set determines, and all other markers. Joints that a reader only estimates by a rule are left out. The
+/// hip centre is the joint that carries both hips, if the user's roles say so, if its name is a pelvis's, or if it lies
+/// within 0.4 thigh lengths of the hips' middle at rest; else (an OpenNI torso, for instance) the hip centre is midway
+/// between the hips (AddMidwayHips). Contacts are read from an .npz that has them (ReadFootContacts). Fails if
+/// UnderstandClip fails, because without roles the unit and the up axis are unknown. `keeps_rig`: bodies keep the
+/// rotations that RigClip invented.
 Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, bool keeps_rig = false);
 
-/// Returns the digest of the bytes of the file that a reference names; of a built-in clip, that of its name. Files that
-/// a file refers to (buffers of .gltf, skeletons of .amc) do not count. Fails if the file cannot be read.
+/// Returns the digest of the bytes of the file that a reference names; for a built-in clip, the digest of its name.
+/// Files to which that file refers (buffers of .gltf, skeletons of .amc) are not included. Fails if the file cannot be
+/// read.
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options);
 
-/// Reads one motion: arrays of positions by ReadRawNpz, any other as ReadOneClip does.
+/// Reads one motion: arrays of positions with ReadRawNpz, any other file with ReadOneClip.
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options);
 
 }  // namespace etude

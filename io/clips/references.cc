@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-/// Clips that a package installs. They are called by name, so that neither a scenario nor a result holds a path of one
-/// machine.
+/// Clips that a Debian package installs. References call them by name, so that no scenario and no result contains a
+/// path of one machine.
 struct PackagedClips {
   std::string_view prefix;   ///< the prefix of references to these clips
   std::string_view package;  ///< the Debian package
@@ -55,7 +55,7 @@ std::vector<std::string> BuiltinsOf(const std::string& reference) {
 
 std::vector<std::string> FilesOf(const std::string& reference) {
   std::error_code ignored;
-  if (std::filesystem::exists(reference, ignored)) return {reference};  // brackets in it are then no pattern
+  if (std::filesystem::exists(reference, ignored)) return {reference};  // then brackets in the name are no pattern
   if (const PackagedClips* package = FindPackage(reference)) {
     std::vector<std::string> files = FilesMatching(FileOf(reference));
     for (std::string& file : files) file = std::string(package->prefix) + std::filesystem::path(file).stem().string();
@@ -81,7 +81,7 @@ Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place)
   }
   auto move = LoadBuiltinMove(name);
   if (!move) {
-    // The error of LoadBuiltinMove suggests moves and acts; a song's name may have been meant as well.
+    // LoadBuiltinMove suggests only moves and acts, but the user may have meant a song.
     const std::string nearest = NearestName(name, songs);
     return Fail(place, "{}; songs: {}{}", move.error().message, Join(songs),
                 nearest.empty() ? "" : " (did you mean '" + nearest + "'?)");

@@ -16,7 +16,7 @@ constexpr std::string_view kBuiltinPrefix = "builtin:";
 /// A built-in clip: a move, an act of the coach or a song.
 struct BuiltinClip {
   BodyMotion motion;
-  std::optional<Move> move;  ///< the authored move with its key poses; songs and acts have none
+  std::optional<Move> move;  ///< the authored move with its key poses; absent for songs and acts
 };
 
 /// Loads a built-in clip by its name without the prefix. The error lists the known names.
@@ -26,19 +26,20 @@ Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place)
 constexpr std::size_t kMaxClips = 1000;
 
 /// Lists the clips that a reference stands for, in order; each can be opened on its own. A reference is a built-in clip
-/// ("builtin:clap"; "builtin:*" are all moves, "builtin:acts" and "builtin:songs" the others), a clip of a package
-/// ("assimp:01_01", "assimp:*"; of Debian's assimp-testmodels), or a file or pattern ("mocap/*.bvh", sorted; `~/` is
-/// the home folder), optionally with "#animation". If a file of exactly that name exists, patterns and '#' are not
-/// interpreted. Relative names start at the current folder. Fails at `place` if nothing matches, or more than `most` do.
+/// ("builtin:clap"; "builtin:*" stands for all moves, "builtin:acts" for all acts, "builtin:songs" for all songs), a
+/// clip of a package ("assimp:01_01", "assimp:*"; of Debian's assimp-testmodels), or a file or pattern ("mocap/*.bvh",
+/// sorted; `~/` is the home folder), optionally with "#animation". If a file of exactly that name exists, patterns and
+/// '#' are not interpreted. Relative names start at the current folder. Fails at `place` if nothing matches, or if more
+/// than `most` clips match.
 Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place,
                                                  std::size_t most = kMaxClips);
 
-/// Lists the clips that all references stand for, in order. Fails if there are more than `most`.
+/// Lists the clips that all references stand for, in order. Fails if there are more than `most` clips.
 Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references,
                                                   std::size_t most = kMaxClips);
 
-/// A reference such as "dance.glb#Jump", split into the file and its animation. If a file whose name holds '#' exists,
-/// it has priority.
+/// A reference such as "dance.glb#Jump", split into the file and its animation. If a file exists whose whole name is
+/// the reference, the reference is not split.
 struct SplitReference {
   std::string path;
   std::optional<std::string> animation;

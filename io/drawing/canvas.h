@@ -36,8 +36,8 @@ class Canvas {
   /// Fills a box with a gradient from `top` at its upper edge to `bottom` at its lower edge.
   void FillShade(const Box& box, const Paint& top, const Paint& bottom);
   void DrawImage(const ColourImage& image, const Box& box, double radius = 0);
-  /// Copies a picture of pixels 0x00RRGGBB to (`left`, `top`) without scaling, with rounded corners. It must fit into
-  /// the canvas.
+  /// Copies a picture of pixels 0x00RRGGBB to (`left`, `top`) without scaling, with rounded corners. The picture must
+  /// fit into the canvas.
   void Put(const Image<std::uint32_t>& picture, int left, int top, int radius = 0);
   /// Paints where the mask is set; the mask is stretched over the box.
   void DrawMask(const Mask& mask, const Box& box, const Paint& paint);

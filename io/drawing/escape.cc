@@ -120,7 +120,7 @@ std::string EscapeScriptJson(std::string_view json) {
   out.reserve(json.size());
   while (!json.empty()) {
     auto [code, length] = FirstCharacter(json);
-    // Decode \uXXXX, so that an escaped control character is recognised, too.
+    // Decode \uXXXX, so that escaped control characters are also recognised.
     if (code == '\\' && json.size() >= 6 && json[1] == 'u') {
       unsigned number = 0;
       std::from_chars(json.data() + 2, json.data() + 6, number, 16);

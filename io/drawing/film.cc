@@ -19,8 +19,8 @@
 namespace etude {
 namespace {
 
-// Long enough that consecutive frames which share a picture are drawn by one process, short enough that all processes
-// end at about the same time.
+// Consecutive frames that one process draws. Long enough that frames which share a picture are drawn by one process,
+// short enough that all processes end at about the same time.
 constexpr int kChunk = 8;
 
 bool SendByte(int socket) { return SendAll(socket, "."); }
@@ -34,7 +34,7 @@ bool ReceiveByte(int socket) {
 
 void FilmWorkers::Unmap::operator()(std::uint8_t* memory) const { munmap(memory, bytes); }
 
-// With a feed, data come in the order of frames, so processes take turns after every frame (chunks of 1).
+// With a feed, data arrive in the order of frames, so the processes alternate after every frame (chunks of 1).
 FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed feed)
     : frames_(frames),
       width_(width),
@@ -126,7 +126,7 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
 
 namespace {
 
-/// A click track whose file exists while its film is encoded.
+/// A click track; its file exists while the film is encoded.
 class SoundFile {
  public:
   static Result<SoundFile> Make(const Scene& scene) {

@@ -18,11 +18,11 @@
 
 namespace etude {
 
-/// Supplies the data of frames that only this process can produce: the pictures of a film that is read, or the
+/// Supplies data that frames need and only this process can produce: the pictures of a film that is read, or the
 /// positions of a moving crowd.
 struct FrameFeed {
   std::size_t bytes = 0;  ///< bytes of every frame; 0 = frames need no data
-  /// Fills in the data of a frame. It is called once for each frame, in order, before the frame is drawn.
+  /// Fills in the data of a frame. FilmWorkers calls it once for each frame, in order, before the frame is drawn.
   std::function<Result<void>(int frame, std::span<std::uint8_t> into)> fill = {};
 };
 
@@ -34,8 +34,8 @@ class FilmWorkers {
   /// Draws a frame, 0 … `frames` − 1, from its data; all canvases have one size with even sides.
   using Draw = std::function<Canvas(int frame, std::span<const std::uint8_t> fed)>;
 
-  /// Draws the first frame in this process, so that data which every frame needs are made once, and then starts `jobs`
-  /// processes (0 = one per processor). Other threads of this process must hold no lock that `draw` needs.
+  /// Draws the first frame in this process, so that data which every frame needs are computed only once. Then starts
+  /// `jobs` processes (0 = one per processor). Other threads of this process must not hold a lock that `draw` needs.
   static Result<FilmWorkers> Start(int frames, int jobs, const Draw& draw, FrameFeed feed = {});
   FilmWorkers(FilmWorkers&&) noexcept = default;
   FilmWorkers& operator=(FilmWorkers&&) = delete;
@@ -48,8 +48,8 @@ class FilmWorkers {
 
  private:
   struct Worker {
-    /// The socket carries single bytes. The process sends "drawn"; we send "data is there", or without a feed "a slot
-    /// is free".
+    /// The socket carries single bytes. The drawing process sends a byte for "drawn"; this process sends a byte for
+    /// "data is there", or without a feed for "a slot is free".
     std::optional<ForkedCopy> copy;
     int fed = 0, taken = 0;  ///< frames of this process: how many have got their data, and how many were returned
   };
@@ -84,7 +84,7 @@ class FilmWorkers {
 constexpr int kFilmWidth = 1280, kFilmHeight = 720;
 constexpr int kFilmRate = 30;
 
-/// Lets a caller follow the making of a film and stop it.
+/// Lets a caller observe the progress of a film, and stop it.
 struct FilmWatch {
   std::function<void(const std::string& file, std::size_t done, std::size_t frames)> progress = {};
   const std::atomic<bool>* stop = nullptr;
@@ -104,18 +104,18 @@ struct Picture {
   std::string caption;
 };
 
-/// A picture that a camera of the run took, with its caption.
+/// A picture from a camera of the run, with its caption.
 struct Still {
   std::string jpeg_base64;  ///< only letters of the base64 alphabet
   std::string caption;
 };
 
-/// A film in the form in which the page shows it.
+/// A film as the page shows it.
 struct Film {
-  std::string file;     ///< its name in the run's folder `video`
+  std::string file;     ///< file name in the run's folder `video`
   std::string mp4;      ///< bytes of the file; empty if there is none
   std::string why_not;  ///< the reason, in plain words, if the film or its poster could not be made
-  Picture poster;       ///< the png is empty if no picture could be drawn; its caption is the film's
+  Picture poster;       ///< the poster, with the caption of the film; its PNG is empty if no picture could be drawn
 };
 
 /// The content of a film, drawn frame by frame.
@@ -135,11 +135,11 @@ class Scene {
   virtual std::vector<double> Beats() const { return {}; }
 };
 
-/// Draws frames with FilmWorkers and encodes them into `path`, with a sound file unless `sound` is empty. Returns false
-/// if `watch` stopped it; there is no file then.
+/// Draws frames with FilmWorkers and encodes them into `path`, with a sound file unless `sound` is empty. Returns
+/// false, and leaves no file, if `watch` stopped it.
 Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
                           const FilmWatch& watch, const std::filesystem::path& sound = {});
-/// Does the same without sound, for frames that are drawn from the data of `feed`.
+/// Works like EncodeFrames without sound, for frames that are drawn from the data of `feed`.
 Result<bool> EncodeFedFrames(const FilePath& path, int frames, int rate_hz, FrameFeed feed,
                              const FilmWorkers::Draw& draw, const FilmWatch& watch);
 

@@ -18,7 +18,8 @@ inline constexpr int kPanelRadius = 10;
 /// Returns the colour of a method, the same as on the page, by its index in the scenario (io/drawing/marks.h).
 Paint MethodPaint(std::size_t method);
 
-/// Draws a small label in the upper left corner that says what the panel shows. It leaves `free` pixels at its right.
+/// Draws a small label in the upper left corner that says what the panel shows. `free` pixels to the right of the label
+/// stay free.
 void DrawTag(Canvas& canvas, const Box& panel, const std::string& text, double free = 0);
 
 /// Draws a small bright label in the upper right corner for an event that has just happened.

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-// The shapes look about equally large. Filled ones come first.
+// All shapes look about equally large. Filled shapes come first.
 constexpr std::array<std::string_view, 8> kShapes = {
     "M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0z",
     "M0-4.6L4.6 0 0 4.6-4.6 0z",

@@ -12,13 +12,13 @@ inline constexpr std::string_view kNoValue = "—";
 
 /// Writes a number: "12.3", "1,284", "0.0021", "3.1e-06"; kNoValue when not finite.
 std::string FormatNumber(double value);
-/// Writes the shortest text that reads back as the same number; "" without a value.
+/// Writes the shortest text from which the same number is read; "" without a value.
 std::string ExactText(std::optional<double> value);
 /// Writes a number with a fixed number of decimals, for figures in a column.
 std::string FormatFixed(double value, int decimals);
 /// Writes a count: "1,284".
 std::string FormatCount(long long count);
-/// Writes a share: "98 %". It is not rounded up to 100 % or down to 0 % unless it is exactly that.
+/// Writes a share: "98 %". It is not rounded up to 100 % or down to 0 % unless the share is exactly 1 or 0.
 std::string FormatShare(long long part, long long whole);
 /// Returns the number of digits behind the point that shows about three significant digits of `value`.
 int DecimalsFor(double value);
@@ -35,7 +35,7 @@ constexpr std::size_t kMaxTableRows = 400;
 /// Says how many entries are left out: "60 more reasons are left out here; cells.jsonl has all."; "" if `total` does
 /// not exceed `shown`.
 std::string LeftOutWords(std::size_t total, std::size_t shown, std::string_view things, std::string_view where);
-/// Returns the same text as a paragraph of the page.
+/// Returns the text of LeftOutWords as an HTML paragraph.
 std::string LeftOutHtml(std::size_t total, std::size_t shown, std::string_view things, std::string_view where);
 
 }  // namespace etude

@@ -6,8 +6,7 @@
 
 namespace etude {
 
-/// A numeric axis of an SVG panel, in the panel's units: it maps values to positions. Every picture of the page uses
-/// it.
+/// A numeric axis of an SVG panel. It maps values to positions in the panel's units. Every picture of the page uses it.
 struct Axis {
   double low = 0, high = 1;
   bool is_logarithmic = false;
@@ -22,14 +21,14 @@ struct Axis {
 };
 
 /// Makes an axis that holds all values. It is logarithmic if `floor` is above 0 and the values span more than two
-/// decades; values below `floor` are then drawn at its lower end. Without values it is 0…1.
+/// decades; values below `floor` are then drawn at its lower end. Without values, the axis is 0…1.
 Axis AxisOf(const std::vector<double>& values, double floor);
 
 /// Makes a linear axis that holds all values and zero.
 Axis AxisAroundZero(const std::vector<double>& values);
 
-/// Makes a logarithmic axis of one to eight whole decades. It ends above the largest value, and reaches down to the
-/// smallest value, but at most eight decades. Without a value above zero it is 1…10.
+/// Makes a logarithmic axis of one to eight whole decades. It ends above the largest value. It begins below the
+/// smallest value, or eight decades below its end. Without a value above zero, the axis is 1…10.
 Axis DecadeAxis(const std::vector<double>& values);
 
 /// Returns the label of a number on a linear axis: "0.01", "12", "−3", "1e-05".

@@ -20,7 +20,7 @@ struct SheetPicture {
   std::vector<SheetMark> marks;
 };
 
-/// Pictures that stand beside each other, with a title.
+/// Pictures in one row, with a title.
 struct SheetRow {
   std::string title;
   std::vector<SheetPicture> pictures;

@@ -17,7 +17,7 @@ constexpr glm::dvec3 kTarget{0, 0.92, 0};
 constexpr double kBorder = 0.07;
 constexpr double kGridSpacing = 0.5;
 constexpr double kGridLine = 0.008;
-// Between these distances from the origin, in metres, the floor fades into the backdrop, and the shadow with it.
+// Between these distances from the origin, in metres, the floor and the shadow fade into the backdrop.
 constexpr double kFadeFrom = 1.2, kFadeTo = 2.4;
 constexpr glm::vec3 kFloorPaint{0.205, 0.226, 0.248};
 constexpr glm::vec3 kGridPaint{0.36, 0.40, 0.43};
@@ -140,8 +140,8 @@ void Studio::PaintFloor(const FloorMove& placement) {
   // Express the floor point in the figure's original frame by inverting the placement.
   const float cosine = static_cast<float>(std::cos(placement.yaw)), sine = static_cast<float>(std::sin(placement.yaw));
   const float move_x = static_cast<float>(placement.x), move_z = static_cast<float>(placement.z);
-  const int width = floor_.seen.Width();  // a local copy: pixels that are written might alias it, and the loop would
-                                          // not vectorise
+  // A local copy: pixels that are written might alias it, and the loop would not vectorise.
+  const int width = floor_.seen.Width();
   for (int y = floor_.seen.top; y < floor_.seen.bottom; ++y) {
     const std::size_t first = static_cast<std::size_t>(y) * lit_.width + floor_.seen.left;
     const float *xs = &floor_.x[first], *zs = &floor_.z[first];

@@ -14,7 +14,8 @@
 
 namespace etude {
 
-/// The part of the camera's view that must be visible, as tangents from its axis: x right, y down.
+/// The part of the camera's view that must be visible. Points are tangents of the angles from the viewing axis: x to
+/// the right, y down.
 struct ViewBounds {
   glm::dvec2 low{1e9};
   glm::dvec2 high{-1e9};
@@ -31,18 +32,18 @@ class Studio {
   /// times larger and then shrunk: 2 smooths the edges, smaller values are faster.
   Studio(int width, int height, double detail, const ViewBounds& bounds);
 
-  /// Draws a figure that `placement` has moved; the grid moves with it. `ghost` is the Silhouette of another figure
-  /// that shows through behind this one (null = none). The box has the studio's size and begins at a whole pixel. Parts
-  /// that have not changed since the last picture are not drawn again.
+  /// Draws a figure that `placement` has moved; the grid moves with it. `ghost` is the Silhouette of another figure,
+  /// which stands behind and shows through (null = none). The box has the studio's size and begins at a whole pixel.
+  /// Parts that have not changed since the last picture are not drawn again.
   void Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
             const Mask* ghost = nullptr);
   /// Returns the pixels that a moved figure covers, at the studio's internal resolution (`detail`).
   Mask Silhouette(Renderer& renderer, const Figure& placed) const;
-  /// Returns the pixel of the canvas at which a point is seen.
+  /// Returns the pixel of the canvas at which the camera sees a point.
   glm::dvec2 PixelOf(const Box& box, const glm::dvec3& point) const;
 
  private:
-  /// The points where the rays of the pixels hit the floor, one number per pixel.
+  /// The points at which the rays of the pixels hit the floor; one number per pixel.
   struct Floor {
     std::vector<float> x, z;       ///< metres
     std::vector<float> fade;       ///< visibility of the floor there, 0…1; 0 shows only the backdrop

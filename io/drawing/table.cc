@@ -17,7 +17,7 @@ struct Span {
   std::size_t first = 0, columns = 0;
 };
 
-/// Returns the upper headings; empty if no column has one.
+/// Returns the upper headings; empty if no column has an upper heading.
 std::vector<Span> SpansOf(const Table& table) {
   std::vector<Span> spans;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -117,7 +117,7 @@ std::string TableLatex(const Table& table) {
   const auto append = [](std::string& line, const std::string& cell, bool is_first) {
     line += is_first ? cell : cell.empty() ? " &" : " & " + cell;
   };
-  // Collect the alignments, the heads, and the heads over several columns with their rules.
+  // Collect the alignments, the headings, and the headings over several columns with the lines below them.
   std::string places, heads, over, rules;
   for (const TableColumn& column : table.columns) {
     places += column.is_number ? 'r' : 'l';

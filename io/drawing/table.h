@@ -12,7 +12,7 @@ struct TableColumn {
   std::string head = {};
   bool is_number = false;    ///< aligned to the right
   bool is_row_head = false;  ///< its cells are the headings of their rows
-  bool is_detail = false;    ///< for experts: the page shows it on request
+  bool is_detail = false;    ///< for experts: the page shows the column only on request
   bool is_sortable = false;  ///< the page sorts its cells by their numbers
   std::string latex = {};    ///< the heading in LaTeX, if it differs from the text
   std::string over = {};     ///< a second heading above this one, shared with neighbouring columns
@@ -22,16 +22,16 @@ struct TableColumn {
 
 struct TableCell {
   TableCell() = default;
-  /// `markup` replaces the text on the page.
+  /// `markup`, if not "", replaces the text on the page.
   template <std::convertible_to<std::string_view> Text>
   TableCell(const Text& words, std::optional<double> value = {}, std::string markup = {})
       : text(std::string_view(words)), number(value), html(std::move(markup)) {}
-  /// A number with all its digits; the cell is empty without a number.
+  /// Makes a cell of a number with all its digits; an empty cell without a number.
   TableCell(std::optional<double> value) : number(value) {}
   TableCell(double value) : number(value) {}
   TableCell(int value) : number(value) {}
 
-  std::string text;              ///< plain: each writer escapes it
+  std::string text;              ///< plain text: each writer escapes it
   std::optional<double> number;  ///< written to CSV instead of the text; the page sorts by it
   std::string html;              ///< shown on the page instead of the text, unless ""
   std::string_view latex_sign;   ///< LaTeX after the text
@@ -40,7 +40,8 @@ struct TableCell {
 
 struct TableRow {
   std::vector<TableCell> cells = {};  ///< as many as the table has columns; none in a row that begins a group
-  std::string group = {};             ///< the heading of the rows that follow, across all columns; "" in all other rows
+  /// The heading of the rows that follow, across all columns; "" in every other row.
+  std::string group = {};
   /// An HTML comment that the page holds instead of the row; other writers leave it out.
   std::string mark = {};
   std::string attributes = {};  ///< HTML attributes of the row, or of the group: " class=\"taken\""
@@ -48,7 +49,7 @@ struct TableRow {
 
 /// A table as a value. All four writers escape its texts.
 struct Table {
-  /// Its name for screen readers, if the page may scroll it sideways; "" = it does not scroll.
+  /// The table's name for screen readers, if the page may scroll the table sideways; "" = the table does not scroll.
   std::string label = {};
   std::string style = {};    ///< its CSS class on the page
   std::string caption = {};  ///< "" = no caption
@@ -59,7 +60,7 @@ struct Table {
 std::string TableHtml(const Table& table);
 /// Writes a table of GitHub's Markdown, with the caption as a paragraph before it. Headings of groups are left out.
 std::string TableMarkdown(const Table& table);
-/// Writes a tabular of the package booktabs, with the caption as a line before it, and without a float.
+/// Writes a `tabular` of the package booktabs, without a float, with the caption as a line before it.
 std::string TableLatex(const Table& table);
 /// Writes CSV (RFC 4180): the headings, then one line for each row, numbers with all their digits. Captions and group
 /// headings are left out.

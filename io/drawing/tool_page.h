@@ -13,7 +13,7 @@ struct ToolPage {
   std::string version, command;
 };
 
-/// Writes one HTML page that needs no other file and may not use the network, in the style of a run's page.
+/// Writes one HTML page in the style of a run's page. It needs no other file, and may not use the network.
 std::string WriteToolPage(const ToolPage& page, std::string_view content_html);
 
 }  // namespace etude

@@ -34,7 +34,8 @@ int OpenNext(int folder, const std::string& name, bool makes) {
 struct Walk {
   Descriptor end;            ///< the last folder; none on failure
   fs::path stopped_at = {};  ///< the folder that could not be opened
-  int reason = 0;            ///< its errno; ELOOP = it is a link, EXDEV = the path leads out of `given`
+  /// The errno of the failure; ELOOP = the folder is a link, EXDEV = the path leads out of `given`.
+  int reason = 0;
 };
 
 Walk WalkDown(const fs::path& given, const fs::path& below, bool makes) {
@@ -107,7 +108,7 @@ int FileSpot::folder() const { return folder_.number() < 0 ? AT_FDCWD : folder_.
 
 Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode) {
   ASSIGN_OR_RETURN(const auto spot, FileSpot::Find(path, (flags & O_CREAT) != 0));
-  // Without O_NONBLOCK, opening a pipe would block. It has no effect on a regular file.
+  // Without O_NONBLOCK, opening a pipe would block. The flag has no effect on a regular file.
   const int more = O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (path.is_inside() ? O_NOFOLLOW : 0);
   // The file is truncated below, after the checks.
   Descriptor file(::openat(spot.folder(), spot.name().c_str(), (flags & ~O_TRUNC) | more, mode));

@@ -14,9 +14,9 @@
 
 namespace etude {
 
-/// The path of a file or folder, of one of two kinds. In a path that the user gave, symbolic links are followed. A file
-/// in a folder that somebody else may have filled (a run, a shard, answers) is written `Inside(folder) / "name"`: no
-/// link below that folder is followed, and no name may lead out of it.
+/// The path of a file or folder. There are two kinds. In a path that the user gave, symbolic links are followed. A file
+/// in a folder that somebody else may have filled (a run, a shard, answers) has the path `Inside(folder) / "name"`: no
+/// link below that folder is followed, and no name may lead out of the folder.
 class FilePath {
  public:
   /// A path that the user gave.
@@ -48,8 +48,8 @@ FilePath Inside(const std::filesystem::path& folder);
 /// An open folder and a file name in it: the arguments of the system calls that end in "at" (openat, renameat).
 class FileSpot {
  public:
-  /// Opens the folders of an `Inside` path one by one; `makes_folders` creates missing ones. Fails on a link among
-  /// them, on a path that leads out of its folder, and with the system's reason.
+  /// Opens the folders of an `Inside` path one by one; `makes_folders` creates missing folders. Fails if a folder is a
+  /// link, if the path leads out of its folder, or with the system's reason.
   static Result<FileSpot> Find(const FilePath& path, bool makes_folders);
 
   int folder() const;
@@ -68,7 +68,7 @@ Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode = 0666)
 /// Returns true if something has this path. A link below an `Inside` folder counts, although OpenFile refuses it.
 bool Exists(const FilePath& path);
 
-/// Creates a folder and those above it. Fails as FileSpot::Find does.
+/// Creates a folder and all missing folders above it. Fails as FileSpot::Find does.
 Result<void> MakeFolder(const FilePath& folder);
 
 /// Lists all regular files below a folder: sorted paths relative to it; empty if the folder does not exist. Fails on

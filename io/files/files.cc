@@ -29,7 +29,7 @@ Result<std::size_t> ReadSome(const FilePath& path, int file, std::span<char> int
   return static_cast<std::size_t>(count);
 }
 
-/// Some file systems do not support fsync (EINVAL, ENOTSUP): that is no failure.
+/// Returns true if fsync succeeds, or if the file system does not support it (EINVAL, ENOTSUP).
 bool Synced(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 Result<void> Sync(const std::filesystem::path& path, int flags) {
@@ -43,7 +43,7 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
   return {};
 }
 
-/// Returns temporary name number `copy`. It keeps the extension, because encoders choose the container by it.
+/// Returns temporary name number `copy`. The name keeps the extension, because encoders choose the container by it.
 std::filesystem::path NameOfCopy(const std::filesystem::path& path, int copy) {
   const std::string number = copy == 0 ? "" : std::to_string(copy + 1);
   return path.parent_path() / (path.stem().string() + ".partial" + number + path.extension().string());
@@ -74,7 +74,7 @@ bool LockNamed(int file, int folder, const std::string& name) {
   return ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
 }
 
-/// Returns true if the file has no second name (hard link), under which it would be overwritten too.
+/// Returns true if the file has no second name (hard link); writing would also overwrite the file of that name.
 bool HasOneName(int file) {
   struct stat status {};
   return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1;
@@ -91,7 +91,7 @@ Result<PartialFile> PartialFile::Claim(const FilePath& path) {
   std::error_code ignored;
   partial.made_folder_ = !folder.empty() && !std::filesystem::exists(folder, ignored);
   ASSIGN_OR_RETURN(partial.spot_, FileSpot::Find(path, /*makes_folders=*/true));
-  constexpr int kMaxTries = 1000;  // a try fails if another process writes the same file, or has just renamed it
+  constexpr int kMaxTries = 1000;  // a try fails if another process writes the same file or has just renamed it
   constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   for (int copy = 0; copy < kMaxTries; ++copy) {
     partial.name_ = NameOfCopy(partial.spot_.name(), copy / 2).string();

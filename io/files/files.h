@@ -12,7 +12,8 @@
 
 namespace etude {
 
-/// When a finished file and its name are synchronised to disk (fsync), so that they survive a power cut.
+/// The time at which a finished file and its name are synchronised to disk (fsync). Only then do they survive a power
+/// cut.
 enum class OnDisk {
   kAtOnce,  ///< before the call returns
   kLater,   ///< when the caller calls SyncTree on the folder, or never for temporary files
@@ -23,16 +24,16 @@ enum class OnDisk {
 /// and the system's reason.
 Result<void> WriteFileAtomically(const FilePath& path, std::string_view bytes, OnDisk when = OnDisk::kAtOnce);
 
-/// Writes one JSON value and a line end like WriteFileAtomically. Fails also on NaN and infinity (WriteJson).
+/// Writes one JSON value and a line end with WriteFileAtomically. Also fails on NaN and infinity (WriteJson).
 Result<void> SaveJson(const FilePath& path, const Json& json, OnDisk when = OnDisk::kAtOnce);
 
-/// Returns the temporary name under which `path` is written, if no other process is writing the same file; otherwise a
-/// number is added.
+/// Returns the temporary name under which `path` is written if no other process writes the same file; otherwise a
+/// number is added to the name.
 std::filesystem::path TemporaryName(const std::filesystem::path& path);
 
-/// A file that is written under a temporary name, beside its final path. Finish renames it; without Finish it is
-/// deleted. It is locked: if two processes write the same path, each has its own temporary file. The temporary file of
-/// a killed process is reused by the next one.
+/// A file that is written under a temporary name, beside its final path. Finish renames the file; without Finish it is
+/// deleted. The file is locked: if two processes write the same path, each has its own temporary file. The next process
+/// reuses the temporary file of a killed process.
 class PartialFile {
  public:
   /// Creates the folder and an empty temporary file. Fails as WriteFileAtomically does.
@@ -48,7 +49,7 @@ class PartialFile {
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
   /// Returns the error "cannot write this file" with the reason in errno.
   tl::unexpected<Error> Failure() const;
-  /// Tries to append to the file, and fails with the system's reason. It explains why another program (an encoder)
+  /// Tries to append to the file; fails with the system's reason. So a caller learns why another program (an encoder)
   /// could not write the file: a full disk, for instance.
   Result<void> CheckRoom() const;
 
@@ -69,7 +70,7 @@ class AtomicFile {
   Result<void> Write(std::string_view bytes);
   /// Replaces bytes that were written before, from `offset` on.
   Result<void> Overwrite(std::uint64_t offset, std::string_view bytes);
-  /// Writes what is buffered, and renames the file to its final path.
+  /// Writes the buffered bytes, and renames the file to its final path.
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
 
  private:
@@ -79,7 +80,7 @@ class AtomicFile {
   std::string unwritten_;
 };
 
-/// The maximum size of a file that is read whole, bytes. A larger one is refused before memory is allocated.
+/// The maximum size of a file that is read whole, bytes. A larger file is refused before memory is allocated.
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{2} << 30;
 
 /// Reads all bytes of a file of at most `limit` bytes. Fails as OpenFile does.
@@ -119,15 +120,15 @@ Result<void> SyncFile(const std::filesystem::path& path);
 /// Synchronises the entries of one folder: only then does the name of a new file survive a power cut.
 Result<void> SyncFolder(const std::filesystem::path& folder);
 
-/// Synchronises the entries of all folders above a folder, as far as they can be opened, so that the folder itself
-/// survives a power cut.
+/// Synchronises the entries of all folders above a folder, as far as they can be opened. Only then does the folder
+/// itself survive a power cut.
 Result<void> SyncPathTo(const std::filesystem::path& folder);
 
 /// Synchronises a folder and every file and folder below it.
 Result<void> SyncTree(const std::filesystem::path& folder);
 
 /// Locks an open file or folder against other processes until it is closed. Returns false if another process has the
-/// lock, or if the file does not have this name any more; true on file systems without locks.
+/// lock, or if the file no longer has this name. Returns true on file systems without locks.
 bool LockUnlessTaken(int file, const std::filesystem::path& name);
 
 }  // namespace etude

@@ -12,7 +12,7 @@ namespace etude {
 
 using Json = nlohmann::ordered_json;
 
-/// Deletes a Json in json.cc, so that headers which only pass values on need not include nlohmann/json.hpp.
+/// Deletes a Json in json.cc, so that headers which only pass values on do not need nlohmann/json.hpp.
 struct DeleteJson {
   DeleteJson() = default;
   DeleteJson(std::default_delete<Json>) {}  // NOLINT: converts from std::make_unique
@@ -20,9 +20,9 @@ struct DeleteJson {
 };
 using JsonPtr = std::unique_ptr<Json, DeleteJson>;
 
-/// Writes JSON, in the form of all of Etude's files: one line, keys in insertion order, numbers with the fewest digits
-/// that read back the same, invisible characters (IsHidden) escaped as code points. Fails on NaN and infinity with the
-/// path to the value; nlohmann would silently write null.
+/// Writes JSON in the form of all of Etude's files: one line, keys in insertion order, numbers with the fewest digits
+/// that give the same number when read, invisible characters (IsHidden) escaped as code points. Fails on NaN and
+/// infinity with the path to the value; nlohmann would silently write null.
 Result<std::string> WriteJson(const Json& json);
 
 /// Describes a value for a complaint: its JSON, cut after 40 characters, or "an object", or the length of a list.
@@ -31,8 +31,8 @@ std::string ShowJson(const Json& json);
 /// Returns the depth to which brackets nest. The text need not be valid JSON.
 int NestingOf(std::string_view text);
 
-/// Reads one JSON value, nested at most 100 deep. `file` and `line` are for complaints; line 0 = the file is one value.
-/// Fails on invalid JSON and on a zero byte.
+/// Reads one JSON value, nested at most 100 deep. `file` and `line` are for complaints; line 0 means that the whole
+/// file is one value. Fails on invalid JSON and on a zero byte.
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line = 0);
 
 /// Reads a file of one JSON value. Fails like ReadWholeFile and ReadJson.

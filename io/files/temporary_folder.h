@@ -12,13 +12,14 @@ namespace etude {
 /// makes a temporary folder in the same parent folder deletes it.
 class TemporaryFolder {
  public:
-  /// Makes it in $TMPDIR, else in /tmp. `purpose` becomes part of its name.
+  /// Makes a temporary folder in $TMPDIR, else in /tmp. `purpose` becomes part of its name.
   static Result<TemporaryFolder> Make(const std::string& purpose);
-  /// Makes it in `parent`: for files that will be renamed, which works only within one file system.
+  /// Makes a temporary folder in `parent`: for files that will be renamed, because renaming works only within one file
+  /// system.
   static Result<TemporaryFolder> MakeIn(const std::filesystem::path& parent, const std::string& purpose);
-  /// Makes one that survives if its process is killed; FindKept finds it by `kept`, a part of its name.
+  /// Makes a temporary folder that stays if the process is killed; FindKept finds it by `kept`, a part of its name.
   static Result<TemporaryFolder> MakeKept(const std::filesystem::path& parent, const std::string& kept);
-  /// Takes over the folders of MakeKept with this name whose processes have been killed.
+  /// Takes over all folders that MakeKept made with the name `kept` and whose processes have been killed.
   static std::vector<TemporaryFolder> FindKept(const std::filesystem::path& parent, const std::string& kept);
   /// Deletes the folders in `parent` (default: the system's temporary folder) whose processes have been killed. Make
   /// and MakeIn do this too.

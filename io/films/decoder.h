@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The facts of a film that are needed before its frames are read.
+/// The facts of a film that must be known before its frames are read.
 struct FilmFacts {
   int width = 0;  ///< width as shown, after the rotation that a telephone may have stored
   int height = 0;
@@ -28,7 +28,7 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
 /// directly, without a shell. Every frame is read once, whatever its timestamp.
 class Decoder {
  public:
-  /// Fails if `program` cannot be started. `facts` must be those of the same file.
+  /// Starts ffmpeg. Fails if `program` cannot be started. `facts` must be the facts of the same file.
   static Result<Decoder> Start(const std::filesystem::path& path, const FilmFacts& facts,
                                const std::string& program = "ffmpeg");
   ~Decoder();
@@ -45,7 +45,7 @@ class Decoder {
 
   std::filesystem::path path_;
   FilmFacts facts_;
-  pid_t child_;  ///< −1 after it has ended
+  pid_t child_;  ///< −1 after the process has ended
   File frames_;  ///< ffmpeg's output
   File log_;     ///< ffmpeg's standard error
 };

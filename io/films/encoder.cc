@@ -19,9 +19,9 @@ namespace {
 // Preset veryfast gives the smallest files on drawn films; no other preset saves more than two milliseconds per frame
 // of 720 × 720. The number of threads and the processor's instructions change the bytes, so x264 runs one thread and
 // chooses no algorithm by the processor (cpu-independent). The bitexact flags keep dates and versions out of the file.
-// FLAC needs no floating-point arithmetic, so its bytes are the same on every CPU, and browsers play it in an MP4.
-// FFV1 with Golomb-Rice codes and the small context takes half the time of its range coder and makes the same size of
-// noisy pictures; every frame is a key frame, so that players seek exactly.
+// FLAC needs no floating-point arithmetic, so its bytes are the same on every CPU, and browsers play it in an MP4. FFV1
+// with Golomb-Rice codes and the small context takes half the time of FFV1's range coder, and files of noisy pictures
+// have the same size; every frame is a key frame, so that players seek exactly.
 std::vector<std::string> Arguments(const std::string& program, int width, int height, int rate_hz,
                                    const std::filesystem::path& sound, Encoder::Form form) {
   const bool is_drawn = form == Encoder::Form::kI420;
@@ -39,8 +39,8 @@ std::vector<std::string> Arguments(const std::string& program, int width, int he
     add({"-x264-params", "cpu-independent=1", "-pix_fmt", "yuv420p"});
   }
   add({"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
-  // ffmpeg writes to the file that it inherits as its standard output, not to a path, because somebody may have put a
-  // link there. It opens that file again through /proc, because MP4 needs an output that can seek.
+  // ffmpeg writes to its standard output, which is the open file, and not to a path, because somebody may have put a
+  // link at that path. It opens the file again through /proc, because MP4 needs an output that can seek.
   add({"-map_metadata", "-1", "-f", is_exact ? "matroska" : "mp4", "/proc/self/fd/1"});
   return all;
 }

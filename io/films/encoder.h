@@ -17,12 +17,13 @@
 namespace etude {
 
 /// Encodes pictures as a film by sending them to ffmpeg, which is started directly, without a shell. The same pictures
-/// give the same bytes on every CPU. The file gets its name when it is complete; an encoder that is destroyed before
-/// Finish leaves no file.
+/// give the same bytes on every CPU. The file gets its final name when it is complete; an encoder that is destroyed
+/// before Finish leaves no file.
 class Encoder {
  public:
-  /// The pictures and the film. kRgb and kI420 make an MP4 (H.264, lossy) of RGB, or of I420, the form that its encoder
-  /// needs (three planes, BT.601). kExactRgb makes a Matroska file (FFV1) that keeps every bit of RGB pictures.
+  /// The format of the pictures and of the film. kRgb and kI420 make an MP4 (H.264, lossy): kRgb from RGB, kI420 from
+  /// the form that the encoder needs (three planes, BT.601). kExactRgb makes a Matroska file (FFV1) that keeps every
+  /// bit of RGB pictures.
   enum class Form { kRgb, kI420, kExactRgb };
 
   /// Starts ffmpeg. Pictures must have this size (even numbers, unless exact) and follow at `rate_hz`. `sound` is a WAV
@@ -48,7 +49,7 @@ class Encoder {
   int CloseAndWait();
 
   PartialFile film_;
-  pid_t child_;   ///< −1 after it has ended
+  pid_t child_;   ///< −1 after the process has ended
   int pictures_;  ///< the socket that ffmpeg reads; −1 after it is closed
   Log log_;       ///< ffmpeg's standard error
 };

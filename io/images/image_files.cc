@@ -19,7 +19,7 @@ namespace {
 
 // The size of an uncompressed picture with kMaxPictureSide pixels per side, rounded up.
 constexpr std::uintmax_t kMaxPictureFileBytes = std::uintmax_t{1} << 28;
-// The limit for pictures that no camera took: the limit of GL and JPEG.
+// The maximum side of pictures that no camera took; GL and JPEG have the same limit.
 constexpr std::uint32_t kMaxSide = 16'384;
 constexpr int kRunLengthOnly = 3;  // zlib's Z_RLE
 
@@ -102,7 +102,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
     channels.insert(name, SliceOf(type, pixels, window, stride));
   };
 
-  // Colours: half floats, interleaved.
+  // Convert colours to half floats, interleaved.
   std::vector<half> colour;
   for (const Rgb8& pixel : view.colour.pixels) {
     for (const std::uint8_t value : {pixel.r, pixel.g, pixel.b}) {
@@ -112,7 +112,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
   if (!colour.empty()) {
     for (int i = 0; i < 3; ++i) add(kColourChannels[i], Imf::HALF, colour.data() + i, 3 * sizeof(half));
   }
-  // Depth, labels, normals, and further depth images.
+  // Add depth, labels, normals, and further depth images.
   if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
   // Labels are floats, because readers in browsers (three.js, parse-exr) misread files with integer channels.
   const std::vector<float> labels(view.labels.pixels.begin(), view.labels.pixels.end());
@@ -152,7 +152,8 @@ std::string EncodePpm(const ColourImage& image) {
 
 namespace {
 
-/// Reads the head of a PNG file, and refuses pictures that are too large. `png` refers to `bytes` from then on.
+/// Reads the head of a PNG file, and refuses pictures that are too large. Afterwards, `png` refers to
+/// `bytes`, which must outlive it.
 Result<void> BeginPng(const std::string& bytes, const std::string& path, png_image& png) {
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {

@@ -12,7 +12,7 @@
 namespace etude {
 
 // Encodes and decodes pictures: the one door to PNG and OpenEXR. Pictures with more than kMaxPictureSide pixels per
-// side are refused before memory is taken. Errors name the file unless stated otherwise.
+// side are refused before memory is allocated. Errors name the file unless stated otherwise.
 
 /// Returns the bytes of a PNG file, for embedding in a page. The same picture gives the same bytes. `image` must have
 /// at least one pixel. With `pixels_per_metre` above 0, the file states its size in print.

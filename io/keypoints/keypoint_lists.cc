@@ -80,7 +80,7 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
   if (found) {
     order = (*found)->landmarks;
   } else {
-    // No layout has this count: use the names if enough of them are known.
+    // If no layout has this count, use the names, provided that enough of them are known.
     std::size_t known = 0;
     for (const std::string& name : names) {
       order.push_back(LandmarkOfName(name));
@@ -208,7 +208,7 @@ std::optional<long> FrameNumber(const Json& id) {
 
 constexpr long kMaxFrames = 1'000'000;
 
-/// Sorts numbered frames into a film.
+/// Puts numbered frames in order and returns them as a film.
 Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, const FilmOfKeypoints& of,
                              const Place& place) {
   PeopleOfFilm film;
@@ -228,7 +228,8 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   return film;
 }
 
-/// Moves frames to the given indices, which ascend; `count` is the number of frames. Adds a note if frames are missing.
+/// Moves the i-th frame to `indices[i]`; indices ascend. `count` is the number of frames afterwards. Adds a note if
+/// frames are missing.
 void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleOfFilm& film) {
   SeenPeople frames(count);
   for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
@@ -263,7 +264,7 @@ void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
     if (!(steps.back() > 0)) return;
   }
   if (steps.empty()) return;
-  // Measure times in the usual step between frames, as if the film had 30 Hz.
+  // Scale the times so that the median step between frames is that of 30 Hz.
   const double usual = UpperMedian(std::move(steps)) * kJudgedRateHz;
   std::vector<double> scaled;
   for (const double time : times) scaled.push_back((time - times.front()) / usual);
@@ -272,7 +273,7 @@ void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
   std::vector<std::size_t> indices;
   for (const double time : scaled) {
     const double index = std::round(time * (*grid)->rate_hz);
-    // too uneven: two frames would get one index
+    // The times are too uneven: two frames would get one index.
     if (!indices.empty() && static_cast<std::size_t>(index) <= indices.back()) return;
     indices.push_back(static_cast<std::size_t>(index));
   }
@@ -295,8 +296,8 @@ std::vector<std::string> MetaNames(const Json& json) {
   return list;
 }
 
-/// Reads results: one object per person, whose image_id gives the frame. Confidences are divided by the largest one if
-/// it exceeds 1, because COCO's flags and AlphaPose's scores do.
+/// Reads results: one object per person, whose image_id gives the frame. If the largest confidence exceeds 1, as COCO's
+/// flags and AlphaPose's scores may, all confidences are divided by it.
 Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, const FilmOfKeypoints& of,
                                  const Place& place) {
   // Collect the points of every frame and the largest confidence.

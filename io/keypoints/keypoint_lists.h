@@ -11,7 +11,7 @@ namespace etude {
 
 constexpr std::size_t kMaxPeople = 64;  ///< people in one frame
 
-/// Returns the member of that name, or null if there is none.
+/// Returns the member with this name, or null if there is none.
 const Json* Member(const Json& json, const char* name);
 /// Returns the texts of a list; empty if `list` is no list. An entry that is no text becomes "".
 std::vector<std::string> TextsOf(const Json* list);
@@ -19,8 +19,8 @@ std::vector<std::string> TextsOf(const Json* list);
 /// Reads a list of triples x, y, confidence. A point with a null was not seen.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place);
 
-/// Makes a person from an estimator's keypoints. Their order is that of `layout`; else of the only layout with that
-/// number of keypoints; else the one that `names` give. Fails if none of these applies.
+/// Makes a person from an estimator's keypoints. `layout` gives their order; if it is "", the only layout with that
+/// number of keypoints does; if no layout has that number, `names` do. Fails if none of these applies.
 Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout,
                             const std::vector<std::string>& names, const Place& place);
 

@@ -63,8 +63,8 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   return files;
 }
 
-/// Replaces bare NaN by null. Python writes NaN for a missing number, as estimators have for points they did not see,
-/// but JSON does not allow it.
+/// Replaces bare NaN by null. Python writes NaN for missing numbers, which estimators use for points that they did not
+/// see, but JSON does not allow it.
 std::string WithNullForNan(std::string text) {
   constexpr std::string_view kNan = "NaN";
   bool in_string = false;
@@ -135,8 +135,8 @@ void CountMidHips(const Json& json, const Place& place, int& between, int& elsew
   }
 }
 
-/// Returns "body_25" if the first people of these files have 25 keypoints in that order, which the position of their
-/// mid-hips shows; else "".
+/// Returns "body_25" if the first people of these files have 25 keypoints in the order of body_25; the position of the
+/// mid-hip shows the order. Otherwise returns "".
 Result<std::string> LayoutOf(std::span<const fs::path> files) {
   constexpr int kEnoughPeople = 50, kMinPeople = 3;
   constexpr double kMinShare = 0.9;
@@ -231,7 +231,7 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   film.frames.resize(frames.size());
   if (film.frames.empty()) return Fail(place, "no image");
   for (CocoPerson& person : people) {
-    // COCO's flags if any value exceeds 1, else scores.
+    // If any value exceeds 1, the values are COCO's flags; otherwise they are scores.
     for (Keypoint& point : person.points) point.confidence /= max_confidence > 1 ? 2 : 1;
     ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(person.points, layout, names, place));
     if (film.frames[person.frame].size() >= kMaxPeople)
@@ -242,12 +242,12 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   return film;
 }
 
-/// Converts keypoints to pixels if all of them lie within 0…1, as shares of the film's width and height.
+/// If all keypoints lie within 0…1, treats them as shares of the film's width and height, and converts them to pixels.
 void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
   constexpr double kMaxShare = 1.1;
   constexpr int kSmallPicture = 16;
   if (of.width < kSmallPicture || of.height < kSmallPicture) return;
-  // Return unchanged if any keypoint lies outside.
+  // Return unchanged if any keypoint lies outside 0…1.
   std::size_t seen = 0;
   for (const auto& frame : film.frames) {
     for (const SeenPerson& person : frame) {

@@ -9,10 +9,10 @@
 
 namespace etude {
 
-/// The people of one film, as an estimator found them or a person marked them.
+/// The people of one film, found by an estimator or marked by a person.
 struct PeopleOfFilm {
   SeenPeople frames;
-  int width = 0, height = 0;  ///< size of the pictures, pixels; 0 if the files do not give it
+  int width = 0, height = 0;  ///< size of the pictures, pixels; 0 if the files do not state it
   std::string told;           ///< a note about assumptions that were made, "" if none
 };
 

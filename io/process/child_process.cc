@@ -78,13 +78,14 @@ struct ExecPlan {
   const char* path;
   char* const* argv;
   char* const* envp;
-  int input, output, errors;  ///< descriptors; errors −1 = it shares ours
-  int report;                 ///< a pipe to which it writes the errno if it fails
+  int input, output, errors;  ///< descriptors; `errors` is −1 if the child shares ours
+  int report;                 ///< a pipe to which the child writes the errno of a failure
   int parent;                 ///< a pidfd of this process
   bool limited, contained;
   std::string user_map, group_map;
   std::vector<Descriptor> texts;
-  std::vector<std::pair<const char*, std::string>> user_limits;  ///< files in /proc, and the texts to write to them
+  /// Files in /proc, and the texts to be written to them.
+  std::vector<std::pair<const char*, std::string>> user_limits;
 };
 
 /// Forks into new user, PID and mount namespaces, where the child has the privileges that bubblewrap needs, and into a
@@ -107,7 +108,7 @@ bool WriteTo(const char* path, std::string_view text) {
   return written;
 }
 
-/// Sets up the new namespaces as bubblewrap expects them: the same user and group IDs, and a /proc of its own. Kernel
+/// Sets up the new namespaces as bubblewrap expects: the same user and group IDs, and a separate /proc. The kernel's
 /// limits per user are set for the namespace, so that the user's other programs keep a share.
 bool SetUpNamespaces(const ExecPlan& child) {
   const bool is_set_up = WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
@@ -125,7 +126,7 @@ bool SetUpNamespaces(const ExecPlan& child) {
 
 [[noreturn]] void BecomeProgram(const ExecPlan& child) {
   ::setpgid(0, 0);
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans among its descendants become its children
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // the child adopts the orphans among its descendants
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   pollfd parent{child.parent, POLLIN, 0};
   if (::poll(&parent, 1, 0) != 0) ::_exit(0);  // the parent died before the line above
@@ -138,7 +139,8 @@ bool SetUpNamespaces(const ExecPlan& child) {
   ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   for (std::size_t i = 0; i < child.texts.size(); ++i) {
     const int wanted = STDERR_FILENO + 1 + static_cast<int>(i);
-    // The texts were opened after three pipes, so each number is higher than its copy's: none is overwritten too early.
+    // The texts were opened after three pipes, so each has a higher number than its target, and no target overwrites a
+    // text that is still to be copied.
     if (::dup2(child.texts[i].number(), wanted) < 0 || ::lseek(wanted, 0, SEEK_SET) != 0) GiveUp(child, errno);
   }
   ::execve(child.path, child.argv, child.envp);
@@ -165,7 +167,7 @@ Result<ChildProcess> StartUncontained(ChildOptions options) {
   return ChildProcess::Start(options);
 }
 
-/// The children of this process that ChildProcess started. After AdoptOrphans, all its other children are orphans.
+/// Returns the children of this process that ChildProcess started. After AdoptOrphans, all other children are orphans.
 std::set<pid_t>& ManagedChildren() {
   static std::set<pid_t> children;
   return children;
@@ -220,7 +222,7 @@ Result<std::string> FindProgram(const std::string& name) {
 void AdoptOrphans() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
 
 Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
-  // Pipes, and the file for standard error.
+  // Open the pipes, and the file for standard error.
   ASSIGN_OR_RETURN(const auto path, FindProgram(options.program));
   auto input = MakePipe(), output = MakePipe(), report = MakePipe();
   for (const auto* pipe : {&input, &output, &report}) {
@@ -340,7 +342,7 @@ std::size_t ChildProcess::UnreadBytes() const {
 }
 
 bool ChildProcess::Receive(std::size_t max_line_bytes) {
-  SendOn();  // also if it has closed its input: there may be output to read
+  SendOn();  // also if the child has closed its input: its output may still hold lines
   buffer_.erase(0, line_start_);
   scanned_ -= line_start_;
   line_start_ = 0;
@@ -384,12 +386,12 @@ bool ChildProcess::HasEnded() const {
 
 std::string ChildProcess::Finish(int patience_ms) {
   if (pid_ < 0) return "not running";
-  HeldTree tree(pid_);  // before the child ends, while its descendants can still be found
+  HeldTree tree(pid_);  // kill the tree before the child ends, while the child's descendants can still be found
   ::close(input_);
   for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
   ::close(output_);
   tree.Kill();
-  ::kill(-pid_, SIGKILL);  // before it is reaped: afterwards the group's ID may be reused
+  ::kill(-pid_, SIGKILL);  // kill the group before the child is reaped; afterwards, the group's ID may be reused
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }

@@ -18,14 +18,15 @@ namespace etude {
 /// The limits of an outside program, besides the time and memory that its scenario allows.
 struct ProgramLimits {
   static constexpr std::uint64_t kFileBytes = std::uint64_t{256} << 20;  ///< per file; in a fence, per scratch folder
-  /// Per process. The same limit holds for the user's descriptors in flight between processes (SCM_RIGHTS): 512 pipes
-  /// in flight and 256 open ones leave other programs some of the user's 1024 pipes of full size.
+  /// The maximum number of open descriptors per process. The same limit holds for the user's descriptors in flight
+  /// between processes (SCM_RIGHTS): 512 pipes in flight and 256 open pipes leave other programs some of the user's
+  /// 1024 pipes of full size.
   static constexpr std::uint64_t kOpenFiles = 512;
   static constexpr std::uint64_t kPendingSignals = 1024;  ///< POSIX timers count, too
   static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< locked by mlock
   static constexpr int kInotifyWatches = 4096;
 
-  // For all its processes together, sampled 50 times a second.
+  // The limits below are for all processes of the program together; they are sampled 50 times a second.
   static constexpr std::size_t kProcesses = 256;
   static constexpr std::size_t kThreads = 4096;
   static constexpr std::size_t kDescriptors = 4096;
@@ -41,36 +42,38 @@ struct ProgramLimits {
   }
 };
 
-/// Finds a program as a shell does: a name with '/' is a path, others are looked up in PATH. Fails if there is none.
+/// Finds a program in the way of a shell: a name with '/' is a path, any other name is looked up in PATH. Fails if
+/// there is no such program.
 Result<std::string> FindProgram(const std::string& name);
 
 struct ChildOptions {
   std::string program;  ///< a path, or a name that is looked up in PATH
   std::vector<std::string> arguments = {};
-  std::string error_file = {};  ///< its standard error is appended here; "" = it shares ours
+  std::string error_file = {};  ///< the child's standard error is appended here; "" = the child shares ours
   bool limited = false;         ///< an outside program: no new privileges, ProgramLimits, PWD removed
-  /// Makes it the first process of new user, PID and mount namespaces, if the kernel allows it. When the first process
-  /// ends (at the latest with this process), the kernel ends all processes in the namespace.
+  /// Makes the child the first process of new user, PID and mount namespaces, if the kernel allows it. When the child
+  /// ends (at the latest with this process), the kernel ends all processes in the namespaces.
   bool contained = false;
-  int programs = 1;                               ///< the number of such programs that run at the same time
-  int control_group = -1;                         ///< ControlGroup::folder to start it in; only if contained
-  std::vector<std::string> inherited_texts = {};  ///< texts that it can read from its descriptors 3, 4, …
+  int programs = 1;  ///< number of outside programs that run at the same time
+  /// ControlGroup::folder of the group to start the child in; only if contained.
+  int control_group = -1;
+  std::vector<std::string> inherited_texts = {};  ///< texts that the child can read from its descriptors 3, 4, …
   /// Changes to ClosedEnvironment: NAME=VALUE sets a variable, NAME removes one.
   std::vector<std::string> environment = {};
 };
 
-/// From now on, orphaned descendants of a child become children of this process, and Finish kills them. Only for
-/// processes that start children by ChildProcess alone.
+/// Makes this process adopt orphaned descendants of its children from now on; Finish kills them. Use this only in
+/// processes that start all their children by ChildProcess.
 void AdoptOrphans();
 
 /// A child process with pipes for its standard input and output, which carry lines. It runs in the closed environment
 /// (ClosedEnvironment), leads a process group of its own (so a terminal's Ctrl-C does not reach it), inherits only the
-/// descriptors of the options, and is killed when this process dies. The destructor kills and reaps it and its
-/// descendants. Start makes this process ignore SIGPIPE, which sending to a dead child would raise.
+/// descriptors of the options, and is killed when this process dies. The destructor kills and reaps the child and its
+/// descendants. Start makes this process ignore SIGPIPE, because sending to a dead child would raise it.
 class ChildProcess {
  public:
   /// Fails if the program cannot be found or executed, or if `error_file` cannot be written. If no process can be
-  /// started, the error is one of this machine (machine.h).
+  /// started, the error's cause is this machine (machine.h).
   static Result<ChildProcess> Start(const ChildOptions& options);
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&& other) noexcept;
@@ -82,8 +85,8 @@ class ChildProcess {
   bool HasUnsent() const { return sent_ < unsent_.size(); }
   /// Returns the number of bytes sent that the child has not read yet.
   std::size_t UnreadBytes() const;
-  /// The descriptors for poll(): `output` becomes readable when the child has written something or closed its output,
-  /// `input` writable when unsent bytes fit into the pipe.
+  /// Return the descriptors for poll(). `output` becomes readable when the child has written something or closed its
+  /// output; `input` becomes writable when unsent bytes fit into the pipe.
   int output() const { return output_; }
   int input() const { return input_; }
   /// Sends unsent bytes and reads up to 1 MiB of the child's output, without waiting. NextLine then returns the whole
@@ -93,19 +96,19 @@ class ChildProcess {
   std::optional<std::string> NextLine();
   /// Returns the beginning of a line whose end has not been received yet.
   std::string_view PartOfLine() const { return std::string_view(buffer_).substr(line_start_); }
-  /// Returns its process ID; −1 after Finish.
+  /// Returns the child's process ID; −1 after Finish.
   pid_t number() const { return pid_; }
   /// Measures the child alone; TreeMeter measures its descendants too.
   ProcessUsage MeasureAlone() const;
-  /// Returns the process ID of its first living child; −1 if there is none.
+  /// Returns the process ID of the child's first living child; −1 if there is none.
   pid_t FirstStarted() const;
-  /// Returns true if the child has ended. Its descendants may still keep its output open.
+  /// Returns true if the child has ended. The child's descendants may still keep its output open.
   bool HasEnded() const;
   /// Returns the errno of a failed read or write of the pipes; 0 = none. The cause is then this machine.
   int broken_by() const { return broken_by_; }
-  /// Closes its input, waits up to `patience_ms` for its end, then kills it and all its descendants. Returns how it
-  /// ended: "exit code 2", "signal 11 (Segmentation fault)". Exit code 128 + n is reported as signal n, because that is
-  /// how shells and bubblewrap report it.
+  /// Closes the child's input, waits up to `patience_ms` for the child to end, then kills it and all its descendants.
+  /// Returns how it ended: "exit code 2", "signal 11 (Segmentation fault)". Exit code 128 + n is reported as signal n,
+  /// because that is how shells and bubblewrap report it.
   std::string Finish(int patience_ms = 50);
   /// Returns the exit code after Finish; 128 + n if signal n ended it; −1 before Finish.
   int exit_code() const { return exit_code_; }
@@ -124,7 +127,7 @@ class ChildProcess {
   std::size_t sent_ = 0;        ///< bytes of `unsent_` already written
   std::string buffer_;          ///< received output
   std::size_t line_start_ = 0;  ///< start of the next line in `buffer_`
-  std::size_t scanned_ = 0;     ///< there is no line end between line_start_ and here
+  std::size_t scanned_ = 0;     ///< from line_start_ up to here there is no line end
 };
 
 }  // namespace etude

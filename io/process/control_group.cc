@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPrefix = "etude-";  // followed by the ID of the process that made it, and a counter
-constexpr int kMaxEndingMs = 100;               // wait for the last process to leave its group
+constexpr std::string_view kPrefix = "etude-";  // followed by the ID of the process that made the group, and a counter
+constexpr int kMaxEndingMs = 100;               // maximum wait for the last process to leave a group
 
 bool Write(const fs::path& file, std::string_view text) {
   const Descriptor opened(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
@@ -42,8 +42,8 @@ bool IsPlace(const fs::path& folder) {
          ::access(folder.c_str(), W_OK) == 0 && ::access((folder / "cgroup.procs").c_str(), W_OK) == 0;
 }
 
-/// Makes the own group usable (IsPlace), if no other process is in it: moves this process into a child group, because
-/// a group that passes controllers on may not contain processes.
+/// Makes this process's own group usable (IsPlace), if no other process is in it. Moves this process into a child
+/// group, because a group that passes controllers on may not contain processes.
 bool MakePlaceOf(const fs::path& own) {
   const fs::path below = own / fmt::format("{}{}", kPrefix, ::getpid());
   std::error_code error;
@@ -59,7 +59,7 @@ bool MakePlaceOf(const fs::path& own) {
   return false;
 }
 
-/// Removes the groups whose makers have ended. The kernel refuses it for groups that still contain processes.
+/// Removes the groups whose makers have ended. The kernel refuses to remove groups that still contain processes.
 void RemoveLeftGroups(const fs::path& place) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {
@@ -85,7 +85,7 @@ OwnGroup OwnGroup::Read(const std::string& groups, const std::string& mounts) {
     if (line.starts_with("0::/")) own = line.substr(3);
   }
   for (std::string line; !own.empty() && std::getline(mount_lines, line);) {
-    // "36 24 0:30 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw"
+    // A line looks like "36 24 0:30 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw".
     if (line.find(" - cgroup2 ") == std::string::npos) continue;
     std::istringstream words(line);
     std::string number, parent, device, root, mount;

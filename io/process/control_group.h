@@ -7,7 +7,7 @@
 namespace etude {
 
 struct OwnGroup {
-  std::string folder, top;  ///< its folder, and the mount point of the hierarchy; "" without cgroup v2
+  std::string folder, top;  ///< the group's folder, and the mount point of the hierarchy; "" without cgroup v2
 
   /// Parses the contents of the process's files `cgroup` and `mountinfo` in /proc.
   static OwnGroup Read(const std::string& groups, const std::string& mounts);
@@ -18,29 +18,30 @@ struct OwnGroup {
 double HeldMbIn(const std::string& memory_stat, const std::string& swapped);
 
 /// A control group (cgroup v2) for one program and its descendants. The kernel counts all their memory, and kills them
-/// if it far exceeds the limit. The destructor removes the group, once it has no processes any more.
+/// if the memory far exceeds the limit. The destructor removes the group when it has no more processes.
 class ControlGroup {
  public:
-  /// Finds the folder in which groups can be made; "" if there is none. That requires cgroup v2 with its memory
-  /// controller, and that the group of this process, or one above, belongs to this user. If this process is alone in
-  /// its group, it moves into a new child group, because only a group without processes can limit its child groups.
-  /// Also removes groups that killed runs have left.
+  /// Finds the folder in which groups can be made; "" if there is none. Groups can be made only with cgroup v2 and its
+  /// memory controller, and only if the group of this process, or a group above it, belongs to this user. If this
+  /// process is alone in its group, it moves into a new child group, because only a group without processes can limit
+  /// its child groups. Also removes groups that killed runs have left.
   static std::string FindPlace();
   static std::string FindPlace(const OwnGroup& of_process);
 
   ControlGroup() = default;
-  /// Makes a group in `place` for a program that may hold `max_mb` MB; no group if `place` is "" or it cannot be made.
+  /// Makes a group in `place` for a program that may hold `max_mb` MB. Returns no group if `place` is "" or if the
+  /// group cannot be made.
   static ControlGroup Make(const std::string& place, double max_mb);
   ControlGroup(ControlGroup&& other) noexcept = default;
   ControlGroup& operator=(ControlGroup&& other) noexcept;
   ~ControlGroup() { Remove(); }
 
   bool IsUp() const { return folder_.number() >= 0; }
-  /// Returns the descriptor of its folder, for starting a process in it; −1 = no group.
+  /// Returns the descriptor of the group's folder, in which a process can be started; −1 = no group.
   int folder() const { return folder_.number(); }
   bool IsEmpty() const { return Read("cgroup.procs").empty(); }
   double HeldMb() const;
-  /// Returns true if the kernel has killed a process in it for lack of memory.
+  /// Returns true if the kernel has killed a process of the group for lack of memory.
   bool WasFull() const;
 
  private:

@@ -29,14 +29,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kTrialMs = 5000;
-constexpr double kNameBytes = 700, kInodeBytes = 900;  // bytes per temporary file with a long name, measured on Linux
-                                                       // 6.18
+// Bytes per temporary file with a long name, measured on Linux 6.18.
+constexpr double kNameBytes = 700, kInodeBytes = 900;
 
 /// Folders that every program sees: the system's programs and libraries.
 constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt", "/nix"};
-/// The system's settings that every program sees: those of loaders, interpreters and libraries. It lists what is
-/// allowed, so that files with secrets, users or the machine's identity stay hidden, even if they are added later. "*"
-/// at the end matches any rest of the name.
+/// The system's settings that every program sees: those of loaders, interpreters and libraries. All other settings stay
+/// hidden, so that secrets, lists of users and the machine's identity are hidden even if they are added later. "*" at
+/// the end matches any rest of the name.
 constexpr const char* kSettings = "/etc";
 constexpr std::array kShownSettings = {
     "ld.so.*",       "alternatives",   "localtime",     "timezone",  "locale.alias",
@@ -53,7 +53,7 @@ bool IsWithin(const fs::path& path, const fs::path& folder) {
   return at_folder == folder.end();
 }
 
-/// Returns true if a path relative to /etc is a shown setting, or is in one.
+/// Returns true if a path relative to /etc is a shown setting, or lies below one.
 bool IsShownSetting(const fs::path& below) {
   return std::ranges::any_of(kShownSettings, [&](const std::string_view pattern) {
     if (!pattern.ends_with('*')) return IsWithin(below, pattern);
@@ -79,7 +79,7 @@ void Add(std::vector<std::string>& words, std::initializer_list<std::string> mor
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// Returns changes to the closed environment that remove what names our folders or the user.
+/// Returns changes to the closed environment that remove the names of our folders and of the user.
 std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
   std::string folders;
   const char* variable = ::getenv("PATH");
@@ -97,8 +97,8 @@ std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
           "SHELL"};
 }
 
-/// Returns the prlimit command that sets the thread limit. It must run inside, because the kernel counts a user's
-/// threads by namespace. Empty if prlimit is missing.
+/// Returns the prlimit command that sets the thread limit. The command must run inside the fence, because the kernel
+/// counts a user's threads by namespace. Returns an empty list if prlimit is missing.
 std::vector<std::string> Limiter(int programs) {
   const auto prlimit = FindProgram("prlimit");
   rlimit ours{};
@@ -107,9 +107,9 @@ std::vector<std::string> Limiter(int programs) {
   return {*prlimit, fmt::format("--nproc={0}:{0}", threads), "--"};
 }
 
-/// Lists Fence::kept: sockets and named pipes (PipesBelow) and, if this process is root, what only root can read. It
-/// searches the folders in which an administrator puts settings and programs, and /proc (5 ms per 1000 files); in
-/// /usr/share only for sockets and pipes (2 ms per 1000).
+/// Lists Fence::kept: sockets and named pipes (PipesBelow) and, if this process is root, files that only root can read.
+/// Searches the folders in which administrators put settings and programs, and /proc (5 ms per 1000 files). In
+/// /usr/share it searches only for sockets and pipes (2 ms per 1000 files).
 std::vector<fs::path> KeptFromUsers() {
   const bool is_root = ::geteuid() == 0;
   std::vector<fs::path> kept;
@@ -120,14 +120,14 @@ std::vector<fs::path> KeptFromUsers() {
     fs::recursive_directory_iterator at(root, fs::directory_options::skip_permission_denied, error), end;
     for (; !error && at != end; at.increment(error)) {
       const fs::path& path = at->path();
-      // Skip processes and network settings: a fence has its own.
+      // Skip processes and network settings, because a fence has its own.
       const std::string name = path.filename().string();
       const bool is_process = name.find_first_not_of("0123456789") == std::string::npos || name.ends_with("self");
       if (is_proc && ((at.depth() == 0 && is_process) || path == "/proc/sys/net")) {
         at.disable_recursion_pending();
         continue;
       }
-      // Secrets, sockets and pipes.
+      // Collect secrets, sockets and pipes.
       std::error_code gone;
       const fs::file_status status = at->symlink_status(gone);
       if (gone || fs::is_symlink(status)) continue;
@@ -145,11 +145,11 @@ std::vector<fs::path> KeptFromUsers() {
   return kept;
 }
 
-/// The first process in a fence: a shell that waits for the program. It replaces bubblewrap's own, whose memory holds
-/// our folders' names and could be read by programs inside.
+/// The first process in a fence: a shell that waits for the program. It replaces bubblewrap's own first process:
+/// programs inside could read its memory, which holds our folders' names.
 constexpr const char* kFirstProcess = R"(exec 3>&2 2>/dev/null; (exec "$@" 2>&3 3>&-); exit $?)";
 
-/// Returns the first line that a command in the fence prints, or the error of the fence; "" if there is none in time.
+/// Returns the first line that a command prints in the fence, or the fence's error; "" if neither arrives in time.
 std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& command) {
   std::vector<std::string> words = {"-c", R"(exec "$0" "$@" 2>&1)"};
   FencedCommand fenced = fence.Around(command, {});
@@ -214,7 +214,7 @@ ScratchUse Fence::MeasureScratch(pid_t inside) const {
   ScratchUse use;
   if (!IsUp()) return use;
   constexpr double kMb = 1 << 20;
-  std::set<dev_t> seen;  // several folders may be one file system, or not be mounted yet
+  std::set<dev_t> seen;  // file systems already counted: several folders may be one, or not be mounted yet
   if (struct stat ours{}; ::stat(kScratch[0], &ours) == 0) seen.insert(ours.st_dev);
   for (const char* folder : kScratch) {
     const std::string path = fmt::format("/proc/{}/root{}", inside, folder);
@@ -259,18 +259,19 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     fenced.inherited_texts.push_back(std::move(text));
     return std::to_string(fenced.inherited_texts.size() + 2);
   };
-  // Namespaces and privileges.
+  // Add namespaces and privileges.
   std::vector<std::string> words = {"--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-net"};
   Add(words, {"--unshare-uts", "--unshare-cgroup-try", "--disable-userns", "--cap-drop", "ALL"});
   Add(words, {"--new-session", "--die-with-parent", "--as-pid-1", "--proc", "/proc", "--tmpfs", "/dev"});
-  // Devices. Bubblewrap's --dev would add terminals (/dev/pts), of which the whole machine has one limited pool.
+  // Add devices. Bubblewrap's --dev would also add terminals (/dev/pts), which come from one limited pool of the whole
+  // machine.
   for (const char* device : {"/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom", "/dev/tty"}) {
     Add(words, {"--dev-bind-try", device, device});
   }
   Add(words, {"--symlink", "/proc/self/fd", "/dev/fd", "--symlink", "/proc/self/fd/0", "/dev/stdin"});
   Add(words, {"--symlink", "/proc/self/fd/1", "/dev/stdout", "--symlink", "/proc/self/fd/2", "/dev/stderr"});
   Add(words, {"--ro-bind-try", "/sys/devices/system", "/sys/devices/system"});
-  // Scratch folders, and the visible part of the system.
+  // Add scratch folders, and the visible part of the system.
   const std::string scratch_bytes = std::to_string(ProgramLimits::kFileBytes);
   for (const char* folder : kScratch) Add(words, {"--size", scratch_bytes, "--tmpfs", folder});
   Add(words, {"--dir", "/run"});
@@ -285,11 +286,11 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const std::string target = is_link ? fs::read_symlink(setting, error).string() : setting.string();
     Add(words, {is_link ? "--symlink" : "--ro-bind-try", target, setting.string()});
   }
-  // Lists of users and groups with this user only, under another name.
+  // Add lists of users and groups that contain only this user, under another name.
   Add(words, {"--file", pass_text(fmt::format("user:x:{}:{}::{}:/bin/sh\n", ::geteuid(), ::getegid(), kScratch[0]))});
   Add(words, {"/etc/passwd", "--file", pass_text(fmt::format("user:x:{}:\n", ::getegid())), "/etc/group"});
-  // Shown and hidden paths, sorted, so that a folder comes before its contents. Only visible paths are hidden: masking
-  // a path that is not visible would reveal its name.
+  // Collect shown and hidden paths, sorted, so that a folder comes before its contents. Only visible paths are hidden,
+  // because masking an invisible path would reveal its name.
   std::map<fs::path, bool> is_shown;
   for (const fs::path& path : shown) is_shown.emplace(path, true);
   const auto is_within_shown = [&](const fs::path& path) {
@@ -303,7 +304,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const bool is_seen = IsOfSystem(path) || IsWithin(path, "/proc");
     if (is_seen && !is_within_shown(path) && fs::exists(path, error)) is_shown.emplace(path, false);
   }
-  // Masks are empty folders over hidden ones. They become read-only after everything below them is mounted.
+  // Mask hidden folders with empty ones. The masks become read-only after everything below them is mounted.
   std::vector<std::string> masks;
   for (const auto& [path, is_seen] : is_shown) {
     if (is_seen) {
@@ -317,7 +318,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
   }
   words.insert(words.end(), masks.begin(), masks.end());
   Add(words, {"--chdir", start.empty() ? kScratch[0] : start.string()});
-  // The filter; then all arguments become the text of descriptor 3.
+  // Add the filter. Then all arguments become the text of descriptor 3.
   std::string filter = SystemCallFilter();
   if (!filter.empty()) Add(words, {"--seccomp", pass_text(std::move(filter))});
   for (const char* folder : {"/dev", "/proc", "/"}) Add(words, {"--remount-ro", folder});

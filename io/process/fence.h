@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// The command that runs a program in a fence. Bubblewrap reads its own arguments from a descriptor, because programs
-/// inside can read its command line, which must not reveal our folders.
+/// The command that runs a program in a fence. Bubblewrap reads its own arguments from a descriptor: programs inside
+/// can read its command line, which must not contain the names of our folders.
 struct FencedCommand {
   std::vector<std::string> words;                 ///< a path and arguments
   std::vector<std::string> inherited_texts = {};  ///< ChildOptions::inherited_texts
@@ -21,20 +21,20 @@ struct FencedCommand {
 /// The memory of temporary files in scratch folders (tmpfs).
 struct ScratchUse {
   double mb = 0;  ///< size of their contents
-  /// Estimated kernel memory of their names (which control groups count as reclaimable) and of their inodes.
+  /// Estimated kernel memory of the files' names (which control groups count as reclaimable) and of their inodes.
   double names_mb = 0, inodes_mb = 0;
 
   double Mb() const { return mb + names_mb + inodes_mb; }
 };
 
 /// A fence: the sandbox in which outside programs run, made by bubblewrap if the kernel allows it. Programs inside have
-/// user, PID, mount, IPC and network namespaces of their own and no capabilities. They see the system's files and those
-/// shown to them, all read-only, and scratch folders that disappear with them (docs/outside-methods.md).
+/// user, PID, mount, IPC and network namespaces of their own and no capabilities. They see the system's files and the
+/// files shown to them, all read-only, and scratch folders that are removed with the fence (docs/outside-methods.md).
 class Fence {
  public:
-  /// No fence: programs run like this process.
+  /// Makes no fence: programs run like this process.
   Fence() = default;
-  /// Tries once to run bubblewrap, and returns the fence; no fence if that fails, and `description` says why.
+  /// Tries once to run bubblewrap, and returns the fence. If that fails, returns no fence, and `description` says why.
   static Fence Find();
   /// Makes the fence that another process has found, from its `program`, `kept` and `groups`.
   static Fence Of(const std::string& program, std::vector<std::filesystem::path> kept = {}, std::string groups = "");
@@ -51,7 +51,7 @@ class Fence {
   /// Returns "bubblewrap 0.8.0", or "none (…)" with the reason.
   const std::string& description() const { return description_; }
 
-  /// Sets the number of programs that run in such fences at the same time and share the kernel's limits per user.
+  /// Sets the number of fenced programs that run at the same time and share the kernel's limits per user.
   void ShareBy(int programs) { programs_ = programs; }
   int programs() const { return programs_; }
 
@@ -60,7 +60,8 @@ class Fence {
   /// Returns how the memory of programs inside is counted: "counted by the kernel (cgroup v2)", for instance.
   std::string MemoryDescription() const;
 
-  /// Hides a path, even if it is in the system or in a shown folder: a folder appears empty, a file cannot be read.
+  /// Hides a path, even if it belongs to the system or to a shown folder. A hidden folder appears empty; a hidden file
+  /// cannot be read.
   void Hide(const std::filesystem::path& path) { hidden_.push_back(path); }
   const std::vector<std::filesystem::path>& hidden() const { return hidden_; }
   /// Returns the system's paths that are hidden unless shown explicitly: sockets, named pipes, and, if this process is
@@ -69,11 +70,12 @@ class Fence {
 
   ScratchUse MeasureScratch(pid_t inside) const;
 
-  /// Tries again to run bubblewrap; fails with an error of this machine. Does nothing without a fence.
+  /// Tries again to run bubblewrap. Does nothing without a fence; on failure, the error's cause is this machine.
   Result<void> Try() const;
 
   /// Returns the command that runs `command` (a path and arguments) inside, with the working folder `start` ("" =
-  /// /tmp). Besides the system it sees `shown`, absolute paths of files and folders. Without a fence: `command` itself.
+  /// /tmp). Besides the system, the command sees `shown`, absolute paths of files and folders. Without a fence, returns
+  /// `command` unchanged.
   FencedCommand Around(const std::vector<std::string>& command, const std::vector<std::filesystem::path>& shown,
                        const std::filesystem::path& start = {}) const;
 

@@ -16,14 +16,15 @@ namespace etude {
 /// process must not hold locks that `work` needs.
 class ForkedCopy {
  public:
-  /// Starts a copy that runs `work` with its end of the sockets; what `work` returns becomes its exit code, and no
-  /// destructor or exit handler of this process runs in it. Fails with an error of this machine.
+  /// Starts a copy that runs `work` with the copy's end of the sockets. The return value of `work` becomes the copy's
+  /// exit code; no destructor or exit handler of this process runs in the copy. On failure, the error's cause is this
+  /// machine.
   static Result<ForkedCopy> Start(const std::function<int(int socket)>& work);
   ForkedCopy(ForkedCopy&& other) noexcept;
   ForkedCopy& operator=(ForkedCopy&& other) noexcept;
   ~ForkedCopy();
 
-  /// The descriptor of our end of the sockets; −1 after `Wait`.
+  /// Returns the descriptor of our end of the sockets; −1 after `Wait`.
   int socket() const { return socket_; }
 
   /// Sends SIGKILL. Wait must still be called.
@@ -32,14 +33,14 @@ class ForkedCopy {
   /// Closes our end of the sockets, waits until the copy has ended, and returns its status (waitpid).
   int Wait();
 
-  /// Returns its status if it has ended; does not wait.
+  /// Returns the copy's status if it has ended; does not wait.
   std::optional<int> StatusIfEnded();
 
  private:
   ForkedCopy(pid_t pid, int socket) : pid_(pid), socket_(socket) {}
   void CloseSocket();
 
-  pid_t pid_ = -1;  ///< −1 = it has been reaped
+  pid_t pid_ = -1;  ///< −1 after the copy has been reaped
   int socket_ = -1;
   int status_ = 0;
 };
@@ -47,7 +48,7 @@ class ForkedCopy {
 /// Writes all bytes to a socket. Returns false if the other end is closed.
 bool SendAll(int socket, std::string_view bytes);
 
-/// Reads exactly `size` bytes from a socket. Returns false if the other end is closed before.
+/// Reads exactly `size` bytes from a socket. Returns false if the other end is closed earlier.
 bool ReceiveAll(int socket, char* bytes, std::size_t size);
 
 }  // namespace etude

@@ -24,11 +24,11 @@ const std::vector<std::string>& PassedVariables();
 std::vector<std::string> ClosedEnvironment();
 
 /// Restarts this command (exec) in the closed environment. Returns without restarting if the environment is closed
-/// already; fails if the restart does.
+/// already. Fails if the restart fails.
 Result<void> EnterPinnedEnvironment();
 
-/// Returns the loaded shared libraries, sorted by name: "libOSMesa.so.8" and its build ID in hexadecimal ("" = none),
-/// which differs between any two builds.
+/// Returns the loaded shared libraries, sorted by name: "libOSMesa.so.8", and the build ID in hexadecimal ("" = none).
+/// Build IDs differ between any two builds.
 std::vector<std::pair<std::string, std::string>> LoadedLibraries();
 
 }  // namespace etude

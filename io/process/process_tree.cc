@@ -42,7 +42,8 @@ void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
   }
 }
 
-/// Returns the processor time of one process, in nanoseconds; /proc/<pid>/stat has ticks of 10 ms.
+/// Returns the processor time of one process, seconds, with a resolution of nanoseconds; /proc/<pid>/stat has only
+/// ticks of 10 ms.
 double OwnCpuSeconds(pid_t process) {
   clockid_t clock;
   timespec time;
@@ -72,7 +73,8 @@ std::string ReadProcFile(const std::string& path, std::size_t max_bytes) {
 
 ProcessUsage MeasureProcess(pid_t process) {
   const std::string stat = ReadProcFile(fmt::format("/proc/{}/stat", process));
-  // The second field is the program's name in parentheses, which may contain parentheses: fields follow the last one.
+  // The second field is the program's name in parentheses. The name may contain parentheses, too, so all other fields
+  // follow the last ')'.
   const std::size_t name_end = stat.rfind(')');
   if (name_end == std::string::npos) return {};
   unsigned long faults = 0;
@@ -114,7 +116,8 @@ HeldTree::HeldTree(pid_t root) {
 }
 
 void HeldTree::Kill() {
-  // A stopped process starts no other one, but may have just forked: stop and list until two passes find nothing new.
+  // A stopped process starts no other process, but it may have forked just before. So stop and list until two passes
+  // find nothing new.
   for (int i = 0, quiet = 0; i < kMaxPasses && quiet < 2; ++i) {
     SignalAll(SIGSTOP);
     quiet = Grow() ? 0 : quiet + 1;

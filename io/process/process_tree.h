@@ -13,9 +13,9 @@ namespace etude {
 
 struct ProcessUsage {
   double resident_mb = 0;     ///< shared pages count in full
-  double cpu_s = 0;           ///< includes child processes that it has waited for
+  double cpu_s = 0;           ///< includes ended child processes that the process has waited for
   std::uint64_t faults = 0;   ///< minor page faults: pages touched for the first time, or copied on write
-  std::size_t processes = 0;  ///< 1; 0 if the process does not exist any more
+  std::size_t processes = 0;  ///< 1; 0 if the process no longer exists
   double own_cpu_s = 0;       ///< without child processes
 };
 
@@ -40,7 +40,7 @@ class HeldTree {
  public:
   explicit HeldTree(pid_t root);
 
-  /// Kills all of them, and all descendants started since.
+  /// Kills all processes of the tree, and all descendants started since.
   void Kill();
 
  private:

@@ -34,14 +34,14 @@ struct Refusal {
 };
 
 constexpr auto kRefused = std::to_array<Refusal>({
-    // Memory that cannot be measured, and resources that are counted per user or machine.
+    // Refuse memory that cannot be measured, and resources that are counted per user or per machine.
     {SYS_memfd_create, ENOSYS},
     {SYS_memfd_secret, ENOSYS},
     {SYS_shmget, ENOSYS},
     {SYS_msgget, ENOSYS},
     {SYS_semget, ENOSYS},
     {SYS_mq_open, ENOSYS},
-    {SYS_vmsplice, ENOSYS},  // these four: pipes and sockets hold pages that no process maps
+    {SYS_vmsplice, ENOSYS},  // this and the next three calls make pipes and sockets hold pages that no process maps
     {SYS_splice, EINVAL},
     {SYS_tee, EINVAL},
     {SYS_sendfile, EINVAL},
@@ -50,16 +50,17 @@ constexpr auto kRefused = std::to_array<Refusal>({
     {SYS_io_setup, ENOSYS},
     {SYS_landlock_create_ruleset, ENOSYS},
     {SYS_fanotify_init, ENOSYS},
-    {SYS_setxattr, EOPNOTSUPP},  // these three: attributes of files in tmpfs count as no process's memory
+    {SYS_setxattr, EOPNOTSUPP},  // this and the next two: file attributes in tmpfs count as no process's memory
     {SYS_lsetxattr, EOPNOTSUPP},
     {SYS_fsetxattr, EOPNOTSUPP},
-    // Threads with their own descriptor tables, and processes that share a table, would make open files and locks
-    // impossible to count. clone3 is refused because a filter cannot read its arguments; C libraries then use clone.
+    // Refuse threads with their own descriptor tables, and processes that share a table, because open files and locks
+    // could then not be counted. clone3 is refused because a filter cannot read its arguments; C libraries then use
+    // clone.
     {SYS_unshare, EPERM},
     {SYS_clone3, ENOSYS},
-    // io_uring performs the operations above without system calls.
+    // Refuse io_uring, because it performs the operations above without system calls.
     {SYS_io_uring_setup, ENOSYS},
-    // The user's keys, and information about other processes.
+    // Refuse the user's keys, and information about other processes.
     {SYS_add_key, ENOSYS},
     {SYS_request_key, ENOSYS},
     {SYS_keyctl, ENOSYS},
@@ -104,13 +105,13 @@ std::string SystemCallFilter() {
                    SkipUnless(BPF_JGE, kOtherNumbers, 1),
                    Refuse(ENOSYS)};
   for (const auto& [number, error] : kRefused) AddCall(filter, number, {Refuse(error)});
-  // Allow sockets of kFamilies only.
+  // Allow only sockets of kFamilies.
   Filter families = {LoadArgument(0)};
   for (const int family : kFamilies)
     Add(families, {SkipUnless(BPF_JEQ, static_cast<std::uint32_t>(family), 1), kAllow});
   families.push_back(Refuse(EAFNOSUPPORT));
   for (const auto number : {SYS_socket, SYS_socketpair}) AddCall(filter, number, families);
-  // Large pipes, and locks and leases that CountLocks cannot attribute to a process.
+  // Refuse large pipes, and locks and leases that CountLocks cannot attribute to a process.
   AddCall(filter, SYS_fcntl,
           {LoadArgument(1), SkipUnless(BPF_JEQ, F_SETPIPE_SZ, 1), Refuse(EPERM), SkipUnless(BPF_JEQ, F_OFD_SETLK, 1),
            Refuse(EINVAL), SkipUnless(BPF_JEQ, F_OFD_SETLKW, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, F_SETLEASE, 1),
@@ -121,18 +122,18 @@ std::string SystemCallFilter() {
            Refuse(EINVAL), kAllow});
   AddCall(filter, SYS_close_range,
           {LoadArgument(2), SkipUnless(BPF_JSET, CLOSE_RANGE_UNSHARE, 1), Refuse(EINVAL), kAllow});
-  // Descriptor tables: shared by the threads of one process, and by no other process.
+  // Allow descriptor tables that the threads of one process share; refuse those shared between processes.
   AddCall(filter, SYS_clone,
           {LoadArgument(0), BPF_STMT(BPF_ALU | BPF_AND | BPF_K, CLONE_THREAD | CLONE_FILES),
            SkipUnless(BPF_JEQ, CLONE_THREAD, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, CLONE_FILES, 1), Refuse(EINVAL),
            kAllow});
-  // Huge pages.
+  // Refuse huge pages.
   constexpr std::uint32_t kCollapse = 25;  // MADV_COLLAPSE
   AddCall(filter, SYS_madvise,
           {LoadArgument(2), SkipUnless(BPF_JEQ, MADV_HUGEPAGE, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, kCollapse, 1),
            Refuse(EINVAL), kAllow});
   AddCall(filter, SYS_mmap, {LoadArgument(3), SkipUnless(BPF_JSET, MAP_HUGETLB, 1), Refuse(ENOMEM), kAllow});
-  // Sizes of socket buffers: report success without changing them, because the kernel may round sizes anyway.
+  // For sizes of socket buffers, report success without changing them, because the kernel may round sizes anyway.
   constexpr int kDone = 0;
   AddCall(filter, SYS_setsockopt,
           {LoadArgument(1), SkipUnless(BPF_JEQ, SOL_SOCKET, 9), LoadArgument(2), SkipUnless(BPF_JEQ, SO_SNDBUF, 1),

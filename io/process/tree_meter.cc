@@ -89,7 +89,7 @@ double ProportionalMb(pid_t process, double bound_mb) {
 }
 
 /// Counts the different pipes, named ones included, that processes hold open. If the descriptors of a process cannot be
-/// read, each counts as a pipe.
+/// read, each of its descriptors counts as a pipe.
 std::size_t CountPipes(const std::vector<pid_t>& processes) {
   std::set<std::pair<dev_t, ino_t>> pipes;
   std::size_t hidden = 0;
@@ -112,8 +112,8 @@ std::size_t CountPipes(const std::vector<pid_t>& processes) {
   return pipes.size() + hidden;
 }
 
-/// Counts the file locks of processes, up to kEnoughLocks. The kernel's time for its list grows with the square of what
-/// is read, so reading stops as soon as the count is enough.
+/// Counts the file locks of processes, up to kEnoughLocks. The kernel's time to produce its list of locks grows with
+/// the square of the length read, so reading stops as soon as the count is high enough.
 std::size_t CountLocks(const std::vector<pid_t>& processes) {
   const std::set<pid_t> ours(processes.begin(), processes.end());
   const int file = ::open("/proc/locks", O_RDONLY | O_CLOEXEC);
@@ -159,7 +159,7 @@ double QueuedTcpBytes(pid_t process) {
   return bytes;
 }
 
-/// Returns the buffer size of a socket other than TCP; the fence's filter prevents changes of it.
+/// Returns the buffer size of a socket that is not TCP, MB; the fence's filter prevents changes of this size.
 double FullSocketMb() {
   static const double size = std::atof(ReadProcFile("/proc/sys/net/core/wmem_default").c_str()) / kMb;
   return size;
@@ -172,7 +172,7 @@ bool HasOwnNetwork(pid_t process) {
          ::stat("/proc/self/ns/net", &ours) == 0 && theirs.st_ino != ours.st_ino;
 }
 
-/// Adds a range to a set of disjoint ranges, and merges those that touch.
+/// Adds a range to a set of disjoint ranges, and merges ranges that touch.
 void AddPart(std::map<std::uint64_t, std::uint64_t>& parts, std::uint64_t begin, std::uint64_t end) {
   auto next = parts.upper_bound(begin);
   if (next != parts.begin() && std::prev(next)->second >= begin) --next;

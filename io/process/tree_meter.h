@@ -19,7 +19,8 @@ struct TreeLoad {
   std::size_t processes = 0, threads = 0;
   std::size_t descriptors = 0;  ///< open files of all processes
   std::size_t pipes = 0;        ///< counted only if there are more than 256 descriptors
-  std::size_t sockets = 0;      ///< in the tree's network namespace, those passed over sockets too; 0 without one
+  /// Sockets in the tree's network namespace, and sockets in transit over other sockets; 0 without a namespace.
+  std::size_t sockets = 0;
   std::size_t file_locks = 0;
 };
 
@@ -29,12 +30,12 @@ struct ElapsedTime {
   double wall_s = 0;
 };
 
-/// Returns true if a tree starves the one who measures it: an expensive measurement has waited for most of its time,
-/// while the tree used more than half of all cores.
+/// Returns true if a tree of processes starves the process that measures it: an expensive measurement has spent most of
+/// its time waiting, while the tree used more than half of all cores.
 bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores);
 
-/// Measures the resources of a tree of processes by repeated sampling, for machines without control groups: each page
-/// once, however many processes share it, plus the kernel's memory for the processes.
+/// Measures the resources of a tree of processes by repeated sampling, for machines without control groups: it counts
+/// each page once, however many processes share it, and adds the kernel's memory for the processes.
 ///
 /// A sample reads two small files per process, about 30 µs. They give an upper bound on memory, which usually suffices.
 /// Expensive files are read only if the bound is near the limit, or less often. A tree that starves us gets the lowest
@@ -80,9 +81,9 @@ class TreeMeter {
     double Mb() const;
   };
 
-  /// Reads the memory mappings of all processes. Stops early once the mappings read exceed the memory limit.
+  /// Reads the memory mappings of all processes. Stops early when the memory of the mappings exceeds the limit.
   void SampleMappings();
-  /// Gives the tree the lowest priority if it starves us; called again and again during a measurement.
+  /// Gives the tree the lowest priority if it starves this process; called repeatedly during a measurement.
   void ClaimTime();
   /// Returns true if a process shares its whole memory with an earlier one in the list, as a child of vfork does.
   bool SharesMemoryBefore(std::size_t at) const;
@@ -97,7 +98,8 @@ class TreeMeter {
   std::vector<double> bounds_mb_;  ///< the private memory of each process, shared pages included
   TreeLoad load_;
   double page_tables_mb_ = 0, tcp_mb_ = 0;
-  /// The most shared pages that any one process maps, MB: now, and the minimum and maximum since SampleMappings.
+  /// The memory of shared pages of the process that maps the most, MB: now, and the minimum and maximum since
+  /// SampleMappings.
   double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
   std::size_t mappings_ = 0;                      ///< number of mappings that were read
   std::map<std::uint64_t, SharedMemory> shared_;  ///< by inode

@@ -21,7 +21,7 @@ struct RealDistance {
 struct RealTake {
   std::string name;
   std::string recovery;   ///< how the person was found in the films: "keypoints", "marks", "silhouettes"
-  std::string reference;  ///< the name of its file
+  std::string reference;  ///< the name of the reference's file
   std::vector<std::string> films = {};
   int frames = 0;
   double rate_hz = 0;

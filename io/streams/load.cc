@@ -36,7 +36,7 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
   if (!recording.is_level) text += ", " + Describe(made.level);
   if (made.lost_frames > 0) text += fmt::format(", nobody in {} of {} frames", made.lost_frames, frames);
   for (const std::string& remark : recording.remarks) text += ", " + remark;
-  constexpr double kBackwards = -0.35;  // the same threshold as CheckSides uses for clips
+  constexpr double kBackwards = -0.35;  // the threshold that CheckSides uses for clips
   const auto feet = FeetForward(made.stream);
   if (feet && *feet < kBackwards) text += ", feet point backwards: the stream may be mirrored (--reflect)";
   return text;
@@ -55,7 +55,7 @@ Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
   return files;
 }
 
-/// Returns true if a file of a folder begins as a recording does; label files and read-mes do not.
+/// Returns true if a file of a folder begins like a recording; label files and read-me files do not.
 Result<bool> LooksLikeStream(const std::string& path) {
   if (IsClip(path)) return true;
   if (fs::path(path).extension() == ".tagstream") return false;
@@ -106,7 +106,7 @@ Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const 
     return StreamsOf(library);
   }
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(reference));
-  // A file whose format is no sensor's may be a clip.
+  // A file in no sensor's format may be a clip.
   if (!reading.format && !DetectStreamFormat(text)) {
     if (const auto library = LoadClips({reference}, {}, clips)) return StreamsOf(*library);
   }

@@ -12,19 +12,20 @@
 namespace etude {
 
 /// Reads one recording or clip. A clip ("builtin:clap", a cell's motion in a run, or any motion file that is no
-/// recording of a sensor) is read as an error-free sensor would record it. `clips` gives the options for opening clips.
+/// recording of a sensor) is converted to the recording of an error-free sensor. `clips` gives the options for opening
+/// clips.
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
                                             const StreamOptions& options, const OpenOptions& clips = {});
 
-/// Makes recordings of clips, as an error-free sensor would make them.
+/// Converts clips to the recordings of an error-free sensor.
 std::vector<NamedStream> StreamsOf(const ClipLibrary& library);
 
 /// The recordings of files, patterns and folders; folders include their subfolders, sorted by path.
 struct LoadedStreams {
   std::vector<NamedStream> streams;
-  std::vector<Error> refused;  ///< files of folders and patterns that could not be read; a file that is named directly
-                               ///< makes the load fail
-  int passed_over = 0;         ///< files of folders that are no recordings
+  /// Files of folders and patterns that could not be read; a file that is named directly makes the load fail.
+  std::vector<Error> refused;
+  int passed_over = 0;  ///< number of files in folders that are not recordings
 };
 /// Loads recordings. Fails if there are none, and if `clips` gives a joint map, a unit or an axis but no reference is a
 /// clip.

@@ -10,7 +10,7 @@
 namespace etude::engine {
 namespace {
 
-/// Returns the pixel, or NaN.
+/// Converts an optional pixel: nullopt becomes NaN.
 glm::dvec2 PixelOf(const std::optional<glm::dvec2>& pixel) { return pixel.value_or(glm::dvec2(kNan)); }
 
 bool IsFinite(const double* numbers, int count) {

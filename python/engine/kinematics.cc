@@ -29,13 +29,13 @@ Body MakeBody(std::optional<KinematicTree> tree, int max_iterations, double posi
   return body;
 }
 
-/// Returns a text that lives as long as the module, as the names of trees do.
+/// Returns a copy of a text that is never freed, because the names of trees are views.
 std::string_view Kept(std::string text) {
   static std::set<std::string>& texts = *new std::set<std::string>;
   return *texts.insert(std::move(text)).first;
 }
 
-/// Numbers of many problems: those of the next problem are `stride` further on.
+/// The numbers of many problems in one array; the numbers of consecutive problems are `stride` apart.
 struct Numbers {
   const double* first;
   py::ssize_t stride = 0;
@@ -43,7 +43,7 @@ struct Numbers {
   void Fill(std::span<double> row, py::ssize_t number) const {
     for (std::size_t i = 0; i < row.size(); ++i) row[i] = first[number + static_cast<py::ssize_t>(i) * stride];
   }
-  /// Fills the rows of a position; FillMatrix fills those of a matrix, which a batch stores column by column.
+  /// Fills the rows of a position. FillMatrix fills the rows of a matrix, which a batch stores column by column.
   void FillPosition(const auto& row_of, py::ssize_t from = 0) const {
     for (int axis = 0; axis < kPositionNumbers; ++axis) Fill(row_of(axis), from + axis);
   }
@@ -52,7 +52,8 @@ struct Numbers {
   }
 };
 
-/// Returns the positions or axes of the roots of `count` poses: one for all, one each, or the world's.
+/// Returns the positions or axes of the roots of `count` poses: `given` may hold one for all poses or one for each;
+/// without it, the world's origin and axes are used.
 Numbers RootsOf(const char* name, const std::optional<Array>& given, std::vector<py::ssize_t> shape, py::ssize_t count,
                 const double* world) {
   if (!given) return {world};

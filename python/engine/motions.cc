@@ -18,7 +18,7 @@ namespace {
 
 using Settings = std::map<std::string, double>;
 
-/// A motion that was read, and what was found and changed.
+/// A motion read from a file, with notes on what was found and changed.
 struct FileMotion : BodyMotion {
   std::vector<std::string> changes;
 };

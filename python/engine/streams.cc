@@ -12,7 +12,7 @@
 namespace etude::engine {
 namespace {
 
-/// The name and the right performances of each move.
+/// The moves, each with its name and its right performances.
 using Moves = std::vector<std::pair<std::string, std::vector<BodyMotion>>>;
 
 std::vector<TaughtMove> ToTaught(const Moves& moves) {
@@ -123,7 +123,7 @@ py::tuple ToTuple(const Repetition& one) { return py::make_tuple(one.move, one.f
 py::tuple ToTuple(const MusicTag& tag) { return py::make_tuple(tag.frame, tag.music_s); }
 py::tuple ToTuple(const CoachAct& act) { return py::make_tuple(act.name, act.motion, act.loops); }
 
-/// Returns the getter of a dance's parts as tuples.
+/// Returns a function that returns a dance's parts as tuples.
 template <typename Part>
 auto TuplesOf(std::vector<Part> Dance::*parts) {
   return [parts](const Dance& dance) {
@@ -219,7 +219,7 @@ void AddCoach(py::module_& module) {
            "performance is right, in (0, 1]; None: the recogniser's. choice, join: of TRANSITION_CHOICES and "
            "TRANSITION_JOINS. Raises BadInput for a dance that breaks its form and names that there are not.")
       .def("step", &StepCoach, "positions_m"_a, "states"_a = "", "body_seen"_a = true, "music_s"_a = py::none(),
-           py::keep_alive<0, 1>(),  // texts are the dance's
+           py::keep_alive<0, 1>(),  // the returned texts refer to the dance
            "Takes the sensor's next frame, at 30 Hz (as RecogniserStream.update does), and gives the CoachFrame to "
            "show. music_s: what is heard now, seconds into the song. Raises BadInput for another shape, letters, and "
            "what is not finite.");

@@ -211,7 +211,7 @@ def serve(what, lines=None, output=None):
         kind, files = message["type"], message.get("files")
         reply = {"id": message["id"], **({"number": message["number"]} if "number" in message else {})} \
             if kind in ("problem", "step") else {}
-        # The handshake first; then settings, sessions, problems and steps.
+        # The first line is the handshake; then come settings, sessions, problems and steps.
         if kind == "hello":
             if message["protocol"] != PROTOCOL:
                 sys.exit(f"speaks protocol {PROTOCOL}, was asked for {message['protocol']}")

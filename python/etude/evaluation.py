@@ -19,10 +19,11 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
 
     truth, and each answer by its method's name: a motion file, a folder or a pattern; or an array of positions, frames
     × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` of their joints and `rate_hz`;
-    a joint named like a role plays it; `unit` ("cm") and `up` ("z") are those of arrays that are not in metres or not Y
-    up. They are kept as .npz files in the folder `output` + ".motions". pairs: a CSV of pairs instead. joints, people,
-    lag, statistics, music_beats, metrics: as the options of `etude evaluate`. alone: there is no truth; floor and limits
-    are then those of `etude evaluate --alone`, and the metric within_limits says which clips keep them.
+    a joint with the name of a role plays that role; give `unit` ("cm") if arrays are not in metres, and `up` ("z") if Y
+    does not point up. Arrays are kept as .npz files in the folder `output` + ".motions". pairs: a CSV file of pairs,
+    given instead. joints, people, lag, statistics, music_beats, metrics: as the options of `etude evaluate`. alone:
+    there is no truth; floor and limits are then the options of `etude evaluate --alone`, and the metric within_limits
+    says which clips keep the limits.
 
     Raises EtudeError, also if a method has no answer that can be judged; its `run` is then set. Warns of pairs that are
     not judged.
@@ -62,7 +63,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     found = load(output, program=program)
     if code != 0:
         rows = [json.loads(line) for line in (output / "cells.jsonl").read_text(encoding="utf-8").splitlines()]
-        rows.sort(key=lambda row: row["status"] == "skipped")  # a clip that only another method has is no reason
+        rows.sort(key=lambda row: row["status"] == "skipped")  # the reasons of other cells say more
         missed = [row for row in rows if row["status"] != "ok"]
         said_of = [f"{row['method']}, {row['clip']}: {row['reason']}" for row in missed]
         judged = {row["method"] for row in rows if row["status"] == "ok"}

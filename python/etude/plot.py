@@ -41,7 +41,7 @@ def estimation(pairs, **named):
     values.set_xlim(-0.5, 1.5)
     values.set_ylabel(_label(pairs.metric))
     _differences(differences, pairs, names, colours)
-    # The title has the condition, if there is one, and both verdicts.
+    # The title gives the condition, if there is one, and both verdicts.
     condition = pairs.condition[0] if len(set(pairs.condition)) == 1 and pairs.condition[0] != "-" else ""
     says = f": {pairs.verdict.verdict} on these worlds" if pairs.verdict else ""
     beyond = f", {pairs.verdict.beyond} beyond them" if pairs.verdict and pairs.verdict.beyond else ""
@@ -80,7 +80,7 @@ def _differences(axes, pairs, names, colours):
 
 def curves(run, name, *, scenario=None, condition=None):
     """Returns a curve per method over its steps: the median of all cells. A cell that has ended keeps its last value,
-    as on the page. name: of a series, such as "position_error_max_cm"."""
+    as on the page. name: the name of a series, such as "position_error_max_cm"."""
     scenario = run._named(scenario)
     found, axis, unit = {}, "", ""
     for each in run.series(name, scenario=scenario, condition=condition):
@@ -113,7 +113,8 @@ def median_curve(several):
 
 
 def error_budget(run, *, scenario=None, condition=None, method=None):
-    """Returns what each stage costs: a waterfall from a method's error to the rest, with the summary's intervals."""
+    """Returns a waterfall of the error that each stage causes, from a method's error to the error that remains when the
+    truth replaces all stages, with the summary's intervals."""
     wanted = [scenario] if scenario is not None else run.scenarios
     for each in run.summary["scenarios"]:
         for of in each["conditions"] if each["name"] in wanted else ():
@@ -188,7 +189,7 @@ def _aside(values):
 
 
 def _shown(figure):
-    """Returns the figure, which a notebook shows if it is the value of a cell."""
+    """Returns the figure. A notebook shows it if it is the value of a notebook's cell."""
     if "IPython" in sys.modules:
         from IPython import get_ipython
         if get_ipython() is not None:

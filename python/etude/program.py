@@ -61,7 +61,7 @@ def call(*arguments, program=None, progress=False, allowed=(0,)):
     """
     command = [find_program(program), *map(os.fspath, arguments)]
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as output:
-        # A session of its own: a terminal's Ctrl-C reaches the program once, through this process.
+        # The program gets a session of its own, so that a terminal's Ctrl-C reaches it only once, through this process.
         child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.PIPE, text=True,
                                  encoding="utf-8", errors="replace", start_new_session=True)
         said, interrupted = [], False

@@ -57,11 +57,11 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Answer:
-    """How a method did against another under one condition, in the one verdict of the page: success first, then the first
-    headline metric, then the tail.
+    """The answer of one method against another under one condition, a single verdict as on the page. It considers
+    success first, then the first headline metric, then the tail.
 
-    verdict: on these worlds; beyond: for others like them, None where there are too few units. against: "baseline" or
-    "rival". decided_by: "success", "value", "tail" or "none". details: all that the summary says of it.
+    verdict: on these worlds; beyond: for others like them, None if there are too few units. against: "baseline" or
+    "rival". decided_by: "success", "value", "tail" or "none". details: the summary's whole entry.
     """
     scenario: str
     condition: str
@@ -220,7 +220,7 @@ class Run:
             scenario = both[0]
         scenario = self._named(scenario)
         summary, table = self._scenarios[scenario], self[scenario]
-        # Both names and the condition must exist.
+        # Check that both names and the condition exist.
         for name in (method, baseline):
             if name not in summary["methods"]:
                 raise EtudeError(f"{scenario}: no method '{name}'{nearest(name, summary['methods'])}; there are "
@@ -229,7 +229,7 @@ class Run:
         if condition is not None and condition not in conditions:
             raise EtudeError(f"{scenario}: no condition '{condition}'; there are {', '.join(conditions)}")
         metric = metric or summary["headline_metrics"][0]
-        # Both methods' values by world.
+        # Collect both methods' values by world.
         values, methods = list(table[metric]), list(table["method"])
         clips, units = (list(table[name]) if name in table else [None] * len(table) for name in ("clip", "units"))
         worlds = {}
@@ -242,7 +242,7 @@ class Run:
                 if name == method:
                     world[2] = values[i]
         found = [(*key, *world) for key, world in worlds.items() if world[1] is not None and world[2] is not None]
-        # The numbers of other worlds, and the summary's verdict.
+        # Count the other worlds, and find the summary's verdict.
         counts = (sum(world[1] is not None and world[2] is None for world in worlds.values()),
                   sum(world[1] is None and world[2] is not None for world in worlds.values()),
                   sum(world[1] is None and world[2] is None for world in worlds.values()))

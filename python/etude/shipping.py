@@ -36,7 +36,7 @@ def ship(method):
     spec = spec_of(method)
     module = sys.modules.get(method.__module__)
     granted = list(spec.files)
-    # The source of the program: it imports the method, or contains it with all that it uses.
+    # Write the source of the program: it imports the method, or contains the method and all that it uses.
     if _is_importable(method, module):
         top = _folder_of(module)
         granted.append(top)
@@ -48,7 +48,7 @@ def ship(method):
         pieces.add(method, f"{'metric' if spec.task == 'metric' else 'method'} '{spec.name}'")
         source, called, arrays = pieces.text(), method.__name__, pieces.arrays
         granted += pieces.folders
-    # The program's folder, and the entry of the scenario.
+    # Write the program's folder, and make the entry of the scenario.
     source = f'"""Written by etude.run."""\n{source}\nimport etude\netude.serve({called})\n'
     folder = _write(source, arrays, "metrics" if spec.task == "metric" else "methods")
     entry = {"name": spec.name, "exec": [_interpreter(granted), str(folder / "program.py")],
@@ -138,7 +138,7 @@ class _Pieces:
             if self._seen[name] is not value:
                 raise ValueError(f"{whose} uses '{name}', which means something else elsewhere in it; rename one")
             return
-        # Modules are imported, a notebook's functions and classes sent by source, values as arrays or literals.
+        # Modules are imported; functions and classes of a notebook are sent as source, values as arrays or literals.
         if isinstance(value, types.ModuleType):
             self._seen[name] = value
             if value.__name__.partition(".")[0] == "etude" and "etude_engine" in sys.modules:
@@ -241,7 +241,7 @@ def _source_of(thing):
 
 
 def _find(thing, name, whose):
-    """Returns whether a name that a function or class uses is defined, and its value."""
+    """Returns (True, value) for a name that a function or class uses; (False, None) if the name is not defined."""
     for function in _functions_of(thing):
         if name not in function.__code__.co_freevars:
             continue
@@ -270,7 +270,7 @@ def _name_in_module(value):
 
 
 def _is_ours(value):
-    """Returns whether a function or class is defined in a notebook or within a function."""
+    """Returns True if a function or class is defined in a notebook or within a function."""
     return value.__module__ == "__main__" or "<locals>" in value.__qualname__
 
 

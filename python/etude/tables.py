@@ -224,7 +224,7 @@ def table_of_columns(folder, metrics):
     numpy = numpy_or_none()
 
     def spread(values, before, after):
-        """Repeats each of `values` `after` times, and the whole `before` times."""
+        """Repeats each value `after` times, and the resulting list `before` times."""
         if numpy:
             return numpy.tile(numpy.repeat(numpy.array(values), after), before)
         return [value for _ in range(before) for value in values for _ in range(after)]
@@ -283,7 +283,7 @@ def table_of_columns(folder, metrics):
 
 
 def _as_row_has_it(text):
-    """Returns a swept value, which an index stores as text, as rows have it: a number if it is one."""
+    """Converts a swept value from the index, which stores texts, to the value in rows: a number if the text is one."""
     try:
         return float(text)
     except ValueError:

@@ -145,7 +145,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cel
   }
   panel.method_ = cell.row->method;
   panel.clip_ = ClipInWords(cell.row->clip);
-  // Find the error of the cell, and of each frame if the run kept it.
+  // Read the error of the cell, and the error of each frame if the run kept it.
   panel.error_mm_ = ValueOf(*cell.row, "mpjpe_mm");
   if (const Series* errors = FindSeries(run, *cell.row, "mpjpe_mm");
       errors != nullptr && errors->values.size() == frames) {
@@ -195,7 +195,7 @@ View CapturePanel::Seen(Renderer& renderer, std::size_t camera, int frame, Targe
 void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const {
   const std::size_t k = static_cast<std::size_t>(frame);
   const CaptureExtras::View& view = extras_.views[camera];
-  // Draw the whole picture so that its crop fills the canvas; the rest is cut off.
+  // Draw the whole picture so large that the crop fills the canvas; everything else is cut off.
   const Box& crop = crops_[camera];
   const double scale = canvas.width() / crop.width;
   const Intrinsics& inside = view.truth.intrinsics;

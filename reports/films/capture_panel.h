@@ -50,8 +50,8 @@ class CapturePanel {
   /// Returns the part of the camera's pictures that contains the person in every frame, pixels.
   const Box& CropOf(std::size_t camera) const { return crops_[camera]; }
 
-  /// Draws the part of one camera's picture around the person, with mask and skeleton over it and without text; it
-  /// fills the canvas. The same canvas size gives the same picture, so callers may keep it.
+  /// Draws the part of one camera's picture around the person, with mask and skeleton over it and without text. The
+  /// part fills the canvas. The same canvas size gives the same picture, so callers may cache it.
   void Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const;
 
  private:
@@ -60,7 +60,7 @@ class CapturePanel {
   StagedRoom stage_;
   std::vector<LensWarp> lenses_;   ///< one per camera
   std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
-  std::vector<double> errors_mm_;  ///< one per frame; empty if the run kept no such curve
+  std::vector<double> errors_mm_;  ///< one per frame; empty if the run did not record errors of frames
   std::optional<double> error_mm_;
   std::string method_, clip_;
 };

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kShownCameras = 2;
 
-// One third and two thirds of the capture, for both cameras.
+// Returns the frames at one third and two thirds of the capture; both cameras show these frames.
 std::array<int, 2> StripFrames(const CapturePanel& capture) { return {capture.Frames() / 3, capture.Frames() * 2 / 3}; }
 
 constexpr std::size_t kPlateCameras = 2, kPlateColumns = 5;
@@ -26,8 +26,8 @@ constexpr double kRowTitleSize = 14, kSmallSize = 12;
 constexpr double kPlateRowHeight = kTitleRoom + kPictureHeight + kCaptionRoom;
 constexpr Paint kVeil{0.04, 0.05, 0.06, 0.55};
 
-/// Returns the rectangle of the whole picture that puts the person's part onto a canvas of kPictureWidth ×
-/// kPictureHeight.
+/// Returns the rectangle in which to draw the whole picture so that the part with the person fills a canvas of
+/// kPictureWidth × kPictureHeight.
 Box PanelOf(const CapturePanel& capture, std::size_t camera) {
   const Box& crop = capture.CropOf(camera);
   const Intrinsics& in = capture.CameraOf(camera).intrinsics;
@@ -130,7 +130,7 @@ Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, 
 }
 
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer) {
-  // Measure the plate.
+  // Measure the size of the plate.
   if (capture.Moments().empty()) return std::nullopt;
   const std::size_t cameras = std::min(kPlateCameras, capture.Cameras());
   const std::size_t rows = cameras * (capture.Moments().size() + 1) + 1;
@@ -145,14 +145,14 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
     return row;
   };
 
-  // One row of stages for each moment and camera.
+  // Draw one row of stages for each moment and camera.
   for (const CaptureExtras::Moment& moment : capture.Moments()) {
     for (std::size_t camera = 0; camera < cameras; ++camera) {
       PlateRow row = begin_row(fmt::format("T = {}, camera {}", moment.frame + 1, camera + 1));
       DrawMoment(capture, renderer, moment, camera, row);
     }
   }
-  // One row of pictures of the whole motion for each camera.
+  // Draw one row of pictures of the whole motion for each camera.
   const std::array<int, kPlateColumns> sequence = SequenceOf(capture);
   for (std::size_t camera = 0; camera < cameras; ++camera) {
     PlateRow row = begin_row(fmt::format("The whole sequence, camera {}", camera + 1));
@@ -162,7 +162,7 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
       row.Add(picture, fmt::format("T = {}", frame + 1));
     }
   }
-  // One row of skeletons of the whole motion.
+  // Draw one row of skeletons of the whole motion.
   PlateRow row = begin_row("The whole sequence, its skeletons");
   for (const int frame : sequence) {
     Canvas picture(kPictureWidth, kPictureHeight);

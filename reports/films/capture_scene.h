@@ -10,31 +10,31 @@
 
 namespace etude {
 
-/// Draws two moments of a capture as the first two cameras saw them, with mask and recovered skeleton.
+/// Draws two moments of a capture as its first two cameras saw them, with mask and recovered skeleton.
 std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer);
 
-/// Saves the same moments with colour, depth and labels as EXR files for other programs.
+/// Saves the pictures of DrawStrip for other programs, as EXR files with colour, depth and labels.
 Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const FilePath& folder);
 
 /// Draws all stages of a capture's moments in the layout of paper B's figures 5.3 to 5.14: for each moment and camera
 /// the picture, the person cut out of it, the marks, the skeleton with its lengths fixed, and the skeleton after
-/// inverse kinematics. Below, as in figure 5.15, it draws the whole motion as the cameras saw it, and its skeletons. At
-/// most two cameras. Returns nullopt if the recording keeps no moments.
+/// inverse kinematics. Below follow, as in figure 5.15, the whole motion as the cameras saw it, and its skeletons. At
+/// most two cameras are shown. Returns nullopt if the recording keeps no moments.
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
-/// Finds the captures of one world that a film compares: the world is that of the typical cell (ChooseCell); it takes
-/// the recorded methods in the scenario's order, at most three. Empty if there is none; fails if one cannot be read.
+/// Finds the captures that a film compares: the recorded methods in the world of the typical cell (ChooseCell), in the
+/// scenario's order, at most three. Empty if there is none; fails if a recording cannot be read.
 Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical);
 
 /// The film of a capture: the views of two cameras and, side by side for each method, the true skeleton with the
 /// recovered one over it. The colour of a recovered bone shows the error of its joints.
 class CaptureScene : public Scene {
  public:
-  /// The maximum number of methods, and of frames.
+  /// Limits of the film: methods, and frames.
   static constexpr std::size_t kMaxMethods = 3;
   static constexpr int kLongest = 8 * kFilmRate;
 
-  /// Shows captures of one world, 1 to kMaxMethods; the renderer must outlive the scene.
+  /// Makes the scene from 1 to kMaxMethods captures of one world. The renderer must outlive the scene.
   CaptureScene(Renderer& renderer, std::vector<CapturePanel> captures);
 
   int Frames() const override;

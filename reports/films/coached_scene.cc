@@ -74,7 +74,7 @@ namespace {
 constexpr Rgb8 kSky{176, 212, 232}, kHills{122, 160, 138}, kGrass{126, 168, 92}, kTrunk{112, 84, 60};
 constexpr std::array<Rgb8, 3> kCrowns = {{{66, 118, 72}, {82, 136, 78}, {52, 100, 68}}};
 
-/// Returns a flat polygon that is visible from +Z or from above; corners in order.
+/// Returns a flat polygon that is visible from +Z or from above. `corners` are in order along its edge.
 Surface Sheet(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal, Rgb8 colour) {
   Surface sheet;
   sheet.positions = corners;
@@ -117,7 +117,7 @@ void AddTree(const glm::dvec3& foot, double height, std::size_t kind, Figure& fo
 }
 
 constexpr Box kStage{12, 52, 1256, 520};
-constexpr Box kSaid{12, 52, 1064, 520};  // the part of the stage that text may cover
+constexpr Box kSaid{12, 52, 1064, 520};  // text may cover only this part of the stage
 constexpr Box kInset{1086, 372, 170, 188};
 constexpr Box kHint{1046, 64, 210, 280};
 
@@ -127,7 +127,8 @@ constexpr double kSessionEyeHeight = 1.35, kSessionDistance = 5.2, kSessionLookA
 
 constexpr int kBeforeCorrection = 3 * kFilmRate;
 
-/// The maximum number of frames that the timeline shows; for a longer film, those around the current one.
+/// The maximum number of frames that the timeline shows. In a longer film, the timeline shows the frames around the
+/// current one.
 constexpr int kTimelineFrames = 24 * kFilmRate;
 
 const Room kMeadow{.casts_shadows = false};
@@ -140,7 +141,7 @@ Paint PaintOfMode(const std::string& mode) {
   return kUndecidedPaint;
 }
 
-/// Returns the last span that begins at or before a frame.
+/// Returns the last span that begins at or before a frame; the first span if all begin later.
 template <typename Span>
 const Span& InForce(const std::vector<Span>& spans, int frame) {
   const auto after = std::ranges::upper_bound(spans, frame, {}, &Span::begin_frame);
@@ -167,7 +168,7 @@ Surface SpotBelow(const BodyPose& pose) {
 
 Figure ForestFigure() {
   constexpr double kFar = 14, kNear = 8, kBack = kWallZ + 0.02;
-  // The sky, the hills in strips, and the meadow.
+  // Draw the sky, the hills in strips, and the meadow.
   Figure forest;
   forest.surfaces.push_back(
       Sheet({{-kFar, 0, kBack}, {kFar, 0, kBack}, {kFar, 10, kBack}, {-kFar, 10, kBack}}, {0, 0, 1}, kSky));
@@ -256,7 +257,7 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   }
   canvas.DrawImage(stage, kStage, kPanelRadius);
   DrawTag(canvas, kStage, fmt::format("The coach: {}", InForce(facts_.modes, frame).mode));
-  // Find the reason for the latest decision of the last two seconds.
+  // Show the reason for the latest decision, if it was made within the last two seconds.
   std::string why;
   for (const auto& decision : facts_.decisions) {
     // Leave out events about music, clips and rules of correction: they belong in the log.
@@ -303,7 +304,7 @@ void CoachedScene::DrawTimeline(Canvas& canvas, int now) const {
   timeline.Label(0, "coach");
   timeline.Label(1, "truth");
   timeline.Label(2, "judged");
-  // The coach's modes, the performances with their verdicts, and the transitions.
+  // Draw the coach's modes, the performances with their verdicts, and the transitions.
   for (std::size_t i = 0; i < facts_.modes.size(); ++i) {
     const int end = i + 1 < facts_.modes.size() ? facts_.modes[i + 1].begin_frame : facts_.Frames();
     timeline.Bar(0, facts_.modes[i].begin_frame, end, PaintOfMode(facts_.modes[i].mode));

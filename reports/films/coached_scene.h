@@ -15,16 +15,16 @@
 
 namespace etude {
 
-/// A recorded session of a coach in the form that a film needs: the extras of the recording, with every frame clamped
-/// to the session, and its tracks.
+/// A recorded session of a coach, prepared for a film: the extras of the recording, with every frame number clamped to
+/// the session, and its motions.
 struct CoachedSessionFacts : CoachExtras {
   BodyMotion coach, learner, sensed;  ///< of equal length
 
   int Frames() const { return static_cast<int>(coach.poses.size()); }
 };
 
-/// Reads the recording that the coach task keeps of a cell. Fails with the recording and the key if it is not such a
-/// recording.
+/// Reads the recording that the coach task keeps of a cell. Fails with the recording's name and the faulty key if the
+/// recording has another form.
 Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell);
 
 /// Chooses the worst of a scenario's recorded sessions: the one with the most unneeded and missed corrections per
@@ -35,7 +35,8 @@ std::optional<ShownCell> ChooseWorstSession(const RunData& run, const ScenarioSu
 /// wall and floor from a camera at +Z that looks at the origin.
 Figure ForestFigure();
 
-/// Returns a soft dark spot on the meadow below a body, because the forest is drawn without shadows.
+/// Returns a soft dark spot on the meadow below a body. It replaces the shadow, because the forest is drawn without
+/// shadows.
 Surface SpotBelow(const BodyPose& pose);
 
 /// The film of a coached session: the bear in its forest with the learner beside it, the learner's skeleton as the
@@ -53,7 +54,7 @@ class CoachedScene : public Scene {
   std::vector<double> Beats() const override;
 
  private:
-  /// Returns the stage without people; it is drawn once.
+  /// Returns the stage without people; it is drawn only once.
   const ColourImage& Backdrop(const Camera& camera);
   void DrawStage(Canvas& canvas, int frame);
   void DrawSkeletonInset(Canvas& canvas, int frame) const;
@@ -67,7 +68,7 @@ class CoachedScene : public Scene {
   Renderer& renderer_;
   int first_ = 0, last_ = 0;  ///< the film shows the session's frames [first_, last_)
   Character bear_, learner_;
-  ColourImage backdrop_;  ///< empty until it is needed
+  ColourImage backdrop_;  ///< empty until the first use
 };
 
 }  // namespace etude

@@ -17,7 +17,8 @@ namespace etude {
 namespace {
 
 constexpr double kSecondsPerDoubling = 0.7;
-constexpr double kMinRaceSeconds = 4, kMaxRaceSeconds = 8;  // seconds
+// Without the time for which the first and the last state are held.
+constexpr double kMinRaceSeconds = 4, kMaxRaceSeconds = 8;
 
 constexpr Paint kGrid{0.24, 0.27, 0.29, 1};
 constexpr Paint kGoal{0.55, 0.82, 0.50, 1};
@@ -26,7 +27,8 @@ constexpr double kTitleSize = 18, kTickSize = 17;
 constexpr double kPlotLeft = 64, kPlotRight = 28, kPlotTop = 44, kPlotBottom = 54;
 // The largest iteration that the axis can label: the digits of a larger decade would not fit into an int.
 constexpr int kMaxLabelledIteration = 100'000'000;
-// Errors far below the goal are irrelevant, and rounding noise would extend the axis without limit.
+// The vertical axis ends this many decades below the goal: smaller errors are irrelevant, and rounding noise would
+// extend the axis without limit.
 constexpr int kMaxDecadesBelowGoal = 2;
 
 }  // namespace
@@ -85,7 +87,7 @@ void ErrorPlot::Draw(Canvas& canvas, const Box& panel, double iteration) const {
   DrawIterationAxis(canvas, frame);
   const double now = frame.X(iteration);
   canvas.DrawLine({now, frame.box.y}, {now, frame.Bottom()}, 1.5, kTime);
-  // Draw later curves thinner, so that all of several equal curves are visible.
+  // Draw later curves thinner, so that equal curves are all visible.
   double width = 3 + 2.0 * (static_cast<double>(curves_.size()) - 1);
   for (const ErrorCurve& curve : curves_) {
     DrawCurve(canvas, frame, curve, iteration, width);
@@ -110,7 +112,7 @@ void ErrorPlot::DrawValueAxis(Canvas& canvas, const Frame& frame) const {
 }
 
 void ErrorPlot::DrawIterationAxis(Canvas& canvas, const Frame& frame) const {
-  double free_from = 0;  // first x at which the next label does not overlap
+  double free_from = 0;  // smallest x at which the next label does not overlap the last one
   const auto tick = [&](int at) {
     const std::string label = FormatCount(at);
     const double width = canvas.TextWidth(label, kTickSize), x = frame.X(at), left = x - width / 2;
@@ -140,14 +142,14 @@ void ErrorPlot::DrawCurve(Canvas& canvas, const Frame& frame, const ErrorCurve& 
 
 namespace {
 
-// Pictures are drawn this much larger and then shrunk, which smooths the edges.
+// Pictures are drawn larger by this factor and then shrunk, which smooths the edges.
 constexpr double kDetail = 1.5;
-// The share of the panel's width, on its left, for the text.
+// The part of the panel's width, at its left, that is reserved for text.
 constexpr double kWordsShare = 0.34;
-// The bodies are turned from the front, so that near and far limbs can be distinguished.
+// The bodies are turned by this angle from the front, so that near and far limbs can be distinguished.
 constexpr double kTurn = Radians(25);
-// Metres, about a tenth of a pixel. If no joint moves farther, as in many of the last iterations, the last picture is
-// shown again.
+// The smallest visible motion of a joint, metres; about a tenth of a pixel. If no joint moves farther, as in many of
+// the last iterations, the last picture is shown again.
 constexpr double kVisible = 0.0005;
 constexpr Paint kGhostRim{0.90, 0.93, 0.95, 0.55};
 constexpr Paint kMarkShadow{0.05, 0.06, 0.07, 0.8};
@@ -187,7 +189,7 @@ void DrawMarks(Canvas& canvas, const std::vector<std::pair<glm::dvec2, glm::dvec
   }
 }
 
-// Errors far below the goal are all written alike.
+// All errors far below the goal are written as "< 0.001".
 std::string ShortNumber(double value) { return value < 0.001 ? "< 0.001" : FormatNumber(value); }
 
 double LargestShift(const BodyPose& a, const BodyPose& b) {
@@ -301,7 +303,7 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
   figure(84, "iteration", FormatCount(reached), kInk);
   error(164, "worst position error", path_.position_cm, kGoalCm, " cm");
   error(244, "worst orientation error", path_.orientation_deg, kGoalDeg, "°");
-  // After a method has ended, show how it ended. Its last pose stays until the other method ends.
+  // After a method has ended, show how it ended; its last pose stays until the other method ends.
   if (entry + 1 == path_.poses.size()) {
     const Paint& paint = path_.solved_at ? kGood : kWarn;
     canvas.DrawText({x, panel.y + 342}, path_.ending, 25, paint, panel.width - 36, true);

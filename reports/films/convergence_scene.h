@@ -13,8 +13,8 @@
 namespace etude {
 
 /// Maps frames of a film to iterations, the same for every method. The scale is logarithmic: each frame multiplies
-/// iteration + 1 by the same factor, so that the first iterations, which change most, are shown one by one and the last
-/// ones pass quickly. The first and the last state are held for a while.
+/// iteration + 1 by the same factor, so that the first iterations, in which most changes happen, are shown one by one,
+/// and the last iterations pass quickly. The film rests on the first and on the last state for a while.
 class RaceClock {
  public:
   /// Makes a clock for a film whose slowest method takes `last_iteration` ≥ 0 steps; the film lasts 6 to 10 seconds.
@@ -22,8 +22,8 @@ class RaceClock {
 
   int LastIteration() const { return last_; }
   int Frames() const { return kOpening + run_ + kEnding; }
-  /// Returns the iteration at a frame, 0 … the last one, never decreasing; the fraction is the progress within an
-  /// iteration.
+  /// Returns the iteration at a frame, 0 … the last iteration; it never decreases. The fraction is the progress within
+  /// an iteration.
   double IterationAt(int frame) const;
   /// Returns the position of an iteration, 0…1, on an axis along which the clock moves at constant speed.
   double ShareOf(double iteration) const;
@@ -45,8 +45,8 @@ struct ErrorCurve {
 /// A plot of errors over iterations, both axes logarithmic, that is drawn up to the current iteration.
 class ErrorPlot {
  public:
-  /// Plots errors. `suffix` follows a value (" cm"), and `goal` > 0 is drawn as a line. Every curve must have a value;
-  /// without curves, only the title is drawn.
+  /// Plots errors. `suffix` is the unit that follows a value (" cm"); a `goal` above 0 is drawn as a line. Every curve
+  /// must have a value; without curves, only the title is drawn.
   ErrorPlot(std::string title, std::string suffix, double goal, std::vector<ErrorCurve> curves, const RaceClock& clock);
 
   /// Draws the part of the curves up to `iteration`.
@@ -65,14 +65,14 @@ class ErrorPlot {
   int lowest_ = 0, highest_ = 0;  ///< decades at the lower and upper edge
 };
 
-/// The stage on which both methods of a race are seen: one camera that contains every pose of both, with the true pose
-/// as a ghost. The left side is free for text.
+/// The stage on which both methods of a race are seen: one camera that sees every pose of both methods, with the true
+/// pose as a ghost. The left side is free for text.
 class ConvergenceStage {
  public:
-  /// Makes the stage for pictures of this size.
+  /// Makes the stage for pictures of `width` × `height` pixels.
   ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height);
 
-  /// Draws a body of that colour over the ghost. Rings mark the targets of its end effectors, dots the end effectors.
+  /// Draws a body in `colour` over the ghost. Rings mark the targets of its end effectors, dots the end effectors.
   Image<std::uint32_t> Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
 
  private:
@@ -82,7 +82,7 @@ class ConvergenceStage {
 
   Box box_;
   FloorMove move_;
-  double lift_;  ///< metres, so that no body is below the floor
+  double lift_;  ///< raises the figures, metres, so that no body is below the floor
   BodyPose truth_;
   IkTargets targets_;
   mutable Studio studio_;  ///< keeps its last picture
@@ -107,15 +107,16 @@ class ConvergencePanel {
   const IkPath& path_;
   const ConvergenceStage& stage_;
   Paint colour_;
-  std::vector<std::size_t> seen_;  ///< for each entry, the latest one whose picture differs visibly from the one before
-  std::optional<Drawn> drawn_;     ///< the latest picture, which is needed again because iterations never decrease
+  /// For each entry of the path, the latest entry whose picture differs visibly from the picture before.
+  std::vector<std::size_t> seen_;
+  std::optional<Drawn> drawn_;  ///< the latest picture; it is often needed again, because iterations never decrease
 };
 
 /// Shows paper B's figures 5.1 and 5.2 as a film: a body that converges under two methods side by side, with the curves
 /// of their errors below.
 class ConvergenceScene : public Scene {
  public:
-  /// The renderer must outlive the scene.
+  /// Makes the film of a race. The renderer must outlive the scene.
   ConvergenceScene(IkRace race, std::string scenario, Renderer& renderer);
   ConvergenceScene(const ConvergenceScene&) = delete;
   ConvergenceScene& operator=(const ConvergenceScene&) = delete;

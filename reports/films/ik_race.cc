@@ -109,7 +109,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     return Fail({.file = "recording " + cells[0].row->Id()}, "it lacks the track truth");
   }
   race.truth = truth->poses.front();
-  std::vector<std::optional<glm::dvec3>> targets;  // of both methods, because their world is the same
+  std::vector<std::optional<glm::dvec3>> targets;  // the same for both methods, because they solve the same world
   for (std::size_t i = 0; i < 2; ++i) {
     ASSIGN_OR_RETURN(auto extras, ExtrasOf(*cells[i].row, *cells[i].recording));
     if (i == 0) targets = extras.targets_m;
@@ -123,7 +123,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
   return race;
 }
 
-/// Says why a world cannot be shown: "trial 3 (adaptive: crashed)".
+/// Describes a world that cannot be shown, and the reason: "trial 3 (adaptive: crashed)".
 std::string WhyPassedOver(const RunData& run, const RecordedCell& cell, const std::string& missing) {
   const auto row = std::ranges::find_if(
       run.rows, [&](const Row& other) { return other.method == missing && cell.SharesWorld(other); });
@@ -153,7 +153,7 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   if (methods.size() == 1) {
     return Fail(nowhere, "this run kept recordings of only one method; two in the same world are needed");
   }
-  // Search the first world that both methods recorded, and note the worlds that only one recorded.
+  // Find the first world that both methods recorded, and note the worlds that only one of them recorded.
   std::vector<std::string> passed_over;
   for (const RecordedCell& cell : cells) {
     const bool is_first = cell.row->method == methods[0];

@@ -12,14 +12,15 @@
 
 namespace etude {
 
-/// A pose counts as solved if the errors of the worst effector and of the worst axis are below these.
+/// A pose counts as solved if the position error of the worst effector (cm) and the error of the worst axis (degrees)
+/// are below these limits.
 inline const double kGoalCm = 100 * IkOptions{}.position_goal;
 inline const double kGoalDeg = Degrees(IkOptions{}.axis_goal);
 
 /// One method's path from the start to its end. All lists have one entry per recorded iteration.
 struct IkPath {
   std::string method;
-  std::size_t method_index = 0;  ///< index in the scenario, which decides the colour
+  std::size_t method_index = 0;  ///< index in the scenario, which selects the colour
   std::vector<BodyPose> poses;
   std::vector<int> iterations;          ///< never decreasing; the first is the start (0)
   std::vector<double> position_cm;      ///< error of the worst effector
@@ -32,11 +33,11 @@ struct IkPath {
   std::size_t EntryAt(double iteration) const;
 };
 
-/// Returns false if all errors are zero, which means that the world has no targets of that kind (position or
+/// Returns true if any error is above zero. If all are zero, the world has no targets of this kind (position or
 /// orientation).
 bool IsAskedFor(const std::vector<double>& errors);
 
-/// The roles of the body that have targets, in the order of the tree's effectors.
+/// The roles of the body that have targets, in the order of the effectors in the tree.
 inline constexpr std::array kIkEnds{Role::kRightFoot, Role::kLeftHand, Role::kRightHand, Role::kHead};
 /// The position of each target; nullopt for a target without a position.
 using IkTargets = std::array<std::optional<glm::dvec3>, kIkEnds.size()>;
@@ -44,7 +45,7 @@ using IkTargets = std::array<std::optional<glm::dvec3>, kIkEnds.size()>;
 /// Two methods of inverse kinematics in the same world.
 struct IkRace {
   std::string world;   ///< "joint_noise_deg=5, trial 0"
-  std::string choice;  ///< why this world was chosen, and which were skipped, in words
+  std::string choice;  ///< in words: why this world was chosen, and which worlds were skipped
   BodyPose truth;
   IkTargets targets;
   std::array<IkPath, 2> paths;
@@ -53,8 +54,8 @@ struct IkRace {
 };
 
 /// Finds the first two methods with recordings, in the scenario's order, and the first world that both recorded; it
-/// never selects a world by its content. Fails with the reason if there is no such world or its recordings cannot be
-/// read.
+/// never selects a world by its content. Fails with the reason if no world was recorded by both, or if the recordings
+/// cannot be read.
 Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -251,7 +251,7 @@ void JudgedScene::DrawSkeleton(Canvas& canvas, int now) const {
 
 void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   canvas.FillBox(kAnglesPanel, kPanelGround, kPanelRadius);
-  // The heading: the move, the verdict and the truth.
+  // Write the heading: the move, the verdict and the truth.
   const std::size_t current = CurrentAt(now);
   const Performance& asked = facts_.performances[current];
   const bool is_open = now >= asked.begin_frame && now < asked.end_frame;
@@ -264,7 +264,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   canvas.DrawText({left, kAnglesPanel.y + 53}, fmt::format("{}: {}", facts_.judges.front().method, verdict), 17,
                   called.empty() ? kSoftInk : PaintOfWord(called), 300, true);
   canvas.DrawText({left, kAnglesPanel.y + 77}, TruthWords(asked), 17, PaintOfWord(asked.truth), 300);
-  // Key poses in order; a reached one is checked off.
+  // Draw the key poses in order; a reached key pose is checked off.
   for (std::size_t k = 0; k < asked.poses.size(); ++k) {
     const bool is_reached = asked.reached[k] && now >= *asked.reached[k];
     const Box box{kAnglesPanel.x + 316 + 122 * static_cast<double>(k % 4),
@@ -274,7 +274,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
     canvas.DrawText({box.x + 8, box.y + 17}, fmt::format("pose {}{}", k + 1, is_reached ? " ✓" : ""), 16,
                     is_reached ? kBackdrop : kInk, box.width - 8, true);
   }
-  // One strip for each angle, and one for the evidence.
+  // Draw one strip for each angle, and one for the evidence.
   const std::vector<Feature> features = FeaturesOf(asked.poses);
   const double rows = static_cast<double>(features.size()) + 1;
   const double height = std::min(84.0, kStripsHeight / rows - kStripGap);
@@ -296,7 +296,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
       path.emplace_back(strip.X(frame), strip.Y(at(frame)));
     return path;
   };
-  // Each angle's curve over the tolerance bands of the key poses.
+  // Draw each angle's curve over the tolerance bands of the key poses.
   for (std::size_t row = 0; row < features.size(); ++row) {
     const Feature feature = features[row];
     const auto angle = [&](int frame) { return facts_.seen.frames[static_cast<std::size_t>(frame)].features[feature]; };
@@ -319,7 +319,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
     }
     if (path.size() > 1) canvas.DrawPath(path, 2, kInk);
   }
-  // The evidence, with the threshold of the verdict.
+  // Draw the evidence, with the threshold of the verdict.
   if (facts_.evidence.empty()) return;
   const auto evidence = [&](int frame) { return facts_.evidence[static_cast<std::size_t>(frame)]; };
   const Strip strip = strip_at(features.size(), 1);

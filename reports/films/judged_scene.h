@@ -15,26 +15,25 @@
 
 namespace etude {
 
-/// A recorded session of the detection task, and the verdicts of one or more methods. Frames count from the session's
-/// first one.
+/// A recorded session of the detection task, and the verdicts of one or more methods. Frame numbers count from the
+/// session's first frame.
 struct JudgedSessionFacts {
   struct Performance {
     std::string move, truth, fault;  ///< truth: right, grey, wrong; fault: "none", or names
     int begin_frame = 0, end_frame = 0;
     std::vector<TaughtPose> poses;  ///< empty if no key pose of the move is known
-    /// For each pose, the first frame in the window by which it and all before it.
+    /// For each key pose, the first frame by which this pose and all poses before it have been seen; nullopt if never.
     std::vector<std::optional<int>> reached;
-    ///< have been seen
   };
   struct Judge {
     std::string method;
-    std::vector<std::optional<int>> called_right;  ///< for each performance, the frame of the verdict "right"; nullopt
-                                                   ///< if it was never given
-    std::vector<DetectionExtras::Alarm> alarms;    ///< only false alarms
+    /// For each performance, the frame of the verdict "right"; nullopt if that verdict was not given.
+    std::vector<std::optional<int>> called_right;
+    std::vector<DetectionExtras::Alarm> alarms;  ///< only false alarms
   };
 
   std::vector<Performance> performances;  ///< in order of time
-  std::vector<Judge> judges;              ///< the first one's view and evidence are shown
+  std::vector<Judge> judges;              ///< the view and the evidence of the first judge are shown
   BodyMotion truth;
   SeenStream seen;
   std::vector<double> evidence;     ///< one per frame; may be empty
@@ -43,12 +42,12 @@ struct JudgedSessionFacts {
   int Frames() const { return static_cast<int>(seen.filtered.frames.size()); }
 };
 
-/// Reads the recording that the detection task keeps of a cell, and those of other methods in the same world. Fails if
-/// the cell has no such recording.
+/// Reads the recording that the detection task keeps of a cell, and the recordings of other methods in the same world.
+/// Fails if the cell has no such recording.
 Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell& cell);
 
-/// The film of a judged session: the sensed skeleton over the true body; the angles of the expected key poses, each
-/// checked off when it is reached; the evidence; and a timeline of truth, of every method's verdicts, and of false
+/// The film of a judged session. It shows the sensed skeleton over the true body; the angles of the expected key poses,
+/// each checked off when it is reached; the evidence; and a timeline with the truth, every method's verdicts, and false
 /// alarms.
 class JudgedScene : public Scene {
  public:
@@ -63,9 +62,10 @@ class JudgedScene : public Scene {
  private:
   using Performance = JudgedSessionFacts::Performance;
 
-  /// Returns the performance that is expected at a frame, else the last one before it, else the first.
+  /// Returns the index of the performance that is expected at a frame. If none is expected, returns the last one before
+  /// the frame; before all performances, the first one.
   std::size_t CurrentAt(int frame) const;
-  /// Returns "right" or "wrong" once the verdict is known, else "".
+  /// Returns the verdict "right" or "wrong" once it is known; before that, "".
   std::string CalledAt(std::size_t judge, std::size_t performance, int frame) const;
   bool IsMisjudged(std::size_t performance) const;
   void DrawSkeleton(Canvas& canvas, int now) const;

@@ -26,7 +26,7 @@ constexpr const char *kConvergence = "convergence", *kTransitions = "transitions
 void Note(std::string& words, const std::string& more) { words += (words.empty() ? "" : " ") + more; }
 
 void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch& watch, Media& media) {
-  // Choose a capture, else a coach alone.
+  // Choose a capture; if there is none, a coach alone.
   const auto has_pictures = [](const ScenarioSummary& scenario) {
     return scenario.task == "transition" || scenario.task == "capture";
   };
@@ -46,20 +46,20 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-  // Make the film, and keep the reasons why earlier films could not be made.
+  // `shoot` makes the film, and keeps the reasons why earlier films could not be made.
   const auto shoot = [&](Scene&& scene) {
     Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);
     film.why_not = why;
     media.film = std::move(film);
   };
-  // A coach alone.
+  // Film a coach alone.
   if (coach_cell) {
     auto made = CoachPanel::Make(*coach_cell, StageScene::kLongest);
     if (made) return shoot(StageScene(**renderer, std::move(*made)));
     return Note(why, "The coach cannot be shown: " + ToString(made.error()));
   }
-  // A capture: the strip, the stills, the EXR files and the film.
+  // Film a capture, and make its strip, stills and EXR files.
   const auto typical = CapturePanel::Make(run, *capture_cell);
   auto captures = FindCaptures(run, *capture_cell);
   if (!typical || !captures) {
@@ -72,7 +72,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   shoot(CaptureScene(**renderer, std::move(*captures)));
 }
 
-// Draws one plate for each capture scenario, of a recorded cell that keeps moments.
+// Draws one plate for each capture scenario, from a recorded cell that keeps moments.
 void MakePlates(const RunData& run, Media& media) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task != "capture") continue;
@@ -86,7 +86,7 @@ void MakePlates(const RunData& run, Media& media) {
   }
 }
 
-/// Returns a film without content, with the reason.
+/// Returns a film without content that states the reason.
 Film NoFilm(const FilePath& path, std::string why_not) {
   Film film;
   film.file = path.whole().filename().string();
@@ -94,7 +94,7 @@ Film NoFilm(const FilePath& path, std::string why_not) {
   return film;
 }
 
-/// Makes a film of methods side by side in one world, or says why there is no film of `what`.
+/// Makes a film of methods side by side in one world. If that fails, the film states why there is no film of `what`.
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what, const FilePath& path,
                        const FilmWatch& watch) {
@@ -112,8 +112,8 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
   return alone ? fmt::format("{}.mp4", what) : fmt::format("{}-{}.mp4", what, FileNameOf(scenario.name, index));
 }
 
-/// Makes the film of a coached session, cut around a correction unless whole sessions are wanted, or says why there is
-/// none.
+/// Makes the film of a coached session, cut around a correction unless whole sessions are wanted. If that fails, the
+/// film states the reason.
 Film MakeSessionFilm(const std::optional<ShownCell>& cell, const std::string& which, const FilePath& path,
                      const MediaOptions& options) {
   if (!cell) return NoFilm(path, "There is no film of a session: no motion of one was kept.");
@@ -128,7 +128,7 @@ Film MakeSessionFilm(const std::optional<ShownCell>& cell, const std::string& wh
   return Shoot(scene, path, options.watch);
 }
 
-/// Makes films of a typical session and of the worst, unless both are the same.
+/// Makes films of a typical session and of the worst session; one film if both are the same session.
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
                       Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
@@ -145,8 +145,8 @@ void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& p
   add(worst, "the worst session", kWorstSession);
 }
 
-/// Makes the film of a typical judged session. Returns nullopt if no motion was recorded, which scenarios may leave
-/// out.
+/// Makes the film of a typical judged session. Returns nullopt if no motion was recorded: scenarios need not record
+/// any.
 std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const MediaPaths& paths,
                                    const MediaOptions& options) {
   const ScenarioSummary& scenario = run.scenarios[index];
@@ -176,6 +176,7 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions&
   Media media;
   MakeStageFilm(run, paths, options.watch, media);
   MakePlates(run, media);
+  // Make one film for each scenario of a task that has films; a coach's scenario has up to two.
   for (std::size_t i = 0; i < run.scenarios.size() && !options.watch.IsStopped(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
     Film film;

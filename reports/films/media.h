@@ -21,16 +21,17 @@ struct ScenarioPicture {
   Picture picture;
 };
 
-/// All pictures and films made from a run's recordings, with reasons for those that could not be made.
+/// All pictures and films made from a run's recordings. For those that could not be made, it holds the reasons.
 struct Media {
-  Film film;  ///< the run's film: a capture, or a coach alone; empty for other tasks, and if a scenario's film already
-              ///< shows all of it
-  std::vector<Picture> strip;                ///< moments of the capture: pictures of both cameras with mask and
-                                             ///< recovered skeleton
-  std::vector<Still> stills;                 ///< the middle frame of the same capture as its cameras took it
+  /// The run's film: a capture, or a coach alone; empty for other tasks, and if the film of a scenario shows the same
+  /// already.
+  Film film;
+  /// Moments of the capture: pictures of both cameras with mask and recovered skeleton.
+  std::vector<Picture> strip;
+  std::vector<Still> stills;                 ///< the middle frame of the same capture as the cameras took it
   std::string strip_scenario;                ///< the scenario whose card shows the strip and the stills
   std::vector<ScenarioPicture> plates;       ///< for captures: all stages of some moments
-  std::vector<ScenarioFilm> scenario_films;  ///< for single scenarios: methods side by side, and sessions
+  std::vector<ScenarioFilm> scenario_films;  ///< films of single scenarios: methods side by side, and sessions
 };
 
 /// The folders for files beside the page.
@@ -40,15 +41,16 @@ struct MediaPaths {
 };
 
 struct MediaOptions {
-  bool whole_sessions = false;  ///< false: coached sessions are cut around a correction, judged ones to 24 s
+  /// False: films of coached sessions are cut around a correction, films of judged sessions to 24 s.
+  bool whole_sessions = false;
   FilmWatch watch = {};
 };
 
 /// Returns the names that films of this run may have.
 std::set<std::string> FilmNames(const RunData& run);
 
-/// Draws the recordings of a run: the films, their posters, the strip and the pictures behind it. A part that cannot be
-/// made is left out, with the reason in `why_not`; the report does not fail because of it.
+/// Draws the recordings of a run: the films, their posters, the strip and the EXR files of its moments. A part that
+/// cannot be made is left out, with the reason in `why_not`; the report does not fail because of it.
 Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options = {});
 
 }  // namespace etude

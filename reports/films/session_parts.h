@@ -13,7 +13,7 @@ namespace etude {
 /// bottom to top.
 void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, double tall, const Paint& paint);
 
-/// Returns the position of a joint in that box.
+/// Returns the position of a joint in the box of DrawStickFigure, pixels of the canvas.
 glm::dvec2 StickJoint(const BodyPose& pose, Role role, const Box& box, double tall);
 
 /// Frames [begin, end) of a session.
@@ -42,11 +42,11 @@ class SessionTimeline {
   SessionTimeline(Canvas& canvas, const FrameSpan& shown);
 
   void Label(int row, const std::string& text);
-  /// Draws a bar over frames [begin, end), clipped to the visible frames.
+  /// Draws a bar over frames [begin, end) of the session, clipped to the visible frames.
   void Bar(int row, int begin, int end, const Paint& paint);
   /// Writes a text on a bar if it fits.
   void Text(int row, int begin, int end, const std::string& text);
-  /// Draws a line through these rows.
+  /// Draws a vertical line at a frame through rows `first_row` … `last_row`.
   void Tick(int frame, int first_row, int last_row, const Paint& paint);
   bool Shows(int frame) const { return frame >= shown_.begin && frame < shown_.end; }
 

@@ -15,12 +15,12 @@ struct ShownCell {
   const Recording* recording;
 };
 
-/// Chooses the cell that a film of this kind of task shows. Candidates are recorded cells with status ok and this
-/// track, preferably of the method that the scenario's question is about. Of these it takes the median by the first
-/// headline metric: a typical cell, not the best one.
+/// Chooses the cell that a film of a task shows. Candidates are recorded cells with status ok and the track `track`,
+/// preferably of the method that the scenario's question is about. Among the candidates it takes the median by the
+/// first headline metric: a typical cell, not the best one.
 std::optional<ShownCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 
-/// Chooses a cell of one scenario in the same way.
+/// Chooses a cell of one scenario by the same rule.
 std::optional<ShownCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track);
 
 /// Finds a curve of a cell by name; null if there is none.

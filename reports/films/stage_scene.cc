@@ -13,26 +13,28 @@
 namespace etude {
 namespace {
 
-// The picture's height in metres: a person with raised arms, and some floor.
+// The height of the picture in metres: it holds a person with raised arms, and some floor.
 constexpr double kSeenHeight = 2.65;
 constexpr double kDistance = 4.2;
 constexpr double kEyeHeight = 1.45;
 constexpr double kLookAtHeight = 0.94;
-// Pictures are drawn this much larger and then shrunk, which smooths edges at about half the cost of a factor of 2.
+// Pictures are drawn larger by this factor and then shrunk, which smooths edges at about half the cost of a factor of
+// 2.
 constexpr double kCoachDetail = 1.5;
-// The camera path is averaged over a second to either side. If the camera stands still, the room need not be drawn
-// again.
+// The camera path is averaged over this many frames (a second) to either side. While the camera stands still, the room
+// need not be drawn again.
 constexpr int kCoachFollowFrames = 30;
 // The smallest distance of the hips from the room's wall, metres.
 constexpr double kMinWallDistance = 1.0;
-// How many frames the change stays marked after the transition point, and how many frames around it show its distances.
+// The number of frames for which the change stays marked after the transition point, and the numbers of frames before
+// and after it in which its distances are shown.
 constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
 // Width of the distance bars beside the feet, and their height above the timeline, pixels.
 constexpr double kBarsWidth = 320, kBarsLift = 34;
 
-// Moves the motion to the middle of the room, facing the camera at the transition point, and so far forward that it
-// stays in front of the wall.
+// Moves the motion to the middle of the room. At the transition point the person faces the camera; the whole motion is
+// moved forward until it stays in front of the wall.
 void PutOnStage(BodyMotion& motion, int point) {
   const FloorMove move = ToOrigin(motion.poses[static_cast<std::size_t>(point)]);
   double backmost = 0;
@@ -46,9 +48,9 @@ void PutOnStage(BodyMotion& motion, int point) {
 
 Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 
-// The film is long enough to watch one change of moves; kLongest limits the time for making it.
+// The film is at least this long, enough to watch one change of moves; kLongest limits the time for making it.
 constexpr int kMinFrames = 5 * kFilmRate;
-// A motion that is repeated rests on its last frame before it starts again.
+// A repeated motion rests this many frames on its last frame before it starts again.
 constexpr int kRest = kFilmRate / 2;
 
 constexpr Box kCoachBox{12, 52, 1256, 656};
@@ -56,7 +58,7 @@ constexpr Box kCoachBox{12, 52, 1256, 656};
 // The frame of a motion that a frame of the film shows.
 struct Shown {
   int frame;
-  bool before;  ///< the motion has been shown once already
+  bool before;  ///< the motion has been shown once before
 };
 Shown ShownAt(int film_frame, int length) {
   const int round = film_frame % (length + kRest);
@@ -164,7 +166,7 @@ void CoachPanel::DrawDistances(Canvas& canvas, const Box& panel, int frame) cons
 
 int StageScene::Frames() const { return std::clamp(coach_.Frames(), kMinFrames, kLongest); }
 
-// Shows the moment just after the change of moves.
+// Returns the moment just after the change of moves.
 int StageScene::PosterFrame() const { return std::min(coach_.FirstPoint() + 4, Frames() - 1); }
 
 std::string StageScene::Words() const { return fmt::format("The coach changes moves ({}).", coach_.Title()); }

@@ -16,7 +16,7 @@
 namespace etude {
 
 /// A coach that changes from one move to another, seen from the front by a camera that follows. Around each transition
-/// point, bars show its partial distances.
+/// point, bars show the partial distances of that point.
 class CoachPanel {
  public:
   /// Cuts the recording to at most `longest` frames around the first transition point. Fails if the recording's facts
@@ -48,7 +48,7 @@ class CoachPanel {
 /// The film of a run that recorded a coach without cameras: the coach changes moves.
 class StageScene : public Scene {
  public:
-  /// The maximum number of frames of a motion that is shown.
+  /// The maximum number of frames of the motion that is shown.
   static constexpr int kLongest = 7 * kFilmRate;
 
   StageScene(Renderer& renderer, CoachPanel coach) : renderer_(renderer), coach_(std::move(coach)) {}

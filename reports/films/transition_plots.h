@@ -6,12 +6,12 @@
 
 namespace etude {
 
-/// A strip that shows the jumps of a path over time: the largest second difference of any joint, with the limit of
-/// natural motion where it is known; below it the clip that plays: left, in-between or wanted. Time counts from the
-/// request.
+/// A strip that shows the jumps of a path over time: the largest second difference of any joint (cm), with the limit of
+/// natural motion where it is known. Below stands the clip that plays: the clip left, an in-between, or the clip
+/// wanted. Time counts in frames from the request.
 class JumpStrip {
  public:
-  /// Shows the times `first` … `last`, in frames after the request. Values up to `highest_cm` > 0 fit.
+  /// Shows the times `first` … `last`, in frames after the request. The vertical axis ends at `highest_cm` > 0.
   JumpStrip(int first, int last, double highest_cm) : first_(first), last_(last), highest_cm_(highest_cm) {}
 
   void Draw(Canvas& canvas, const Box& box, const TransitionPath& path, int time) const;
@@ -25,25 +25,25 @@ class JumpStrip {
   double highest_cm_;
 };
 
-/// Returns the colour of the clip that plays after `points_before` of a path's transition points: the clip left, an
+/// Returns the colour of the clip that plays after `points_before` transition points of a path: the clip left, an
 /// in-between, or the clip wanted.
 const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_before);
 
-/// The height of the bars with their heading, pixels.
+/// The height of the distance bars with their heading, pixels.
 constexpr double kDistanceBarsHeight = 120;
 
-/// Draws the ten partial distances between the two frames of a transition point as bars with the features' names, under
-/// a line with d, the threshold and the branch. A full bar means that this part alone reaches the threshold. `point`
-/// counts from 0. Before the first transition point, and if the recording has no distances, the bars are empty. The box
-/// is kDistanceBarsHeight high.
+/// Draws the ten partial distances between the two frames of a transition point as bars with the features' names. The
+/// line above them gives d, the threshold and the branch. A full bar means that this partial distance alone reaches the
+/// threshold. `point` counts from 0. Before the first transition point, and if the recording has no distances, the bars
+/// are empty. The box is kDistanceBarsHeight high.
 void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts, std::optional<std::size_t> point);
 
-/// Describes a transition point: "distance 0.384 < 0.4 · front half", or for one of two points "1 of 2 · distance 0.21
-/// < 0.4 · in-between".
+/// Describes a transition point: "distance 0.384 < 0.4 · front half"; if the path has two points, "1 of 2 · distance
+/// 0.21 < 0.4 · in-between".
 std::string PointWords(const TransitionFacts& facts, std::size_t point);
 
-/// Returns "side kick in 0.34 s" between the request and the start of the wanted clip, "waited 0.57 s" after that, and
-/// "" before the request. `time` and `last_point` are frames after the request.
+/// Returns "side kick in 0.34 s" from the request until the wanted clip starts, and "waited 0.57 s" from then on; ""
+/// before the request. `time` and `last_point` are frames after the request.
 std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz);
 
 }  // namespace etude

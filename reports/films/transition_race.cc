@@ -13,7 +13,8 @@
 namespace etude {
 namespace {
 
-// Older recordings contain only the wait. A recording without request and wait is aligned at its last transition point.
+// Returns the frame of the request. Older recordings contain only the wait, from which the frame follows. Without both,
+// returns the last transition point.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
   constexpr double kMaxWaitSeconds = 3600;
@@ -36,9 +37,10 @@ std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, con
 }
 
 constexpr int kBefore = kFilmRate, kAfter = 3 * kFilmRate / 2;
-// The film ends at the latest then; a method that waits longer is shown while it waits.
+// A transition later than this does not extend the film; its method is shown while it waits.
 constexpr int kLatest = 4 * kFilmRate;
-// Long enough to see what leads to a transition and what follows it; slow motion shows the same frames.
+// How much of a transition slow motion shows before and after the transition point: long enough to see what leads to
+// the transition and what follows it.
 constexpr int kSlowBefore = kFilmRate / 3, kSlowAfter = 2 * kFilmRate / 3;
 constexpr int kMaxSlowFrames = 5 * kFilmRate / 2;
 

@@ -12,13 +12,14 @@ namespace etude {
 /// The path of one method through a request; times are frames after the request.
 struct TransitionPath {
   std::string method;
-  std::size_t method_index = 0;  ///< index in the scenario, which decides the colour
+  std::size_t method_index = 0;  ///< index in the scenario, which selects the colour
   TransitionFacts facts;
   BodyMotion motion;
   std::vector<double> jumps_cm;  ///< largest second difference of any joint, one per frame
-  int request = 0;               ///< index into `motion` of the frame at the request; may lie outside of it
+  int request = 0;               ///< index into `motion` of the frame of the request; it may lie outside `motion`
 
-  /// Returns the frame `time` frames after the request; the first one before the recording, the last one after it.
+  /// Returns the index of the frame `time` frames after the request; before the recording the first frame, after it the
+  /// last frame.
   int FrameAt(int time) const;
   bool IsRecordedAt(int time) const;
   /// Returns the time of a frame of the motion, in frames after the request.
@@ -33,17 +34,18 @@ struct TransitionPath {
 struct TransitionRace {
   std::string world;    ///< "trial 30"
   std::string request;  ///< "clap → side kick"
-  std::string choice;   ///< why this world and these methods were chosen, in words
+  std::string choice;   ///< in words: why this world and these methods were chosen
   std::vector<TransitionPath> paths;
 };
 constexpr std::size_t kMaxTransitionPaths = 4;
 
-/// Finds the first world that has recordings of the most methods (at most kMaxTransitionPaths, the first ones of the
-/// scenario). Fails with the reason if no world has recordings of two.
+/// Finds the first of the worlds in which the most methods have recordings (at most kMaxTransitionPaths, the first ones
+/// of the scenario). Fails with the reason if no world has recordings of two methods.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
-/// Maps frames of a film to times of a request, the same for every method: from a second before the request until after
-/// the last transition, and then once more in slow motion. Times are frames after the request.
+/// Maps frames of a film to times of a request, the same for every method. The film runs from a second before the
+/// request until after the last transition; then slow motion repeats the transitions. Times are frames after the
+/// request.
 class TransitionClock {
  public:
   static constexpr int kSlowness = 4;
@@ -55,7 +57,7 @@ class TransitionClock {
   int Frames() const { return Run() + kRest + kSlowness * (slow_last_ - slow_first_ + 1) + kRest; }
   int TimeAt(int frame) const;
   bool IsSlow(int frame) const { return frame >= Run() + kRest; }
-  /// Returns the frame of the film that shows this time first.
+  /// Returns the first frame of the film that shows this time.
   int FrameOf(int time) const;
 
  private:

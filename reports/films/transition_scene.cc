@@ -17,7 +17,7 @@ namespace {
 constexpr double kStageDetail = 1.5;
 // The camera path of a walking body is averaged over a second to either side.
 constexpr int kFollowFrames = 30;
-// Poses change little from frame to frame, so every third one is enough to find the visible space.
+// Poses change little from frame to frame, so every n-th frame is enough to find the visible space.
 constexpr int kLookedAtEvery = 3;
 
 std::vector<FloorMove> PlacementsOf(const TransitionPath& path) {
@@ -56,7 +56,7 @@ TransitionStage StageFor(const TransitionRace& race, const TransitionClock& cloc
   return {race, clock.First(), clock.Last(), static_cast<int>(body.width), static_cast<int>(body.height)};
 }
 
-// One scale for all methods, so that jumps can be compared across columns.
+// Returns the highest jump of all methods: they share one scale, so that jumps can be compared across columns.
 double HighestJump(const TransitionRace& race, const TransitionClock& clock) {
   double highest = 1;
   for (const TransitionPath& path : race.paths) {
@@ -107,7 +107,8 @@ Box TransitionPanel::BodyBox(const Box& column) {
           column.height - kCaptionHeight - kStripHeight - kDistanceBarsHeight - 2 * kGap};
 }
 
-// A clip between two points has the name that the recording gives it, else "in-between".
+// Returns the name of the clip that plays. A clip between two points has the name that the recording gives it, else
+// "in-between".
 std::string TransitionPanel::ClipAt(int time) const {
   const std::size_t points = path_.PointsBefore(time);
   if (points == 0) return path_.facts.from;
@@ -131,7 +132,7 @@ void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer
 void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
   const int frame = path_.FrameAt(time);
   const std::size_t points = path_.PointsBefore(time);
-  // Show the pose that was left as a ghost for a second.
+  // For a second, show the pose at the leaving point as a ghost.
   std::optional<int> left;
   if (points > 0) left = path_.facts.transition_frames[points - 1];
   const int since = left ? time - path_.TimeOf(*left) : 0;
@@ -150,7 +151,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
   canvas.FillBox(plate, kPlate, kPanelRadius);
   canvas.Put(drawn_->picture, static_cast<int>(box.x), static_cast<int>(box.y), kPanelRadius);
   constexpr double kMarkRoom = 112;
-  // Dim the picture as long as the recording has not begun.
+  // Dim the picture until the recording begins.
   if (!path_.IsRecordedAt(time)) {
     canvas.FillBox(box, kVeil, kPanelRadius);
     const std::string begin = FormatFixed(path_.TimeOf(0) / path_.motion.rate_hz, 1);
@@ -158,7 +159,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
                     box.width - 32);
   }
   DrawTag(canvas, box, path_.method, kMarkRoom);
-  // The method's colour on the page, below its name.
+  // Draw the method's colour, which is the same as on the page, below its name.
   canvas.FillBox({box.x + 14, box.y + 45, 44, 4}, MethodPaint(path_.method_index), 2);
   if (just_changed) DrawMark(canvas, box, "change");
   DrawWords(canvas, {box.x, box.y + box.height, box.width, kCaptionHeight}, time);

@@ -13,13 +13,13 @@
 
 namespace etude {
 
-/// The stage on which all methods of a race are seen: one fixed camera; every body faces it at the request.
+/// The stage for all methods of a race: one fixed camera. At the request, every body faces the camera.
 class TransitionStage {
  public:
   /// Makes a stage for pictures of this size that show the times `first` … `last`, in frames after the request.
   TransitionStage(const TransitionRace& race, int first, int last, int width, int height);
 
-  /// Draws a frame of a path; behind it, another frame of the path, `ghost`, shows through.
+  /// Draws frame `frame` of a path. Frame `ghost` of the same path, if given, shows through from behind.
   Image<std::uint32_t> Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
                                std::optional<int> ghost) const;
 
@@ -32,7 +32,7 @@ class TransitionStage {
   mutable Studio studio_;                           ///< keeps its last picture
 };
 
-/// One method's column of the film that compares transitions: the performer, its jumps, and the distances at its
+/// One method's column of the film that compares transitions: the person, the jumps, and the distances at the
 /// transition points.
 class TransitionPanel {
  public:
@@ -42,7 +42,7 @@ class TransitionPanel {
   TransitionPanel(const TransitionPath& path, std::size_t index, const TransitionStage& stage, const JumpStrip& strip)
       : path_(path), index_(index), stage_(stage), strip_(strip) {}
 
-  /// Returns the part of a column that shows the performer; the caption is below it.
+  /// Returns the part of a column that shows the person; the caption is below it.
   static Box BodyBox(const Box& column);
   void Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time);
 
@@ -63,11 +63,11 @@ class TransitionPanel {
   std::optional<Drawn> drawn_;  ///< slow motion shows each picture several times
 };
 
-/// The film of one request under two to four methods side by side: when each one changes, how smoothly, and with which
-/// distances.
+/// The film of one request under two to four methods side by side. It shows when each method changes, how smoothly, and
+/// with which distances.
 class TransitionScene : public Scene {
  public:
-  /// The renderer must outlive the scene.
+  /// Makes the film of a race. The renderer must outlive the scene.
   TransitionScene(TransitionRace race, std::string scenario, Renderer& renderer);
   TransitionScene(const TransitionScene&) = delete;
   TransitionScene& operator=(const TransitionScene&) = delete;

@@ -51,7 +51,8 @@ class MembershipPanel {
   std::string Label(const Shape& shape, std::string_view name) const {
     const Cut top = CutOf(shape, 1);
     const double peak = 0.5 * (std::max(top.low, universe_.low) + std::min(top.high, universe_.high));
-    const double room = 0.15 * (universe_.high - universe_.low);  // a centred name would leave the panel here
+    // Nearer to an edge, a centred name would leave the panel.
+    const double room = 0.15 * (universe_.high - universe_.low);
     const char* anchor = peak < universe_.low + room ? "start" : peak > universe_.high - room ? "end" : "middle";
     return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);
   }
@@ -63,7 +64,7 @@ class MembershipPanel {
     marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
     constexpr double kMinGap = 22;
     std::string svg;
-    std::array<double, 2> last = {-kMinGap, -kMinGap};  // where each row's last number stands
+    std::array<double, 2> last = {-kMinGap, -kMinGap};  // the position of each row's last number
     for (double mark : marks) {
       const double x = inputs_.At(mark);
       const std::size_t row = x - last[0] < kMinGap ? 1 : 0;
@@ -94,7 +95,7 @@ class MembershipPanel {
 
 constexpr std::string_view kFuzzyKey = "fuzzy", kBuiltin = "builtin:";
 
-/// Returns the paper's system, then the built-in ones that the scenario sweeps. Systems from files are left out,
+/// Returns the paper's system, then the built-in systems that the scenario sweeps. Systems from files are left out,
 /// because results do not hold their functions.
 std::vector<FuzzySystem> ShownSystems(const ScenarioSummary& scenario) {
   std::vector<FuzzySystem> systems = {FuzzySystem{}};

@@ -12,16 +12,16 @@ namespace etude {
 /// The text under one of paper A's figures 5 to 10.
 struct PaperAFigure {
   int number;
-  Feature feature;  ///< of the right side; the left side has the same functions
+  Feature feature;  ///< the figure shows the right side; the left side has the same functions
   const char* title;
-  const char* input;           ///< what the axis shows
+  const char* input;           ///< the quantity on the axis
   std::vector<int> equations;  ///< one per term, in the order of TermsOf
   const char* repaired;        ///< misprints or gaps of the paper that were repaired; "" if there are none
 };
 const std::vector<PaperAFigure>& PaperAFigures();
 
-/// Returns the error of grading an input and defuzzifying its grades: the mean absolute difference between the two,
-/// over inputs spread evenly over the universe.
+/// Returns the round-trip error of fuzzification and defuzzification: the mean absolute difference between an input and
+/// the value defuzzified from its grades, over inputs spread evenly over the universe.
 double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuzzification method);
 
 /// Draws the membership functions of one feature over its universe as an SVG element. Each term is named at its peak;
@@ -35,9 +35,9 @@ bool ShowsPaperA(const ScenarioSummary& scenario);
 /// recovers from the grades; then the program's other fuzzy systems, if the scenario sweeps them. Returns "" if
 /// ShowsPaperA is false.
 std::string PaperAHtml(const ScenarioSummary& scenario);
-/// Returns the functions as a folded table.
+/// Returns the membership functions as a folded Markdown table.
 std::string PaperAMarkdown(const ScenarioSummary& scenario);
-/// Returns them as a float for the package booktabs.
+/// Returns the membership functions as a LaTeX float for the package booktabs.
 std::string PaperALatex(const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -23,7 +23,7 @@ constexpr std::array<Quantity, 4> kQuantities{{{"position_error_cm", "position, 
                                                {"x_axis_error_deg", "X axis, degrees"},
                                                {"y_axis_error_deg", "Y axis, degrees"},
                                                {"z_axis_error_deg", "Z axis, degrees"}}};
-// In the order of figure 5.2.
+// The effectors in the order of figure 5.2.
 constexpr std::array<const char*, 4> kEffectors{"head", "left_hand", "right_hand", "right_foot"};
 
 struct Panel {
@@ -32,7 +32,7 @@ struct Panel {
   std::vector<PlotCurve> curves;
 };
 
-/// Returns the first trial's curve of each method, and, if there are several trials, the median over all.
+/// Returns the first trial's curve of each method and, if there are several trials, the median curve over all trials.
 std::vector<PlotCurve> CurvesOf(const CellSeriesIndex& series, const std::vector<const Row*>& rows,
                                 const std::vector<std::string>& methods, const std::string& name) {
   std::vector<PlotCurve> singles, medians;
@@ -66,7 +66,7 @@ std::vector<Panel> PanelsOf(const CellSeriesIndex& series, const std::vector<con
   return panels;
 }
 
-/// Returns the axes that all panels of positions share, or all panels of angles.
+/// Returns the axes that all panels of positions share (`of_positions`), or those that all panels of angles share.
 CurveAxes SharedAxes(const std::vector<Panel>& panels, bool of_positions) {
   std::vector<const PlotCurve*> curves;
   for (const Panel& panel : panels) {
@@ -107,7 +107,7 @@ std::string Figure(const std::vector<Panel>& panels, const ScenarioSummary& scen
   return html + "</div>";
 }
 
-// The numbers of tables that fit a page of A4.
+// The numbers of tables that fit on a page of A4.
 constexpr std::size_t kErrorTablesPerFloat = 6;
 constexpr std::size_t kAngleTablesPerFloat = 3;
 
@@ -154,7 +154,7 @@ std::string PrintedHtml(bool with_angles) {
   return html + "</details>";
 }
 
-/// Returns LaTeX table environments of at most `most` tables each; the note stands in the first one's caption.
+/// Returns LaTeX table environments of at most `most` tables each. The caption of the first one contains the note.
 std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most, const std::string& caption,
                         const std::string& note) {
   std::string text;
@@ -169,14 +169,15 @@ std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most,
   return text;
 }
 
-/// Returns true if a cell of this scenario keeps such curves: the task is `ik`, with `record: [effector_curves]`.
+/// Returns true if a cell of this scenario keeps the curves of end effectors: the task is `ik`, with `record:
+/// [effector_curves]`.
 bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
   return scenario.task == "ik" && KeepsSeries(run, scenario, "head_position_error_cm");
 }
 
 /// Draws paper B's figure 5.2: each end effector's position error, and the error along each axis, over iterations. Each
 /// small panel shows all methods on a logarithmic axis: a thin line for the first trial, a thick line for the median of
-/// all trials. One folded figure per condition; "" if no cell keeps such curves.
+/// all trials. Returns one folded figure per condition; "" if no cell keeps these curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);
@@ -210,7 +211,7 @@ std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario) {
       with_angles = with_angles || !set.angles.empty();
     }
   }
-  // Without a filled table there is nothing to compare with the paper's tables.
+  // Without a filled table, the paper's tables have nothing to be compared with.
   return open ? html : html + PrintedHtml(with_angles);
 }
 

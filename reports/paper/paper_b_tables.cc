@@ -125,13 +125,13 @@ PaperTable AngleTable(const char* caption, const AngleFigures& figures) {
   return table;
 }
 
-// A cell that keeps one of the errors keeps them all.
+// A cell that keeps one series of errors keeps them all.
 constexpr std::string_view kErrorSeries = "position_error_x_cm";
 
 constexpr std::string_view kNoAxis = "a — stands where the joint has no such axis.";
 
 using Rows = std::vector<const Row*>;
-/// Reduces several trials' values of a figure to one.
+/// Reduces the values of a figure in several trials to one value.
 using Aggregator = std::function<double(std::vector<double>)>;
 
 double First(const std::vector<double>& values) { return values.front(); }
@@ -147,7 +147,7 @@ double RootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Returns a figure over the rows that have it; nullopt if none has it.
+/// Aggregates a figure over the rows that have it; nullopt if none has it.
 std::optional<double> Figure(const CellSeriesIndex& series, std::span<const Row* const> rows, const std::string& name,
                              std::size_t index, const Aggregator& aggregate) {
   std::vector<double> values;

@@ -18,13 +18,13 @@ struct PaperColumns {
   std::vector<std::string> names;
 };
 
-/// One row with a figure per column, unset if a value cannot exist or is missing.
+/// One row with a figure per column; a figure is unset if its value cannot exist or is missing.
 struct PaperRow {
   std::string label;
   std::vector<std::optional<double>> values;
 };
 
-/// A table in the layout of a printed one, with six decimals.
+/// A table in the layout of one of paper B's tables, with six decimals.
 struct PaperTable {
   std::string caption;
   std::vector<PaperColumns> columns;
@@ -68,25 +68,26 @@ inline constexpr std::array<PaperBJoint, 14> kPaperBJoints{{{"R_shoulder", kTree
                                                             {"L_knee", kTreeLeftKnee},
                                                             {"L_ankle", kTreeLeftAnkle}}};
 
-/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them for its one pose. Its tables 5.2 (a) and
-/// (c) repeat 5.1 (a) and (c).
+/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as printed in the paper, for the paper's single pose. The paper's
+/// tables 5.2 (a) and (c) repeat 5.1 (a) and (c).
 std::vector<PaperTable> PaperBPrintedErrors();
 std::vector<PaperTable> PaperBPrintedAngles();
 
 /// Tables 5.1 and 5.2 of paper B, filled from a run: for one trial, or over all trials.
 struct PaperBSet {
-  std::string title;                  ///< "trial 0", "all 200 trials"
-  std::string error_note;             ///< explains the figures of `errors`
-  std::string angle_note;             ///< explains those of `angles`; "" if there are none
-  std::string replay;                 ///< the command that repeats the trial; "" for all trials
-  std::vector<PaperTable> errors;     ///< "(a) before", then one per method; a row per effector
-  std::vector<PaperTable> angles;     ///< one per method: the hidden angles of each joint
-  std::vector<std::string> outcomes;  ///< one line per method: how it ended, after how many iterations
+  std::string title;               ///< "trial 0", "all 200 trials"
+  std::string error_note;          ///< explains the figures of `errors`
+  std::string angle_note;          ///< explains the figures of `angles`; "" if there are none
+  std::string replay;              ///< the command that repeats the trial; "" for all trials
+  std::vector<PaperTable> errors;  ///< "(a) before", then one per method; a row per effector
+  std::vector<PaperTable> angles;  ///< one per method: the hidden angles of each joint
+  /// One line per method: the status in which it ended, and the number of iterations.
+  std::vector<std::string> outcomes;
 };
 
 struct PaperBCondition {
   std::vector<SweptValue> condition;
-  std::vector<PaperBSet> sets;  ///< the first trial; then all, if there are several
+  std::vector<PaperBSet> sets;  ///< first the first trial; then all trials together, if there are several
 };
 
 /// Returns true if a cell of this scenario keeps the errors for these tables: the task is `ik`, with `record:
@@ -94,8 +95,8 @@ struct PaperBCondition {
 bool HasPaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns the filled tables, one entry per condition whose cells keep effectors' errors; empty for other scenarios. A
-/// method without such figures has no table, and its line in `outcomes` says why. Position errors of one trial have
-/// signs; those over all trials are medians of absolute values.
+/// method whose cells keep none has no table; its line in `outcomes` says why. Position errors of one trial are signed;
+/// position errors over all trials are medians of absolute values.
 std::vector<PaperBCondition> PaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

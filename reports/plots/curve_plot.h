@@ -20,7 +20,7 @@ struct CurveAxes {
   Axis up;      ///< whole decades
 };
 
-/// Returns axes that hold all these curves; the vertical one has at most eight decades.
+/// Returns axes that hold all `curves`; the vertical axis has at most eight decades.
 CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves);
 
 /// Draws one panel of curves over steps as an SVG element. Values below the axis are drawn at its lower end.

@@ -65,7 +65,7 @@ std::string BarSvg(const Bar& bar, double y, const Axis& axis, double scale) {
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition) {
   const MetricWords words = WordsFor(budget.metric);
   const std::vector<Bar> bars = BarsOf(budget, words.scale);
-  // The axis holds every bar and interval.
+  // Make an axis that holds every bar and interval.
   std::vector<double> values{0};
   for (const Bar& bar : bars) {
     values.push_back(bar.to);
@@ -75,7 +75,7 @@ std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condit
   }
   Axis axis = AxisAroundZero(values);
   axis.from = kStageNames, axis.to = kPanelRight;
-  // One bar each for the whole error, every stage, and the rest.
+  // Draw one bar each for the whole error, every stage, and the rest.
   const double bottom = kBarStep * static_cast<double>(bars.size()) + 4;
   std::string svg = BeginPanel(bottom + 18, Describe(budget, words)) + HorizontalAxisGrid(axis, 0, bottom);
   double y = 6;

@@ -34,7 +34,7 @@ constexpr double kHeight = 250, kTop = 8, kBottom = 212;
 constexpr double kSwarm = 26;  // how far dots spread to either side
 constexpr std::size_t kMaxNamed = 16;
 
-/// The indices of both methods in the scenario, which select their colours and marks.
+/// The indices of both methods in the scenario. They select the methods' colours and marks.
 struct MethodIndices {
   std::size_t baseline = 0, method = 0;
 };
@@ -69,6 +69,7 @@ class Plot {
   }
 
   std::string Differences() const {
+    // Make an axis that holds all differences and intervals.
     std::vector<double> all, places;
     for (const PairedWorld& world : pairs_.worlds) all.push_back(world.Difference());
     const double practical = Practical();
@@ -77,6 +78,7 @@ class Plot {
     }
     Axis axis = AxisAroundZero(all);
     axis.from = kBottom, axis.to = kTop;
+    // Draw one dot per world, and the band of differences that do not matter.
     for (const PairedWorld& world : pairs_.worlds) places.push_back(axis.At(world.Difference()));
     const std::vector<double> aside = SwarmOffsets(places, kSwarm);
     std::string dots;
@@ -104,7 +106,8 @@ class Plot {
     const MetricInfo* info = FindMetric(c_.metric);
     return info == nullptr ? 0 : info->practical * words_.scale;
   }
-  // The end of a logarithmic axis: costs below a hundredth of the practical threshold need not be distinguished.
+  // Returns the lower end of a logarithmic axis: costs below a hundredth of the practical threshold need not be
+  // distinguished.
   double Floor() const {
     return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
   }
@@ -141,7 +144,7 @@ class Plot {
     return svg + fmt::format("<circle class=\"estimate\" cx=\"{}\" cy=\"{:.1f}\" r=\"4.5\"/>", x, at(*estimate));
   }
 
-  /// Draws each unit's mean difference, and beside them the interval over units.
+  /// Draws the mean difference of each unit, and beside them the interval over units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
     // A world of two clips belongs to both clips, so no clip has a mean of its own.
@@ -226,7 +229,7 @@ double PracticalOf(const Comparison& c) {
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged) {
   const Comparison& c = *judged.comparison;
   const double scale = WordsFor(c.metric).scale;
-  // Both methods' values in every world.
+  // Collect both methods' values in every world.
   std::map<int, Found> found;
   const KeptCells kept(run);
   for (const Row* row : RowsUnder(run, scenario.name, judged.condition->condition)) {
@@ -241,7 +244,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 
-  // Every n-th world that has both, with its unit.
+  // Keep every n-th world that has both values, with its unit.
   PairedDots pairs;
   pairs.total = found.size();
   pairs.units = UnitNames(found);

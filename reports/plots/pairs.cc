@@ -31,7 +31,7 @@ struct Pair {
   double worst_mm = 0;  ///< of all frames and methods
 };
 
-/// The index of each method's worst frames, none near another, the worst first.
+/// Returns the indices of a method's worst frames, the worst first; no two of them are near each other.
 std::vector<std::size_t> WorstFrames(const std::vector<double>& errors) {
   const std::size_t apart = std::max<std::size_t>(1, errors.size() / 10);
   std::vector<std::size_t> order(errors.size()), worst;
@@ -45,7 +45,7 @@ std::vector<std::size_t> WorstFrames(const std::vector<double>& errors) {
   return worst;
 }
 
-/// Keeps the largest value of each stretch, so that no peak is lost where a curve has more frames than points.
+/// Keeps the largest value of each stretch of frames, so that no peak is lost if a curve has more frames than points.
 PlotCurve PeaksOf(const std::vector<double>& errors, std::size_t style) {
   constexpr std::size_t kMaxDrawn = 80;
   const std::size_t stretch = (errors.size() + kMaxDrawn - 1) / kMaxDrawn;
@@ -62,7 +62,7 @@ PlotCurve PeaksOf(const std::vector<double>& errors, std::size_t style) {
 std::string CurvesSvg(const Pair& pair, const CellSeriesIndex& series, const ScenarioSummary& scenario,
                       const std::string& metric) {
   constexpr double kTall = 150, kUpper = 8, kLower = 128;
-  // One curve a method, from 0 to the largest value.
+  // Draw one curve for each method, from 0 to the largest value.
   std::vector<PlotCurve> curves;
   std::vector<double> all = {0}, frames = {0, 1};
   for (const Row* cell : pair.cells) {
@@ -82,7 +82,7 @@ std::string CurvesSvg(const Pair& pair, const CellSeriesIndex& series, const Sce
   return fmt::format("<figure><figcaption>{}</figcaption>{}</svg></figure>", EscapeMarkup(caption), svg);
 }
 
-/// Draws a frame of a truth (faint) and of an answer, along the horizontal axis that shows them widest.
+/// Draws a frame of the truth (faint) and of the answer, seen along the horizontal axis from which they look widest.
 std::string FrameSvg(const RawMotion& truth, const RawMotion& answer, std::size_t frame, std::size_t style,
                      const std::string& words) {
   constexpr double kWide = 150, kTall = 190, kMargin = 8;

@@ -6,11 +6,11 @@
 
 namespace etude {
 
-/// Returns true if the scenario judges pairs of files.
+/// Returns true if the scenario compares pairs of motion files.
 bool ShowsPairs(const ScenarioSummary& scenario);
 
-/// Returns, for each pair of files, the error in every frame as curves and, if its motions were recorded, the worst
-/// frames as pictures; the pair with the largest error comes first. "" for other scenarios.
+/// Returns, for each pair of files, the error in every frame as curves and, if the motions were recorded, the worst
+/// frames as pictures. The pair with the largest error comes first. "" for other scenarios.
 std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

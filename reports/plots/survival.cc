@@ -22,16 +22,16 @@ constexpr double kCurveHeight = 200, kCurveTop = 8, kCurveBottom = 172;
 constexpr std::size_t kMaxPanels = 4;
 constexpr std::size_t kMaxLines = 16;
 
-/// A metric that is censored: measuring may stop before the measured event happens.
+/// A censored metric: the measurement may stop before the measured event happens.
 struct Censored {
   std::string_view metric;
   std::string_view done;   ///< a metric that is 1 if the event happened; "" if every value means that it did
-  std::string_view share;  ///< the words for the share that the curve shows
+  std::string_view share;  ///< the name of the share that the curve shows
 };
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
-/// Returns how long the cell took until it was done, infinite if it never was; nothing for a skipped cell.
+/// Returns the time until the cell reached the event, infinite if it never did; nothing for a skipped cell.
 std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
   const auto took = ValueOf(row, rule.metric);
@@ -39,7 +39,7 @@ std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   return is_done ? Wait{*took, true} : Wait{std::numeric_limits<double>::infinity(), false};
 }
 
-/// Returns the waits by method, in the scenario's order, without methods that never measure this.
+/// Returns the waits by method, in the scenario's order; methods that never measure this metric are left out.
 std::map<std::size_t, std::vector<Wait>> WaitsUnder(const RunData& run, const ScenarioSummary& scenario,
                                                     const ConditionSummary& condition, const Censored& rule) {
   std::map<std::size_t, std::vector<Wait>> waits;

@@ -36,7 +36,7 @@ std::string Figure(const std::string& caption, const std::string& words, const s
                      BeginPanel(kRocHeight, words), drawn);
 }
 
-/// Draws curves of shares over shares, each with a mark if it has one.
+/// Draws curves of one share over another, each with a mark if it has one.
 std::string SharePanel(const std::string& caption, const std::string& words,
                        const std::map<std::size_t, SharePoints>& curves,
                        const std::map<std::size_t, std::pair<double, double>>& marked = {}) {
@@ -126,7 +126,7 @@ struct Curves {
   std::string words, found_words, wait_words, keys;
 };
 
-/// The performances that are truly right or wrong (not grey), and who performed each.
+/// The performances that are truly right or wrong (not grey), and the performer of each.
 struct PooledEvents {
   std::vector<JudgedEvent> events;
   std::vector<int> people;
@@ -170,13 +170,13 @@ void AddMethod(const ScenarioSummary& scenario, std::size_t method, const Method
 }
 
 std::string VerdictPanels(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition) {
-  // The curves of every method.
+  // Collect the curves of every method.
   Curves curves;
   for (const auto& [method, verdicts] : VerdictsUnder(run, scenario, condition)) {
     if (method < kMaxRocs) AddMethod(scenario, method, verdicts, curves);
   }
   const std::string prefix = ConditionPrefix(condition);
-  // One panel per kind of curve.
+  // Draw one panel for each kind of curve.
   std::string html;
   if (!curves.rocs.empty()) {
     html += SharePanel(prefix +

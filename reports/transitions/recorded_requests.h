@@ -9,20 +9,20 @@
 
 namespace etude {
 
-/// The contents of a transition's recording, with clip names for people.
+/// The content of a transition's recording, with clip names in the form for people (ClipInWords).
 using TransitionFacts = TransitionExtras;
 using PointFacts = TransitionExtras::Point;
 using CandidateFacts = TransitionExtras::Candidate;
 
 /// Reads the facts of a recorded transition; facts that the recording does not hold are empty. There is always at least
-/// one point. `transition_frames` are ascending and lie within the coach's motion; others are dropped. Fails with
-/// `cell` if the extras are no JSON object.
+/// one point. `transition_frames` are ascending; frames outside the coach's motion are dropped. Fails, naming `cell`,
+/// if the extras are no JSON object.
 Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell);
 
 /// Returns a clip's name in the form for people: "builtin:side_kick" becomes "side kick".
 std::string ClipInWords(std::string name);
 
-/// A method's recorded transition for a request.
+/// The recorded transition that one method made for a request.
 struct RecordedTransition {
   const Row* row;
   const Recording* recording;

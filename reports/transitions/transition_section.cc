@@ -33,7 +33,7 @@ std::string DistanceWords(double distance, std::optional<double> threshold) {
                      fmt::format("{:g}", *threshold));
 }
 
-// Limits for readability; the recordings hold everything.
+// Limits for readability; the recordings hold all worlds and methods.
 constexpr std::size_t kMaxWorlds = 6;
 constexpr std::size_t kMaxMethods = 12;
 constexpr std::size_t kMaxCandidates = 24;
@@ -57,7 +57,7 @@ std::string WayOf(const TransitionFacts& facts) {
   return text.empty() ? std::string(kNoValue) : text;
 }
 
-/// Returns the largest distance of all transition points, which is compared with the threshold.
+/// Returns the largest distance of all transition points, which decides whether the threshold is met.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
   for (const PointFacts& point : facts.points) {
@@ -112,8 +112,8 @@ std::string FrameIn(const std::string& clip, int frame) {
   return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", clip, frame);
 }
 
-/// Returns the transition point for which a candidate was considered; with an in-between there are two. Its clips are
-/// empty if the point is unknown.
+/// Returns the transition point for which a candidate was considered; a transition through an in-between has two
+/// points. The point has no clips if it is unknown.
 PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
   const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
   const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());
@@ -131,7 +131,7 @@ TableRow CandidateRow(const CandidateFacts& candidate, const TransitionFacts& fa
   return row;
 }
 
-/// Returns a note on how many of all pairs of frames are listed; "" if all of them are.
+/// Returns a note on the number of listed pairs of frames; "" if all pairs are listed.
 std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
@@ -217,7 +217,7 @@ std::string DistanceTable::Html() const {
   Table table{.label = "Partial distances", .style = "partials", .columns = {{"Partial distances S·Δ²"}}};
   for (const Feature feature : AllFeatures()) table.columns.push_back(NumberColumn(std::string(FeatureName(feature))));
   table.columns.insert(table.columns.end(), {NumberColumn("Sum d²"), NumberColumn("d")});
-  // One row for each set of weights.
+  // Add one row for each set of weights.
   for (const auto& [methods, weights] : weights_) {
     TableRow row{.cells = {weights_.size() == 1 ? "weight S" : "weight S of " + methods},
                  .attributes = " class=\"weights\""};
@@ -226,7 +226,7 @@ std::string DistanceTable::Html() const {
     row.cells.emplace_back("");
     table.rows.push_back(std::move(row));
   }
-  // One row for each transition point.
+  // Add one row for each transition point.
   for (const Point& point : points_) {
     const PerFeature& partials = *point.facts.partials;
     const double sum = std::accumulate(partials.begin(), partials.end(), 0.0);

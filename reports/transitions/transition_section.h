@@ -19,7 +19,8 @@ constexpr std::string_view kFeatureLegend =
     "jumping; Trunk: its lean; RF, LF: angles by which the legs are spread; RFK, LFK: their knees.";
 
 /// A table of the ten partial distances of transition points, one row per point, each with a bar. A full bar means that
-/// this part alone reaches the threshold. The weights are listed above the table, once for all methods that share them.
+/// this partial distance alone reaches the threshold. The weights are listed above the table, once for all methods that
+/// share them.
 class DistanceTable {
  public:
   void AddWeights(const std::string& method, const FeatureWeights& weights);
@@ -41,14 +42,15 @@ class DistanceTable {
 };
 
 /// Explains each recorded transition, the methods of one request side by side: the frames left and entered, the ten
-/// partial distances of the transition points, and the candidates. Long lists are cut, and say so. "" without worlds.
+/// partial distances of the transition points, and the candidates. A list that was cut says so. Returns "" without
+/// worlds.
 std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds);
 
-/// Writes a short form: the frames left and entered, and the largest parts of the distances.
+/// Writes a short Markdown form: the frames left and entered, and the largest partial distances.
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds);
 
-/// Names the largest partial distances, at most three: "LF 0.051, RF 0.036, LHE 0.035"; "all alike" if all are below
-/// kMinShownPartial.
+/// Names the features with the largest partial distances, at most three: "LF 0.051, RF 0.036, LHE 0.035"; "all alike"
+/// if all are below kMinShownPartial.
 std::string MostlyBy(const PerFeature& partials);
 
 }  // namespace etude

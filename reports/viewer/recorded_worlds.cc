@@ -27,12 +27,12 @@ std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {
   for (const CellRecording& recorded : run.recordings) {
     const std::vector<Track>& tracks = recorded.recording.tracks;
     const bool moves = std::ranges::any_of(tracks, [](const Track& track) { return !track.motion.poses.empty(); });
-    // Without tracks, the motions are in the extras: EvaluationExtras.
+    // Without tracks, the motions are in the extras (EvaluationExtras).
     if (moves || tracks.empty()) recordings.emplace(recorded.cell, &recorded.recording);
   }
   std::vector<RecordedWorld> worlds;
   if (recordings.empty()) return worlds;
-  // Group their cells by world.
+  // Group the cells with recordings by world.
   std::map<std::string, std::size_t> index_of;  // indices into `worlds`
   for (const Row& row : run.rows) {
     const auto recorded = recordings.find(row.Id());

@@ -25,7 +25,7 @@ namespace {
 struct TrackLook {
   std::string_view task, track;
   std::string_view label;  ///< "" = the method's name
-  std::string_view kind;   ///< "shown", "ghost" (the reference of errors) or "partner" (stands aside)
+  std::string_view kind;   ///< "shown", "ghost" (the reference of errors) or "partner" (stands beside)
   std::vector<std::string_view> against = {};
   bool has_contacts = false;
 };
@@ -58,7 +58,7 @@ TrackLook LookOf(const std::string& task, const std::string& track) {
   return found == Looks().end() ? TrackLook{task, track, track, "shown"} : *found;
 }
 
-/// Returns what the distance between a joint and its reference means for a task, and the unit of the task's headline
+/// Returns the meaning of the distance between a joint and its reference in a task, and the unit of the task's headline
 /// metric.
 std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   if (task == "capture" || task == "evaluation") return {"distance from the true joint", "mm"};
@@ -74,7 +74,7 @@ struct TrackPoints {
   std::vector<glm::dvec3> points;
 
   std::size_t FrameCount() const { return points.size() / joints; }
-  /// Drops the frames at the end that repeat the one before them; the viewer keeps the last one.
+  /// Drops frames at the end that repeat the frame before them; the viewer holds the last frame.
   void CutWhereItRests() {
     const auto frame = static_cast<std::ptrdiff_t>(joints);
     while (points.size() > joints && std::equal(points.end() - frame, points.end(), points.end() - 2 * frame)) {
@@ -112,7 +112,7 @@ class Writer {
   explicit Writer(const RecordedWorld& world, const std::string& task) : world_(world), task_(task) {}
 
   Json Write(const ScenarioSummary& scenario, const std::string& title) {
-    // The world's header, with empty lists.
+    // Write the world's header, with empty lists.
     const auto [error, unit] = ErrorOf(task_);
     json_ = {{"file", world_.file},     {"title", title},
              {"rate_hz", RateHz()},     {"floor_m", 0},
@@ -157,7 +157,7 @@ class Writer {
     return kJudgedRateHz;
   }
 
-  /// Adds a body with these further members.
+  /// Adds a body with the further JSON `members`.
   void AddBody(const RecordedCell& cell, TrackPoints motion, int begin, const Json& members) {
     const TrackLook look = LookOf(task_, motion.track);
     const std::size_t frames = motion.FrameCount();
@@ -192,7 +192,7 @@ class Writer {
     bodies_.push_back({std::move(motion), begin, cell_});
   }
 
-  // A shared body is a reference for every method.
+  // A body that several methods share is a reference for every method.
   void FindReferences() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       for (const std::string_view track : LookOf(task_, bodies_[i].motion.track).against) {
@@ -221,8 +221,8 @@ class Writer {
     if (std::ranges::find(marks, mark) == marks.end()) marks.push_back(std::move(mark));
   }
 
-  /// Adds the extras of a cell, and returns the frame of the world at which its recording begins: all transitions have
-  /// their requests at the same time.
+  /// Adds the extras of a cell. Returns the frame of the world at which its recording begins; it is chosen so that all
+  /// transitions have their requests at the same time.
   int AddExtras(const std::string& method, const Recording& recording) {
     wanted_ = 0;
     const auto add = [&](const auto& extras) {
@@ -279,7 +279,8 @@ class Writer {
     return begin;
   }
 
-  /// Marks a verdict: "hit" if it agrees with the truth, "miss" if not, "grey" if the truth itself is undecided.
+  /// Marks a verdict: "hit" if it agrees with the truth, "miss" if it does not, "grey" if the truth itself is
+  /// undecided.
   void MarkJudgement(std::string_view lane, int frame, const std::string& truth, bool called_right,
                      const std::string& text) {
     const bool agrees = (truth == "right") == called_right;
@@ -305,7 +306,7 @@ class Writer {
 
   int Add(const std::string& method, const CoachExtras& extras) {
     const std::string lane = world_.cells.size() > 1 ? " of " + method : "";
-    // Performances and their verdicts.
+    // Mark performances and their verdicts.
     for (const CoachExtras::Performance& danced : extras.performances) {
       Mark("danced" + lane, danced.begin_frame, danced.end_frame, danced.truth,
            Performed(danced.move, danced.truth, danced.faults));
@@ -313,7 +314,7 @@ class Writer {
       MarkJudgement("judged" + lane, danced.end_frame, danced.truth, danced.called == "right",
                     fmt::format("{}: called {}", danced.move, danced.called));
     }
-    // Corrections with their reasons, transitions, and spoken words.
+    // Mark corrections with their reasons, transitions, and spoken words.
     for (const int frame : extras.corrections) {
       std::string why;
       for (const CoachExtras::Decision& decision : extras.decisions) {
@@ -354,7 +355,7 @@ glm::dvec3 QuantisedMotion::At(std::size_t point) const {
 }
 
 QuantisedMotion Quantise(std::span<const glm::dvec3> points) {
-  // The box of all points that are seen.
+  // Find the box of all points that are seen.
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const glm::dvec3& point : points) {
     if (!IsSeen(point)) continue;

@@ -11,19 +11,21 @@
 
 namespace etude {
 
-/// A motion in 16-bit steps: point i, joint by joint and frame by frame, is at low + step · steps[3 i + axis], metres;
-/// a point that is not seen has the steps kNoStep, which no other has.
+/// A motion in 16-bit steps. Points are stored joint by joint and frame by frame; point i is at low + step · steps[3 i
+/// + axis], metres. A point that is not seen has the steps kNoStep; no other point has them.
 struct QuantisedMotion {
   static constexpr std::uint16_t kNoStep = 65535;
 
   glm::dvec3 low{0};
-  double step = 0;  ///< the same for all axes; a position is off by at most half of it, plus the rounding of doubles
+  /// The same for all axes, metres; the quantisation error of a coordinate is at most half a step, plus the rounding of
+  /// doubles.
+  double step = 0;
   std::vector<std::uint16_t> steps;
 
   glm::dvec3 At(std::size_t point) const;
 };
-/// Quantises points. The step is the range of the widest axis divided by 65,534, the finest that 16 bits allow; it is 0
-/// if the motion stands still.
+/// Quantises points. The step is the range of the widest axis divided by 65,534, the smallest step that 16 bits allow;
+/// the step is 0 if the motion stands still.
 QuantisedMotion Quantise(std::span<const glm::dvec3> points);
 
 /// Writes the motions of one world as the script beside the page that the viewer loads: `etudeMotion({…});`, in ASCII.

@@ -34,7 +34,7 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
                      FormatInterval(low, high, words), other, worlds);
 }
 
-/// Returns true if the mean lies outside the interval of the median.
+/// Returns true if the mean lies outside the interval of the median, so that the mean must be told too.
 bool MeanTellsMore(const Comparison& c) {
   return c.mean && c.ci_low && c.ci_high && (*c.mean < *c.ci_low || *c.mean > *c.ci_high);
 }
@@ -49,7 +49,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
     return fmt::format("“{}” and {} both have a value in {} only: too few to judge the {}", c.method, other,
                        Plural(c.pairs, "world"), words.label);
   }
-  // The difference, and the mean if it tells more.
+  // Write the difference, and the mean if it lies outside the interval.
   std::string figures =
       fmt::format("{} (95 % CI {})", Amount(*c.difference, words), FormatInterval(c.ci_low, c.ci_high, words));
   if (c.verdict == Verdict::kInconclusive && MeanTellsMore(c)) {
@@ -72,7 +72,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
                      figures);
 }
 
-// ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3° (10.0–14.1; noise=20), on 60 worlds each"
+// Returns the range of changes: ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3° (10.0–14.1; noise=20), on 60 worlds each".
 std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords& words) {
   std::vector<Judged> known;
   std::ranges::copy_if(judged, std::back_inserter(known),
@@ -99,7 +99,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                        CountVerdicts(VerdictsOf(judged), judged.size()));
   }
   const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
-  // With two conditions, the range already names both.
+  // With two conditions, the range of changes has already named both.
   const std::string under = judged.size() > 2 ? " under " + AllConditions(judged.size()) : "";
   const auto verdict = CommonVerdict(judged);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) {
@@ -118,7 +118,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                      CountVerdicts(VerdictsOf(judged), judged.size()), range);
 }
 
-// Names the worlds without a pair, so that a method that fails in hard worlds does not look better because of it.
+// Returns a sentence on the worlds without a pair. Without it, a method that fails in hard worlds would look better.
 std::string UnpairedWords(const std::vector<Judged>& judged) {
   int only_baseline = 0, only_method = 0;
   for (const Judged& j : judged) {
@@ -137,9 +137,9 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
              : fmt::format(" Not included in this difference, because one of the two has no value there: {}.", text);
 }
 
-// At or above this value, a ratio says more than a difference.
+// From this value on, a ratio tells more than a difference.
 constexpr double kMinTellingRatio = 2;
-// A value below this share of the practical threshold counts as zero, so a ratio to it says nothing.
+// A value below this share of the practical threshold counts as zero, because a ratio to it would be meaningless.
 constexpr double kMinShareOfThreshold = 0.1;
 
 std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
@@ -154,8 +154,8 @@ std::string RatioText(const CostRatio& ratio) {
   return least == most ? least : fmt::format("{}–{}", least, most);
 }
 
-/// Returns true if this metric is the one that the scenario's question is about; the answer then considers success
-/// first.
+/// Returns true if this metric is the one that the scenario's question is about; then the answer considers success
+/// before the value.
 bool IsAnswer(const ScenarioSummary& scenario, const std::string& metric) {
   return !scenario.headline_metrics.empty() && scenario.headline_metrics.front() == metric;
 }
@@ -189,7 +189,7 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
   return "undecided against " + others;
 }
 
-/// Returns the smallest to the largest difference over conditions: " (−0.949 mm)"; "" if there is none.
+/// Returns the range of the differences over conditions: " (−0.949 mm)"; "" if there is none.
 std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   if (!HaveOneMetric(judged)) return "";
   std::optional<double> low, high;
@@ -216,8 +216,8 @@ std::string PhraseOf(const std::vector<Judged>& judged, std::string_view what = 
                : VerdictPhrase(judged) + ChangeOf(judged, what);
 }
 
-/// Returns, in words, the largest ratio of costs in another headline metric in which the rival is better; "" if there
-/// is none.
+/// Considers the other headline metrics in which the rival is better, and returns the largest ratio of costs among them
+/// in words; "" if there is none.
 std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                           const std::string& rival) {
   std::string phrase;
@@ -239,12 +239,12 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
                          const std::string& baseline, const std::optional<Verdict>& of_baseline) {
   const std::vector<Judged> judged = AnswersOf(scenario, method, Against::kRival);
   if (judged.empty()) return "";
-  // Name the metric if the comparison with the baseline was decided by another one.
+  // Name the metric if another metric decided the comparison with the baseline.
   const std::string& decides = judged.front().comparison->metric;
   const std::string what = decides == metric ? "" : WordsFor(decides).label + " ";
   const std::string rival = OthersOf(judged);
   const std::string elsewhere = CostElsewhere(scenario, method, decides, rival);
-  // If the baseline is the strongest other method, the first half has compared the two already.
+  // If the baseline is also the strongest other method, the first half has already compared the method with it.
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
   const auto verdict = CommonVerdict(judged);
   const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
@@ -262,7 +262,7 @@ std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, Samplin
                      FormatInterval(c.beyond.low, c.beyond.high, words));
 }
 
-/// Returns the further grounds of an answer: the value where both succeeded, and the tail if it decides.
+/// Returns the further grounds of an answer: the difference where both methods succeeded, and the tail if it decides.
 std::string FurtherSteps(const Judged& judged) {
   const Answer* answer = judged.answer;
   if (answer == nullptr) return "";

@@ -9,9 +9,9 @@
 namespace etude {
 
 /// Returns a scenario's first line: how `method` compares with its baseline, and with the strongest other method:
-/// "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". If a cost is at least twice the other's, it
-/// gives the ratio, else the verdict. Without rivals it has only the first half. It says if there is no verdict for
-/// other units.
+/// "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". If one cost is at least twice the other, the
+/// line gives the ratio, else the verdict. Without rivals, the line ends after the baseline. It says so if there is no
+/// verdict for other units.
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
 
 /// One method's cost divided by another's: the smallest and largest ratio over conditions.
@@ -20,7 +20,8 @@ struct CostRatio {
 };
 std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged);
 
-/// Compares `method` by `metric` with its baseline, or with the strongest other method, over all conditions, in words.
+/// Compares `method` by `metric` with its baseline, or with the strongest other method, over all conditions; returns
+/// the finding in words.
 MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 

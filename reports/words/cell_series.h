@@ -9,7 +9,8 @@
 
 namespace etude {
 
-/// Finds the series of a run's cells by name. The run must outlive it, and rows passed to it must be the run's own.
+/// Finds the series of a run's cells by name. The run must outlive the index, and rows passed to it must belong to the
+/// run.
 class CellSeriesIndex {
  public:
   explicit CellSeriesIndex(const RunData& run);
@@ -21,12 +22,12 @@ class CellSeriesIndex {
   std::map<const Row*, const std::vector<Series>*> cells_;
 };
 
-/// Finds the recordings of a run's cells. The run must outlive it.
+/// Finds the recordings of a run's cells. The run must outlive this object.
 class KeptCells {
  public:
   explicit KeptCells(const RunData& run);
 
-  /// Returns what a cell recorded; null if it recorded nothing.
+  /// Returns the recording of a cell; null if it has none.
   const Recording* Find(const std::string& cell) const;
   /// Returns the attribute by which the page's scripts find a recorded cell, ` data-cell="ID"`; "" for any other cell.
   std::string Attribute(const std::string& cell) const;
@@ -38,8 +39,8 @@ class KeptCells {
 /// Returns true if any cell of this scenario keeps a series of that name.
 bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::string_view name);
 
-/// Returns the rows of a scenario under one condition, in order. Rows of one condition are contiguous, so a search per
-/// condition does not pass over all rows.
+/// Returns the rows of a scenario under one condition, in order. Rows of one condition are contiguous, so the search
+/// does not visit all rows.
 std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenario,
                                   const std::vector<SweptValue>& condition);
 
@@ -47,7 +48,7 @@ std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenari
 std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run);
 
 /// Returns the median of each step over several curves of different lengths. A curve that has ended continues with its
-/// last value, because a solver that has stopped keeps its answer.
+/// last value, because a stopped solver keeps its answer.
 std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);
 
 }  // namespace etude

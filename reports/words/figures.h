@@ -12,25 +12,27 @@ namespace etude {
 /// The words of a metric from the catalogue, or its id if the catalogue does not list it. Shares and scores are shown
 /// in per cent, their differences in percentage points.
 struct MetricWords {
-  std::string label;              ///< "orientation error"; "share “solved”", "mean F1"
-  std::string suffix;             ///< follows a value: "°", " cm", " %", ""
-  std::string difference_suffix;  ///< follows a difference: the same, but " percentage points" for values in per cent
-  double scale = 1;               ///< factor that turns a value into the one shown
-  bool is_share = false;          ///< 0…1, shown in per cent
-  bool by_mean = false;           ///< true: the mean summarises all cells; false: the median
+  std::string label;   ///< "orientation error"; "share “solved”", "mean F1"
+  std::string suffix;  ///< follows a value: "°", " cm", " %", ""
+  /// Unit that follows a difference: `suffix`, but " percentage points" for values in per cent.
+  std::string difference_suffix;
+  double scale = 1;       ///< factor that turns a stored value into the shown value
+  bool is_share = false;  ///< 0…1, shown in per cent
+  bool by_mean = false;   ///< true: the mean summarises all cells; false: the median
   Direction direction = Direction::kNeither;
-  std::string plain_label = {};  ///< "orientation error", "solved", "F1": for texts that already say mean or share
+  /// "orientation error", "solved", "F1": for texts that mention mean or share themselves.
+  std::string plain_label = {};
 };
 MetricWords WordsFor(const std::string& metric_id);
 /// Returns the suffix without its space, for captions: "cm", "".
 std::string UnitOf(const MetricWords& words);
 
-/// Returns the number that summarises all cells: the median or the mean, as the metric defines, in its unit.
+/// Returns the number that summarises all cells, in its unit: the median or the mean, whichever the metric defines.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
 /// Returns a value as text: "12.3°", "98 %"; kNoValue if there is none.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);
 
-/// Returns an interval as text: "10.1–14.0", both ends with equal digits, or "−1.2 to 0.4"; an end that these digits
-/// would show as 0 has its own, "−0.0031 to 30.4". kNoValue if there is no interval.
+/// Returns an interval as text: "10.1–14.0" or "−1.2 to 0.4". Both ends have equally many digits, except that an end
+/// that would be shown as 0 keeps more: "−0.0031 to 30.4". kNoValue if there is no interval.
 std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words);
 }  // namespace etude

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// If there are more methods than this, only the least and the most successful ones are named.
+// With more methods than this, only the least and the most successful method are named.
 constexpr std::size_t kMaxSuccesses = 12;
 
 std::string ExpectationsSentence(const RunFindings& f) {
@@ -29,7 +29,7 @@ std::string ExpectationsSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Returns how many cells were measured. SuccessSentence says how many of them reached their goal.
+/// Returns a sentence on how many cells were measured. SuccessSentence says how many of them reached their goal.
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return " No cell ran.";
   const int measured = f.ok + f.unsolved;
@@ -43,7 +43,7 @@ std::string MeasuredSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Averages each metric of success by method. Metrics that no row has are left out.
+/// Averages each success metric by method. Metrics that no row has are left out.
 class Successes {
  public:
   Successes() {
@@ -115,7 +115,7 @@ std::string ValuesOf(const ScenarioSummary& scenario, const std::string& method,
   return low == high ? FormatValue(low, words) : FormatInterval(low, high, words) + words.suffix;
 }
 
-/// Returns the share of a method's cells that reached their goal; without a metric of success, the share that ended ok.
+/// Returns the share of a method's cells that reached their goal; without a success metric, the share that ended ok.
 std::string SuccessOf(const ScenarioFindings& findings, const ScenarioSummary& scenario, const std::string& method) {
   if (!findings.successes.empty()) {
     const SuccessFinding& success = findings.successes.front();
@@ -162,7 +162,7 @@ std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& ask
     }
     if (pairs > 0) return fmt::format("{}/{}", FormatCount(lost), FormatCount(pairs));
   }
-  return "";  // the rival is one of two, each chosen on half of the worlds
+  return "";  // the rival is one of two methods, each chosen on half of the worlds
 }
 
 KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& asked, Times& times,
@@ -210,7 +210,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   ScenarioFindings findings;
   if (!scenario.headline_metrics.empty()) findings.metric = scenario.headline_metrics.front();
   const std::string asked = MethodInQuestion(scenario);
-  // The method in question against its baseline and the strongest other method.
+  // Compare the method in question with its baseline and with the strongest other method.
   if (asked.empty()) {
     findings.answer.verdict = Verdict::kInconclusive;
     findings.answer.sentence = "Only one method ran, so there is nothing to compare it with.";
@@ -219,7 +219,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);
     findings.rival = CompareInWords(scenario, asked, findings.metric, Against::kRival);
   }
-  // All methods that are compared, and the yardsticks.
+  // List all methods that are compared, and the yardsticks.
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
     if (IsYardstick(scenario, scenario.methods[i])) {
       findings.yardsticks.push_back(scenario.methods[i]);
@@ -228,7 +228,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     }
   }
 
-  // One pass over all rows.
+  // Count statuses and reasons in one pass over all rows.
   std::map<Status, int> statuses;
   std::map<std::pair<Status, std::string>, ReasonCounts> reasons;
   Successes successes;
@@ -244,7 +244,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   findings.successes = successes.Of(scenario);
   if (!asked.empty()) findings.figures = KeyFiguresOf(scenario, asked, times, findings);
   findings.statuses.assign(statuses.begin(), statuses.end());
-  // Reasons, the most frequent first.
+  // List the reasons, the most frequent first.
   for (const auto& [key, counts] : reasons) {
     for (CountedReason& one : counts.MostFrequentFirst()) {
       findings.reasons.push_back({std::move(one), key.first, key.second});
@@ -256,7 +256,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
 
 RunFindings FindingsOf(const RunData& run) {
   RunFindings f;
-  // How the cells ended.
+  // Count how the cells ended.
   ForEachRow(run, [&](const Row& row, std::size_t) {
     ++f.cells;
     switch (row.result.status) {
@@ -273,7 +273,7 @@ RunFindings FindingsOf(const RunData& run) {
         ++f.broken;
     }
   });
-  // How the expectations were decided.
+  // Count how the expectations were decided.
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ExpectationResult& expectation : scenario.expectations) {
       if (expectation.outcome == ClaimOutcome::kMet) ++f.met;

@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// Returns a verdict's words, or "it depends" if the conditions differ.
+/// Returns the name of a verdict, or "it depends" if the conditions differ.
 inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
   return verdict ? VerdictName(*verdict) : "it depends";
 }
@@ -23,11 +23,11 @@ inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
 /// The comparison of one method with another by one metric, over all conditions.
 struct MethodFinding {
   std::string method;
-  /// The method compared with; if conditions have different strongest methods, that of the first one.
+  /// The method compared with. If the strongest other method differs by condition, it is the first condition's.
   std::string baseline;
   SamplingUnit unit = SamplingUnit::kWorld;
-  bool is_compared = false;             ///< false if not compared by this metric
-  std::optional<Verdict> verdict = {};  ///< on these worlds; empty if it depends on the condition
+  bool is_compared = false;             ///< false if the method was not compared by this metric
+  std::optional<Verdict> verdict = {};  ///< verdict on these worlds; empty if it depends on the condition
   BeyondFinding beyond = {};            ///< for other units
   std::string others = {};              ///< all methods with which it was compared: “a” or “b”
   std::string sentence = {};            ///< plain words, with the figures behind the verdicts
@@ -43,23 +43,24 @@ struct MethodFinding {
 struct KeyFigures {
   struct Method {
     std::string name;
-    std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has none
+    std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has no such value
   };
-  std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds lost to it; only known ones
-  std::vector<Method> methods;      ///< the one in question first; empty if nothing is compared
+  /// Names of the known figures: headline metric, success, processor time, worlds lost to the method.
+  std::vector<std::string> labels;
+  std::vector<Method> methods;  ///< the method in question first; empty if nothing is compared
 };
 
 /// Returns the figures as a table. Its columns are aligned as numbers if `has_number_columns`.
 Table FiguresTable(const KeyFigures& figures, bool has_number_columns);
 
-/// Cells of a method that ended with one status, for reasons that count as one.
+/// The cells of a method that ended with one status, for reasons that are counted as one.
 struct ReasonCount : CountedReason {
   Status status = Status::kFailed;
   std::string method = {};
 };
 
-/// The shares of cells, by method, that reached the task's goal according to one metric. Status `ok` only means that a
-/// cell was measured.
+/// For each method, the share of cells that reached the task's goal according to one metric. Status `ok` only means
+/// that a cell was measured.
 struct SuccessFinding {
   std::string metric;
   std::vector<std::pair<std::string, double>> shares;  ///< per method: mean over its cells that have a value, 0…1
@@ -67,19 +68,20 @@ struct SuccessFinding {
 
 /// All findings on one scenario in words, which the page and the Markdown share.
 struct ScenarioFindings {
-  std::string metric;    ///< the first headline metric, which the question is about; "" without any
+  std::string metric;    ///< the first headline metric, which the question is about; "" if there is none
   std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
   MethodFinding answer;  ///< against the baseline
-  MethodFinding rival;   ///< against the strongest other method; not compared in old runs, or if there is none
+  /// Against the strongest other method; not compared in old runs, and if there is no such method.
+  MethodFinding rival;
   KeyFigures figures;
   std::vector<MethodFinding> methods;  ///< every method compared with another, in the scenario's order
   std::vector<std::string> yardsticks;
   int cells = 0;
-  std::vector<std::pair<Status, int>> statuses;  ///< in the order of Status; those that occur
-  std::vector<SuccessFinding> successes;         ///< one per metric of success (MetricInfo::is_success)
-  std::vector<ReasonCount> reasons;              ///< of every cell that is not ok, most frequent first
+  std::vector<std::pair<Status, int>> statuses;  ///< only statuses that occur, in the order of Status
+  std::vector<SuccessFinding> successes;         ///< one per success metric (MetricInfo::is_success)
+  std::vector<ReasonCount> reasons;              ///< reasons of all cells that are not ok, the most frequent first
 };
-/// Returns true if the strongest other method is not the baseline, so that there is more to tell.
+/// Returns true if the strongest other method is not the baseline, so that its comparison adds something.
 bool HasOtherRival(const ScenarioFindings& findings);
 
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario);
@@ -96,14 +98,15 @@ struct RunFindings {
 };
 RunFindings FindingsOf(const RunData& run);
 
-/// Returns a finding on success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %."; of many methods
-/// only the smallest and the largest share.
+/// Returns a finding on success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %."; if there are many
+/// methods, only those with the smallest and the largest share.
 std::string SuccessSentence(const SuccessFinding& finding);
 
 /// Returns the counts of the statuses: "480 cells: 470 ok, 8 unsolved, 2 failed".
 std::string StatusSentence(const ScenarioFindings& findings);
 
-/// Returns why values of this metric are missing in these cells: "2 × no effector seen; 1 × timeout".
+/// Returns the reasons for missing values of a metric in one method's cells under one condition: "2 × no effector seen;
+/// 1 × timeout".
 std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<SweptValue>& condition,
                            const std::string& method, const std::string& metric);
 

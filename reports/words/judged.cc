@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The units in words, in the order of SamplingUnit: these ones, and others like them.
+/// The words for units, in the order of SamplingUnit: the units of this run, and other units like them.
 constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUnitWords = {
     {{"these worlds", "other worlds"},
      {"these people", "other people"},
@@ -18,7 +18,7 @@ constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUn
      {"these clips", "other clips"},
      {"these libraries", "other libraries"}}};
 
-/// Returns the figures: "middle of 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
+/// Returns the figures for other units: "middle of 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
 std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
   if (!beyond.difference) return CountUnits(beyond.units, unit);
   std::string text = fmt::format("middle of {} {}{}", CountUnits(beyond.units, unit),
@@ -152,7 +152,7 @@ std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
 }
 
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
-  // Without metrics a scenario compares no methods at all, so this method is not a special case.
+  // A scenario without metrics compares no methods at all, so the result for this method is false.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
   // A method that is compared at all is compared under every condition.

@@ -15,21 +15,21 @@ enum class Against { kBaseline, kRival };
 struct Judged {
   const Comparison* comparison;
   const ConditionSummary* condition;
-  /// The answer that the comparison decides or belongs to; null: none, the comparison stands alone.
+  /// The answer that the comparison decides or belongs to; null if the comparison stands alone.
   const Answer* answer = nullptr;
 
-  /// Returns the verdict on these worlds, and for others like them.
+  /// Return the verdict on these worlds, and the verdict for other units like them.
   Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
   std::optional<Verdict> Elsewhere() const { return answer == nullptr ? comparison->beyond.verdict : answer->beyond; }
 };
 
-/// Returns the comparisons of `method` by `metric`, one per condition, in their order. Summaries of old versions have
-/// no comparisons with a rival.
+/// Returns the comparisons of `method` by `metric`, one per condition, in their order. Summaries written by old
+/// versions contain no comparisons with a rival.
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Returns the answers on a method, one per condition, each with the comparison that decides it: that of success, or
-/// else that of the value. For a summary without answers it returns the comparisons by the first headline metric.
+/// Returns the answers on a method, one per condition. Each has the comparison that decides it: the comparison of
+/// success, or else of the value. For a summary without answers, returns the comparisons by the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
 /// Returns true if all comparisons are by the same metric.
@@ -39,10 +39,10 @@ bool HaveOneMetric(const std::vector<Judged>& judged);
 /// else one.
 std::vector<std::string> BaselinesOf(const Judged& judged);
 
-/// Names the other sides: "“a”", or "“a” or “b”" if conditions or halves of the worlds have different rivals.
+/// Names the methods compared with: "“a”", or "“a” or “b”" if conditions or halves of the worlds have different rivals.
 std::string OthersOf(const std::vector<Judged>& judged);
 
-/// Returns the verdict on these worlds if all agree, else nothing. `judged` must not be empty.
+/// Returns the verdict on these worlds if all `judged` have the same one, else nothing. `judged` must not be empty.
 std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged);
 
 /// Returns "both conditions", "all 4 conditions".
@@ -52,14 +52,14 @@ std::string AllConditions(std::size_t count);
 /// if there are none.
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions);
 
-/// Returns the verdicts on these worlds.
+/// Returns the verdict on these worlds of each of `judged`.
 std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged);
 
-/// Returns true if a method is compared with no other one (its `against` names itself); false for the first method,
-/// which is the baseline of all others.
+/// Returns true if a method is compared with no other one (its `against` names itself). Returns false for the first
+/// method, because it is the baseline of the others.
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method);
 
-/// Returns true for a yardstick, such as natural motion: it is compared with no method, and no method with it.
+/// Returns true for a yardstick, such as natural motion: a method that is compared with no other, and no other with it.
 bool IsYardstick(const ScenarioSummary& scenario, const std::string& method);
 
 /// Returns the method's index in the scenario, which selects its colour and mark; the number of methods if it is not
@@ -71,14 +71,14 @@ std::string MethodLabel(const ScenarioSummary& scenario, const std::string& meth
 
 /// Returns the units of a verdict on the worlds that were run: "these worlds", "these people", "these clips".
 std::string_view TheseUnits(SamplingUnit unit);
-/// Returns the units of a verdict beyond them: "other worlds", "other people", "other clips".
+/// Returns the words for other units of the same kind: "other worlds", "other people", "other clips".
 std::string_view OtherUnits(SamplingUnit unit);
 
-/// What comparisons say about other units, over all conditions.
+/// The verdicts of comparisons for other units, summarised over all conditions.
 struct BeyondFinding {
   bool on_these_only = true;            ///< no condition has a verdict for other units
-  bool as_on_these = false;             ///< every condition has one, the same as on these worlds
-  std::optional<Verdict> verdict = {};  ///< the common verdict of all conditions that have one
+  bool as_on_these = false;             ///< every condition has a verdict for other units, the same as on these worlds
+  std::optional<Verdict> verdict = {};  ///< the common verdict of all conditions that have one for other units
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);

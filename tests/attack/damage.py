@@ -1,7 +1,8 @@
-"""Damaged files: of a sealed run, of one that is read all the same (--unsealed), of an interrupted run's journal, of a shard, a
-baseline and a pack; and every kind of file that a command reads of its user. A damage is thrown from its round's number; then a
-command reads the file. What is sealed must be refused by its file's name; what is gone on with must give the same bytes or be
-refused; and nothing may end in a signal, or in more than one complaint."""
+"""Attacks Etude with damaged files: those of a sealed run, of a run read with --unsealed, the journal of an
+interrupted run, a shard, a baseline, a pack, and every kind of file that a command reads from its user. The round's
+number seeds the choice of a damage; then a command reads the file. A damaged sealed file must be refused by its
+name; a damaged run that is continued must give the same bytes or be refused; and no command may end by a signal or
+with more than one complaint."""
 import json
 import os
 import pathlib

@@ -1,6 +1,6 @@
-"""Kills of a run, its workers and the launchers of its methods, alone and together, at random moments of the first 300 ms that
-the last of them lives (every other time: that a fence stands): whoever is still there five seconds later was left behind for good.
-A round's moment is thrown from its number."""
+"""Kills a run, its workers and the launchers of its methods, alone and together, at random moments of the first 300
+ms after the last of them has started (in every second round: after a fence has been made). A process that still
+lives five seconds later was left behind for good. The round's number seeds its moment."""
 import contextlib
 import itertools
 import os
@@ -44,8 +44,8 @@ def marked(mark):
 
 
 def kill_once(etude, targets, moment_s, at_fence=False):
-    """One round: the moment counts from when the last target appears, or from when a fence has just been begun. Gives who is
-    left, and how many were killed."""
+    """One round: the moment counts from when the last target appears, or from when a fence has just been begun.
+    Gives who is left, and how many were killed."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="attack-"))
     try:
         (folder / "attack.yaml").write_text(SCENARIO)

@@ -1,6 +1,6 @@
-"""What Etude is attacked with, as root and as an ordinary user: tests at their full length, kills of a run's processes, damaged
-files. A round is a line of out/soak/attack/WHO/rounds.jsonl, so that this goes on where it was ended; a table of all rounds is
-printed, for docs/findings/faults.md."""
+"""Attacks Etude as root and as an ordinary user: runs tests at their full length, kills processes of a run, and
+damages files. Each round is a line of out/soak/attack/WHO/rounds.jsonl, so that an interrupted soak continues where
+it ended. Prints a table of all rounds, for docs/findings/faults.md."""
 import argparse
 import concurrent.futures
 import json
@@ -124,7 +124,8 @@ def play_all(options, record):
 
 
 def play_as_nobody(options):
-    """The same attacks by a user without any rights, who cannot be told from any other. Gives that process's exit code."""
+    """The same attacks by a user without any rights, who cannot be told from any other. Gives that process's exit
+    code."""
     folder = options.out / "user"
     folder.mkdir(parents=True, exist_ok=True)
     scratch = tempfile.mkdtemp(prefix="attack-user-")

@@ -1,4 +1,5 @@
-"""The driver of the attacks: what was played is not played again, what went wrong stands in the table and in the exit code."""
+"""Tests the driver of the attacks: it does not repeat a round, and shows failed rounds in the table and in the exit
+code."""
 import contextlib
 import io
 import pathlib

@@ -1,4 +1,4 @@
-"""`etude bridge`: the tags file and its summary, as their users meet them."""
+"""Tests `etude bridge`: the tags file and its summary, as users see them."""
 import json
 import pathlib
 import subprocess

@@ -1,4 +1,4 @@
-"""Drives a headless Chromium through its debugging pipe, with nothing but the standard library."""
+"""Drives a headless Chromium through its debugging pipe, with the standard library alone."""
 import base64
 import contextlib
 import json

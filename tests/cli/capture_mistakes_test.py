@@ -1,7 +1,8 @@
-"""`etude capture` with other people's rigs, keypoints and mistakes: exact points, so that every millimetre is an error.
+"""Tests `etude capture` with other people's rigs, keypoints and mistakes. Points are exact, so that every millimetre of
+deviation is an error.
 
-A generator of its own makes a walking figure, four cameras, their calibration in every format, keypoints in every
-format, and one mistake at a time. `--poses` prints how near skeletons come to keypoints that err.
+The test generates a walking figure, four cameras, their calibration in every format, keypoints in every format, and one
+mistake at a time. `--poses` prints the distances between skeletons and noisy keypoints.
 """
 import copy
 import functools
@@ -672,7 +673,8 @@ ROLES = {"head": "Head"} | {f"{side}_{joint}": side[0].upper() + name for side i
 
 
 def poses():
-    """Median distance of the skeleton's joints, mm, of keypoints that err: frames by themselves, smoothed, all at once."""
+    """Median distance of the skeleton's joints, mm, of keypoints that err: frames by themselves, smoothed, all at
+    once."""
     case = Mistakes()
     Mistakes.setUpClass()
     case.setUp()

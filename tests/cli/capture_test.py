@@ -1,4 +1,5 @@
-"""`etude calibrate` and `etude capture`: from measured points to a rig, from films and keypoints to a motion."""
+"""Tests `etude calibrate` and `etude capture`: from measured points to a rig, and from films and keypoints to a
+motion."""
 import json
 import math
 import re

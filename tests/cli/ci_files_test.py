@@ -1,4 +1,5 @@
-"""The files of ci/, whose own steps are run in the repository of examples/ci-repository with the variables that servers set."""
+"""Runs the steps of the files of ci/ in the repository of examples/ci-repository, with the variables that servers
+set."""
 import os
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""`etude clip`: what is in motion files, converted and rendered, on the clips of Debian's assimp-testmodels."""
+"""Tests `etude clip`: facts, conversion and rendering of motion files, on the clips of Debian's assimp-testmodels."""
 import csv
 import json
 import math

@@ -1,4 +1,4 @@
-"""`etude coach`: skeletons in, what to show out, as a stage would read it."""
+"""Tests `etude coach`: it reads skeletons, and prints what a stage should show."""
 import json
 import os
 import pathlib

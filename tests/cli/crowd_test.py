@@ -1,4 +1,4 @@
-"""`etude crowd`: a crowd followed, told of and filmed."""
+"""Tests `etude crowd`: a crowd is tracked, reported on, and filmed."""
 import json
 import re
 import subprocess

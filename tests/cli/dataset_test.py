@@ -1,4 +1,5 @@
-"""Data sets out, predictions in: the truth scores perfectly, anything else does not, and nothing is scored by halves."""
+"""Tests export and scoring of data sets: the truth scores perfectly, other answers do not, and incomplete answers
+are not scored."""
 import csv
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""`etude run --dry-run`: what it would take, what it could show, and nothing written."""
+"""Tests `etude run --dry-run`: it forecasts the time and the findings, and writes nothing."""
 
 import json
 import pathlib

@@ -1,4 +1,5 @@
-"""Bad input gives one message that says where and what is allowed, exit code 2, and writes nothing."""
+"""Tests bad input: it gives one message with the place and the allowed values, and exit code 2, and nothing is
+written."""
 import json
 import os
 import re

@@ -1,4 +1,4 @@
-"""What the tests of the program share: a scratch folder, and a way to call `etude`."""
+"""Parts that the tests of the program share: a scratch folder, and a way to call `etude`."""
 import json
 import os
 import re
@@ -84,7 +84,8 @@ class EtudeCase(unittest.TestCase):
         self.out = self.folder / "out"
 
     def facts(self, command, *arguments):
-        """What `command` tells with --json and nothing else on standard output, after checking it against its schema."""
+        """What `command` tells with --json and nothing else on standard output, after checking it against its
+        schema."""
         done = self.etude(*command.split(), *(() if "--" in arguments else ("--json",)), *arguments)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(done.stdout.count("\n"), 1, done.stdout)

@@ -1,4 +1,4 @@
-"""`etude evaluate`: files of other formats, other rates and other sizes against their truths, as a user meets it."""
+"""Tests `etude evaluate`: it compares files of other formats, rates and sizes with their truths."""
 import csv
 import json
 import pathlib

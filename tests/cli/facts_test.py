@@ -1,4 +1,4 @@
-"""--json: every command that tells facts tells them to programs, too, by docs/schemas/facts.schema.json."""
+"""Tests --json: every command with findings also prints them as JSON by docs/schemas/facts.schema.json."""
 import json
 import pathlib
 import re

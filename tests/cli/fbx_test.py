@@ -1,4 +1,5 @@
-"""FBX files: our own, by our own forward kinematics; a studio's; and all of them beside three.js's loader.
+"""Tests FBX files: our own files against our own forward kinematics, a studio's files, and all of them against
+three.js's loader.
 
 The last needs Node.js and npm's package three: `npm install three`, and ETUDE_THREE=…/node_modules/three.
 """
@@ -46,8 +47,8 @@ class Fbx(MotionFileCase):
     def fbx(self, name, unit_cm, up, frames=31, rate=30, late_ticks=0, inactive=(), pivots=None):
         """An FBX file in text, and the places of its joints by frame in metres, Y up, by forward kinematics of our own.
 
-        Keys about Y come late_ticks later. At joints of `inactive` RotationActive is 0, beside a PreRotation and an order.
-        Joints of `pivots` turn about a point, in centimetres from themselves."""
+        Keys about Y come late_ticks later. At joints of `inactive` RotationActive is 0, beside a PreRotation and an
+        order. Joints of `pivots` turn about a point, in centimetres from themselves."""
         pivots = pivots or {}
         def euler(degrees):  # about x first, then y, then z
             x, y, z = (turn(numpy.radians(a) * axis) for a, axis in zip(degrees, numpy.eye(3)))

@@ -1,12 +1,13 @@
-"""Tells of motion files what the program makes of each, and how far its joints lie from where second readers put them.
+"""Prints, for each motion file, what the program makes of it, and how far its joints lie from the positions of second
+readers.
 
     ETUDE=build/release/etude python3 tests/cli/file_table.py FOLDER            # a line of Markdown a file
     ETUDE=build/release/etude python3 tests/cli/file_table.py --rows FOLDER     # and a transition and a capture of each
 
-A role is compared in every frame where a joint of the file plays it: the second reader's place, in the unit and axes that
-the program says it found, against `etude clip convert`; one height of the floor is taken out. Of markers, points between
-them play roles; those are not compared. `--rows`: the clip is left for `builtin:wave` by `played`, and filmed for a fifth of
-a second and captured with adaptive weights, as in scenarios/quick.
+A role is compared in every frame in which a joint of the file plays it: the second reader's position, in the unit and
+axes that the program reports, against `etude clip convert`; one floor height is subtracted. For markers, points between
+them play roles; these are not compared. `--rows`: `played` makes a transition from the clip to `builtin:wave`, and the
+clip is filmed for a fifth of a second and captured with adaptive weights, as in scenarios/quick.
 """
 import csv
 import json
@@ -40,7 +41,8 @@ def converted(source, rate):
 
 
 def worst_mm(path, facts):
-    """The largest distance of a joint from the second reader's, millimetres, and of how many; None without such a reader."""
+    """The largest distance of a joint from the second reader's, millimetres, and of how many; None without such a
+    reader."""
     body, rate = facts["body"], facts["rate_hz"]
     if facts["format"] in ("GLB", "glTF"):
         theirs = readers.read_gltf(path, facts["source"].partition("#")[2], rate, facts["frames"])

@@ -1,4 +1,4 @@
-"""The film of two solvers, as `etude report` makes it."""
+"""Tests the film of two solvers that `etude report` makes."""
 import base64
 import json
 import shutil

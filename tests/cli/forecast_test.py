@@ -1,4 +1,5 @@
-"""`etude forecast`: a rig's expected error; `etude transition`: one clip into another, as a file."""
+"""Tests `etude forecast`, which computes a rig's expected error, and `etude transition`, which writes a transition
+into a file."""
 import csv
 import math
 import pathlib

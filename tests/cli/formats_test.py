@@ -1,4 +1,4 @@
-"""Motion files that people own, written here by second implementations and read by `etude clip`."""
+"""Tests `etude clip` on motion files in the formats that people own, written here by second implementations."""
 import csv
 import json
 import math

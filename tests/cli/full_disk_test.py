@@ -1,5 +1,5 @@
-"""A place that takes no more: a full disk, a limit of the size of files, a disk that may only be read, a folder that is somebody
-else's. Whatever writes ends with 3 and one sentence, and leaves no file half written."""
+"""Tests places that accept no more data: a full disk, a limit on file sizes, a read-only disk, and another user's
+folder. Every command that writes ends with exit code 3 and one sentence, and leaves no incomplete file."""
 import json
 import os
 import pathlib

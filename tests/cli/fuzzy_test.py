@@ -1,4 +1,4 @@
-"""`etude clip grades` and the scenario key `fuzzy`: paper A's fuzzy system as a file."""
+"""Tests `etude clip grades` and the scenario key `fuzzy`, with paper A's fuzzy system as a file."""
 import csv
 import pathlib
 import unittest

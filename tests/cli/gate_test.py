@@ -1,4 +1,4 @@
-"""`etude gate` and `etude compare` as a CI server and a reviewer meet them."""
+"""Tests `etude gate` and `etude compare` in the way that a CI server and a reviewer use them."""
 import json
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""Every command's help ends with three examples of its own, and what they name is there."""
+"""Tests that every command's help ends with three examples of this command, and that all names in them exist."""
 import os
 import re
 import shlex

@@ -1,5 +1,5 @@
-"""Etude where it is installed: found by name from any folder, by any user, with the bytes of the tree that it was built in.
-Heavy: a package, in a bare Debian root that mmdebstrap makes; skipped where there is none to be had."""
+"""Tests an installed Etude: it is found by name from any folder and by any user, and gives the bytes of the build
+tree. Heavy: installs a package in a bare Debian root that mmdebstrap makes; skipped if no root can be made."""
 import os
 import pathlib
 import platform

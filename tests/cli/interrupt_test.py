@@ -1,4 +1,5 @@
-"""Ctrl-C, wherever it comes: one line, exit code 130, nothing half done; and long work that tells how far it is."""
+"""Tests Ctrl-C at any moment: one line is printed, the exit code is 130, and nothing is left half done. Also tests
+the progress of long work."""
 import os
 import pathlib
 import pty

@@ -1,9 +1,10 @@
-"""Somebody who raises their arms, as rows of a Kinect v1."""
+"""Writes a person who raises both arms as rows of a Kinect v1."""
 import math
 
 
 def standing(left, right):
-    """The twenty joints, metres, of a person with straight arms so many degrees from hanging, in the order of the roles."""
+    """The twenty joints, metres, of a person with straight arms so many degrees from hanging, in the order of the
+    roles."""
     joints = [(0, .95, 0), (0, 1.15, 0), (0, 1.42, 0), (0, 1.65, 0)]
     for side, angle in ((1, left), (-1, right)):
         s, c = side * math.sin(math.radians(angle)), -math.cos(math.radians(angle))

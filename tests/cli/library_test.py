@@ -1,4 +1,5 @@
-"""libetude and libetude_sim where they are installed: four programs built against it by `find_package(Etude)`, and what it shows."""
+"""Tests the installed libetude and libetude_sim: four programs that find them by `find_package(Etude)`, and the
+symbols that they export."""
 import json
 import pathlib
 import re

@@ -1,4 +1,5 @@
-"""Nothing is followed below a folder that somebody else filled: no command writes, reads or tells through a link in it."""
+"""Tests that no command follows a link below a folder that somebody else filled: none writes or reads through it, or
+reveals its target."""
 import os
 import pathlib
 import shutil

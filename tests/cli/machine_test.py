@@ -1,5 +1,6 @@
-"""What this machine does to a run is told as the machine's: refused before the first cell, or a cell that is not run; never an
-answer of a method. And what a file system without locks, or a kill of anybody, leaves."""
+"""Tests faults of this machine during a run. They are reported as the machine's, never as a method's answer: the run
+is refused before the first cell, or a cell is not run. Also tests file systems without locks, and kills of any
+process."""
 import json
 import os
 import pathlib

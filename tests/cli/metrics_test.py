@@ -1,4 +1,4 @@
-"""Metrics from outside: in Python they equal ours to the last digit, and a bad one costs its own values alone."""
+"""Tests metrics in Python: they equal ours to the last digit, and a faulty metric loses only its own values."""
 import csv
 import json
 import pathlib

@@ -1,4 +1,4 @@
-"""What the tests of motion files share."""
+"""Parts that the tests of motion files share."""
 import csv
 import json
 

@@ -1,4 +1,4 @@
-"""Motions that come out of Etude and go in again: recordings of every task, joint angles, what is told of files."""
+"""Tests motions that Etude writes and reads again: recordings of every task, joint angles, and facts of files."""
 import json
 import math
 import pathlib

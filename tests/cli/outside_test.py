@@ -1,4 +1,4 @@
-"""Methods from outside in a run: a good one is a method among others; a hostile one becomes rows, and nothing else
+"""Tests outside methods in a run: a good one is a method like any other; a hostile one gets rows, and nothing else
 suffers."""
 import json
 import os

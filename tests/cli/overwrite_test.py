@@ -1,4 +1,5 @@
-"""`run --overwrite` while others read the run: the new run stands whole in the place of the old, and a reader sees either."""
+"""Tests `run --overwrite` while others read the run: the new run replaces the old one as a whole, and a reader sees
+one of the two."""
 import contextlib
 import itertools
 import os
@@ -34,7 +35,8 @@ class Overwriting(EtudeCase):
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def read_on(self, run):
-        """Reads the run with one reader after the other until `run` has ended; checks that each read one run, or none."""
+        """Reads the run with one reader after the other until `run` has ended; checks that each read one run, or
+        none."""
         for words in itertools.cycle(READERS):
             if run.poll() is not None:
                 return

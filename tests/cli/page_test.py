@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of a run as its readers meet it, in a headless browser: at every width, in every mode, by keyboard."""
+"""Tests the page of a run in a headless browser, as its readers use it: at every width, in every mode, by keyboard."""
 import base64
 import json
 import pathlib

@@ -1,4 +1,5 @@
-"""examples/pose-estimator measures: on keypoints made here, its figures are known beforehand. (No estimator is run.)"""
+"""Tests the measurements of examples/pose-estimator on keypoints made here, whose figures are known. (No estimator
+is run.)"""
 import json
 import re
 import shutil

@@ -1,6 +1,7 @@
-"""A power cut loses nothing that a run has counted. The system calls of a run are recorded (strace), and replayed onto a
-model of a disk that keeps only what was synchronised; at every call the power is cut, and what the disk then holds is
-gone on with.  ETUDE_CUTS: how many different disks are tried (all of them in the heavy version of this test)."""
+"""Tests that a power cut loses nothing that a run has counted. The system calls of a run are recorded (strace), and
+replayed onto a model of a disk that keeps only synchronised data. At every call the power is cut, and the run is
+resumed with the contents of the disk. ETUDE_CUTS: how many different disks are tried (all of them in the heavy
+version of this test)."""
 import json
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""What the program is made of: the libraries that it loads, and how it is hardened."""
+"""Tests the libraries that the program loads, and how it is hardened."""
 
 import os
 import pathlib

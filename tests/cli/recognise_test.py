@@ -1,4 +1,5 @@
-"""etude teach, etude recognise: moves out of recordings, found again in others, live and recorded."""
+"""Tests etude teach and etude recognise: moves are learnt from recordings, and recognised in other recordings, live
+and stored."""
 import json
 import re
 import subprocess

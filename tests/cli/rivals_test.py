@@ -1,4 +1,5 @@
-"""examples/rivals against stand-ins that fail at every undocumented call, and against the packages where installed."""
+"""Tests examples/rivals against stand-ins that fail at every undocumented call, and against the packages if they are
+installed."""
 import importlib.util
 import pathlib
 import re

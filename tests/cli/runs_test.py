@@ -1,4 +1,4 @@
-"""Runs as users start them: every cell has its row, and workers change nothing but the time."""
+"""Tests runs as users start them: every cell has its row, and the number of workers changes only the time."""
 import os
 import signal
 import subprocess

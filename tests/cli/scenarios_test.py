@@ -1,4 +1,5 @@
-"""Scenario files as one writes them: several in a file, shared defaults, sweeps, and what is said of broken ones."""
+"""Tests scenario files as people write them: several scenarios in a file, shared defaults, sweeps, and complaints
+about invalid ones."""
 import json
 import unittest
 

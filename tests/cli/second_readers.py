@@ -1,6 +1,7 @@
-"""Readers of motion files that share nothing with the program: where every joint of a file is, in its own unit and axes.
+"""Readers of motion files that share nothing with the program. They return the position of every joint of a file, in
+the file's own unit and axes.
 
-Each gives {joint: places (frames × 3)}; of joints of one name the first.
+Each returns {joint: positions (frames × 3)}; if several joints have the same name, the first one counts.
 """
 import json
 import math

@@ -1,4 +1,5 @@
-"""Secret worlds: a key of 256 bits makes them, its digest names them, and nothing that Etude writes, says or starts shows it."""
+"""Tests secret worlds: a key of 256 bits makes them, its digest names them, and nothing that Etude writes, prints or
+starts reveals the key."""
 import json
 import os
 import pathlib

@@ -1,4 +1,5 @@
-"""examples/segmenter: its masks cover the person, are what `etude capture --masks` reads, and play in a run."""
+"""Tests examples/segmenter: its masks cover the person, `etude capture --masks` reads them, and the segmenter works
+in a run."""
 import pathlib
 import shutil
 import struct

@@ -1,4 +1,4 @@
-"""`etude sensor stats` and `fit`: what recordings say, and a sensor that a scenario uses."""
+"""Tests `etude sensor stats` and `fit`: the statistics of recordings, and a fitted sensor in a scenario."""
 import math
 import random
 import unittest

@@ -1,4 +1,4 @@
-"""etude run on recordings of people, in place of simulated ones."""
+"""Tests etude run on recordings of people instead of simulated people."""
 import json
 import pathlib
 import unittest

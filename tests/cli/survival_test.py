@@ -1,4 +1,4 @@
-"""A run survives whatever happens to it: killed anywhere and resumed, cut into shards, repeated elsewhere, it gives
+"""Tests that a run survives: killed anywhere and resumed, cut into shards, or repeated on another machine, it gives
 the same bytes."""
 import ctypes
 import json

@@ -1,6 +1,6 @@
-"""Etude on the systems that docs/guide/install.md names: in a bare root of each it is built with warnings as errors from what
-scripts/setup installs, tested, packed, and its quick suite compared with this machine's. Heavy: half an hour of two cores a root;
-skipped, and told, where mmdebstrap or a mirror is not to be had."""
+"""Tests Etude on the systems that docs/guide/install.md names. In a bare root of each, it is built from the packages
+of scripts/setup with warnings as errors, tested and packaged, and its quick suite is compared with this machine's.
+Heavy: half an hour of two cores per root; skipped, with a message, if mmdebstrap or a mirror is missing."""
 import json
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""`etude evaluate --alone`: motions without a truth, and limits that a library must keep."""
+"""Tests `etude evaluate --alone`: motions without a truth, and limits that a library must keep."""
 import csv
 import json
 import xml.etree.ElementTree

@@ -1,4 +1,4 @@
-"""Verdicts computed again from cells.jsonl, by formulas of this file alone."""
+"""Computes verdicts again from cells.jsonl, by formulas of this file alone, and compares them."""
 import collections
 import itertools
 import json

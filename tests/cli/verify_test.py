@@ -1,4 +1,4 @@
-"""`etude verify`: who forges a run and seals it anew is found out by its cells, or by its owner's signature."""
+"""Tests `etude verify`: it detects a forged run that was sealed again, by its cells or by its owner's signature."""
 import base64
 import ctypes
 import json

@@ -1,4 +1,4 @@
-"""The page's viewer of motion in a real browser, from disk, by its keys."""
+"""Tests the page's viewer of motions in a real browser, opened from disk, by its keys."""
 import csv
 import json
 import os

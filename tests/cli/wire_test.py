@@ -1,4 +1,5 @@
-"""docs/schemas/protocol.schema.json at its word: every line of the wire, every export, every example."""
+"""Tests docs/schemas/protocol.schema.json: every message of the protocol, every export and every example must fit
+it."""
 import json
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""A suite as a job array of a private Slurm: whatever happens to its tasks, the merged run has the same bytes.
+"""Tests a suite as a job array of a private Slurm: whatever happens to its tasks, the merged run has the same bytes.
 ETUDE_SHARDS: how many tasks the array of the first test has."""
 import json
 import os

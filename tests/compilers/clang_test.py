@@ -1,4 +1,5 @@
-"""Clang takes every file of the program: what this build compiles, looked through by clang without making code of it.
+"""Tests that clang accepts every file of the program: it checks the files that this build compiles, without generating
+code.
 
 The control: a file that no compiler takes. Skipped (exit code 77) where clang is not installed.
 """

@@ -1,4 +1,5 @@
-"""Other compilers, other levels of optimisation: which results are the same to the last bit? See README.md."""
+"""Compiles with other compilers and optimisation levels, and finds the results that are equal to the last bit. See
+README.md."""
 
 import argparse
 import json

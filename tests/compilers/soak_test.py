@@ -1,4 +1,4 @@
-"""The comparison of scripts/soak compilers: what is the same, and what differs first."""
+"""Tests the comparison of scripts/soak compilers: it finds equal results, and the first difference."""
 import json
 import tempfile
 import unittest

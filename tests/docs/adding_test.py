@@ -1,5 +1,5 @@
-"""docs/adding.md, followed to the letter: its examples are done in a scratch tree, what they touch is compiled with the flags of this
-build and linked with its libraries, and the tests that ask every metric, solver and move are run. Heavy.
+"""Tests docs/adding.md: its examples are carried out in a scratch tree, the changed files are compiled with the flags
+of this build and linked with its libraries, and the tests of all metrics, solvers and moves are run. Heavy.
 
     adding_test.py BUILD      BUILD: the build tree (CMakeLists.txt passes it)
 """

@@ -1,5 +1,5 @@
-"""README and the guide, taken at their word: every ```sh block is run, in the order of its page, in one scratch folder per page
-with the built program first in PATH. What a block is stands behind its `sh`:
+"""Runs every ```sh block of README and the guide, in the order of its page, in one scratch folder per page, with the
+built program first in PATH. The word after `sh` gives the kind of a block:
 
     ```sh            run here and on every change
     ```sh heavy      takes long: run where ETUDE_HEAVY=1
@@ -33,7 +33,8 @@ class Wrong(Exception):
 
 
 def blocks(text):
-    """The shell blocks of a page: (line, kind, commands). A command anywhere else would be tried by nobody: it is an error."""
+    """The shell blocks of a page: (line, kind, commands). A command anywhere else would be tried by nobody: it is an
+    error."""
     found, fence, commands = [], None, []
     for number, line in enumerate(text.splitlines(), 1):
         if line.startswith("```") and fence is None:

@@ -1,4 +1,4 @@
-"""The page docs/reference/protocol.md, made of docs/schemas/protocol.schema.json.
+"""Writes the page docs/reference/protocol.md from docs/schemas/protocol.schema.json.
 
     protocol_page.py > docs/reference/protocol.md
 """

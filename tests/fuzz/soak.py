@@ -1,4 +1,4 @@
-"""Every reader of files against libFuzzer: see README.md."""
+"""Runs libFuzzer on every reader of files; see README.md."""
 
 import argparse
 import json

@@ -1,4 +1,4 @@
-"""scripts/soak fuzz itself, with a fuzzer that is none."""
+"""Tests scripts/soak fuzz itself, with a stub in place of the fuzzer."""
 
 import json
 import tempfile

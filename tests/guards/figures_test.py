@@ -1,4 +1,4 @@
-"""scripts/figures: what it says of the pages of this repository, and of pages that it must flag."""
+"""Tests scripts/figures on the pages of this repository, and on pages that it must flag."""
 import contextlib
 import importlib.machinery
 import importlib.util

@@ -1,4 +1,5 @@
-"""scripts/findings, in a tree of its own and with a program in Etude's place: runs anew, goes on, tells what changed."""
+"""Tests scripts/findings in a tree of its own, with a stub in place of Etude: it repeats runs, continues them, and
+lists changes."""
 import json
 import pathlib
 import shutil

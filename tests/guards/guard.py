@@ -2,10 +2,12 @@
 """Guards: rules of the architecture that a compiler does not check.
 
     guard.py RULE ROOT              complains about every file of ROOT that breaks RULE; exit code 1
-    guard.py RULE ROOT --must-flag  the control: fails unless every file of ROOT is complained about
+    guard.py RULE ROOT --must-flag  the control: fails unless it complains about every file of ROOT
 
-Rules: imports, rooms (rooms.py), doors, installed (headers that users of the library get), determinism, types (two of one name, which the linker would take for one), pages
-(files that .md files mention), words (house words, in code and pages, for which the field has a term). Prints how many files it checked, so that a guard that looks at nothing cannot pass for one that finds nothing.
+Rules: imports, rooms (rooms.py), doors, installed (headers that users of the library get), determinism, types (two
+types of one name, which the linker would merge), pages (files that .md files mention), words (house words in code and
+pages for which the field has a term). Prints the number of checked files, so that a guard that checks nothing does not
+pass for one that finds nothing.
 """
 import fnmatch
 import functools
@@ -257,7 +259,8 @@ def statements(path):
 
 
 def draws_in_any_order(statement):
-    """The dice that two arguments of one call throw, or both sides of a sum or product: a compiler begins with either."""
+    """The dice that two arguments of one call throw, or both sides of a sum or product: a compiler begins with
+    either."""
     text = DRAW.sub(r"\1\2!", statement)  # dice! throws them
     while True:
         if mixed := re.search(r"(\w+)!(?!\()[^,;?&|=<>]*[-+*/][^,;?&|=<>]*\b\1!", INNERMOST.sub("", text)):

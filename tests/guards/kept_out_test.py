@@ -1,4 +1,5 @@
-"""scenarios/kept_out.txt: no shipped setting names a clip of the list, and claims about such clips are judged on them."""
+"""Tests scenarios/kept_out.txt: no shipped setting names a clip of the list, and claims about clips are judged on
+its clips."""
 import fnmatch
 import pathlib
 import re

@@ -1,6 +1,5 @@
-"""Which room may include which. A room is a folder with a CMakeLists.txt; what it may include is its DEPENDS, of
-etude_folder(…), and no more. The lists tell what is, not what might be: a folder that no file needs is complained about as
-well. The rooms form no circle.
+"""Checks which folder may include which. A room is a folder with a CMakeLists.txt; it may include only the rooms in its
+DEPENDS, of etude_folder(…). A room that is listed but that no file needs is an error, too. The rooms form no circle.
 """
 import pathlib
 import re

@@ -2,9 +2,10 @@
 
     scripts/soak transitions [--library NAME=CLIPS]... [--trials N] [--etude PROGRAM] [--keep FILE]
 
-Every library is a condition of its own. The two weights of `played` are taken from a grid; for each library those are
-taken that are clean most often on all the *others* (mean of libraries, 100 requests each, seed 2), and are judged on the
-library that was left out, on other requests (seed 3). A few minutes. --keep writes what came out, as JSON.
+Every library is a condition of its own. The two weights of `played` are searched on a grid. For each library, the
+weights are chosen with which transitions are clean most often on all *other* libraries (mean of libraries, 100 requests
+each, seed 2). They are then judged on the library that was left out, with other requests (seed 3). This takes a few
+minutes. --keep writes the results as JSON.
 """
 import argparse
 import json
@@ -92,7 +93,8 @@ def mean_of(table):
 
 
 def kept(table, trials):
-    """As scripts/figures reads it: pages bind `left-out/library=NAME/played/METRIC, mean`, shares with `, times 100`."""
+    """As scripts/figures reads it: pages bind `left-out/library=NAME/played/METRIC, mean`, shares with `, times
+    100`."""
     figures = {}
     for line in [*table, mean_of(table)]:
         for metric in METRICS:

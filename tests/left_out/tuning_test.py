@@ -1,4 +1,4 @@
-"""A library must have no say in the weights that it is judged with."""
+"""Tests that a library has no influence on the weights with which it is judged."""
 import json
 import unittest
 

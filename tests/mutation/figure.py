@@ -1,4 +1,4 @@
-"""What is kept of a sample: figure.json, and survivors.json with a reason each."""
+"""The stored results of a sample: figure.json, and survivors.json with a reason for each."""
 
 import json
 import math

@@ -1,5 +1,5 @@
-// What the mutated copy of the engine is made of: every compiler call of its build includes this file first. All
-// mutants are compiled into one program; the environment variable ETUDE_MUTANT chooses one by number, 0 none.
+// The parts of a mutated copy of the engine. Every compiler call of its build includes this file first. All mutants are
+// compiled into one program; the environment variable ETUDE_MUTANT chooses one by number, 0 = none.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ constexpr int kMost = 1 << 18;
 inline unsigned char reached[kMost];
 
 inline void WriteReached() {
-  // Modules that are loaded have a list of their own, which comes behind.
+  // Loaded modules have a list of their own, which is appended.
   std::FILE* file = std::fopen(std::getenv("ETUDE_MUTANTS_REACHED"), "a");
   if (file == nullptr) std::abort();
   for (int number = 0; number < kMost; ++number) {
@@ -23,8 +23,8 @@ inline void WriteReached() {
   std::fclose(file);
 }
 
-/// The mutant's number; −1 when the numbers of all mutants that are reached shall be written to the file that
-/// ETUDE_MUTANTS_REACHED names, and none is chosen.
+/// Returns the mutant's number. Returns −1 if no mutant is chosen, and the numbers of all reached mutants shall be
+/// written to the file that ETUDE_MUTANTS_REACHED names.
 inline int ReadChoice() {
   if (std::getenv("ETUDE_MUTANTS_REACHED") != nullptr) {
     std::atexit(WriteReached);
@@ -44,7 +44,7 @@ inline bool On(int number) {
   return chosen == number;
 }
 
-/// Called where the mutated expression has no meaning or another type: leaves a note in the object file.
+/// Called if the mutated expression has no meaning or another type; leaves a note in the object file.
 template <int kNumber>
 inline void Impossible() {
   asm volatile(".pushsection .etude,\"\",@progbits\n.ascii \"etude: no mutant %c0;\"\n.popsection" : : "i"(kNumber));
@@ -55,8 +55,8 @@ struct Bound {
   const A& a;
 };
 
-// `a < Less<7>{} < b` is `a < b`, or for mutants 7 and 8 another comparison. Between two operators of its own kind it
-// finds the operands that the original had, whatever stands around them.
+// `a < Less<7>{} < b` is `a < b`, or another comparison for mutants 7 and 8. Between two operators of the same kind, it
+// gets the operands of the original operator, whatever the surrounding expression.
 #define ETUDE_MUTATION_OPERATOR(Name, op, other1, second, other2)                       \
   template <int kNumber>                                                                \
   struct Name {};                                                                       \
@@ -91,7 +91,8 @@ ETUDE_MUTATION_OPERATOR(Over, /, *, 0, *)
 ETUDE_MUTATION_OPERATOR(Modulo, %, *, 0, *)
 #undef ETUDE_MUTATION_OPERATOR
 
-/// `-Negation<7>{}->*b` is `-b`, or b. (An operator that binds as tightly as a sign and takes two operands.)
+/// `-Negation<7>{}->*b` is `-b`, or b for the mutant. (->* is an operator that binds as tightly as a sign and takes two
+/// operands.)
 template <int kNumber>
 struct Negation {};
 template <int kNumber, class B>
@@ -106,7 +107,7 @@ auto operator->*(Negation<kNumber>, const B& b) {
   }
 }
 
-/// b, or −b.
+/// Returns b, or −b for the mutant.
 template <int kNumber, class B>
 B Opposite(const B& b) {
   if constexpr (requires { static_cast<B>(-b); }) {
@@ -117,7 +118,7 @@ B Opposite(const B& b) {
   return b;
 }
 
-/// b, or 1 / b.
+/// Returns b, or 1 / b for the mutant.
 template <int kNumber, class B>
 B Inverse(const B& b) {
   if constexpr (std::is_floating_point_v<B>) {
@@ -128,7 +129,7 @@ B Inverse(const B& b) {
   return b;
 }
 
-/// `a && b`, or `a || b`; the second operand is only computed when it counts.
+/// Computes `a && b`, or `a || b` for the mutant; the second operand is computed only if needed.
 template <class B>
 bool And(int number, bool a, const B& b) {
   return On(number) ? a || b() : a && b();
@@ -138,7 +139,7 @@ bool Or(int number, bool a, const B& b) {
   return On(number) ? a && b() : a || b();
 }
 
-/// std::min and std::max, or the other.
+/// Computes std::min or std::max, and the other one for the mutant.
 template <int kNumber>
 struct Min {
   template <class A>

@@ -1,4 +1,5 @@
-"""The mutator itself: what it takes for code, what it makes of it, and that good tests kill and bad ones do not."""
+"""Tests the mutator itself: what it recognises as code, what it changes, and that good tests kill mutants and bad
+tests do not."""
 
 import contextlib
 import io

@@ -1,4 +1,4 @@
-"""A file with sites in it: all mutants at once."""
+"""Rewrites a file with all its mutants at once."""
 
 
 def rewrite(text, numbered):

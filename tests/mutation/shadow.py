@@ -1,9 +1,9 @@
-"""The mutated engine: a copy of the tree with the mutants of a sample in it, and its build.
+"""Makes and builds the mutated engine: a copy of the tree with the mutants of a sample.
 
-`<work>/tree` is the project with links instead of files, but engine/ is rewritten, with the mutants of a sample and no
-others: all at once take the compiler and the tests several times as long. Operators whose mutants have no meaning are found by the notes that they leave in
-object files; whatever else does not compile, by the compiler's messages: it is left out, and `<work>/dropped.json`
-remembers it by its file's content."""
+`<work>/tree` is the project with links instead of files, but engine/ is rewritten with the mutants of a sample. All
+mutants at once would take the compiler and the tests several times as long. Operators whose mutants have no meaning
+are found by the notes that they leave in object files; other mutants that do not compile are found by the compiler's
+messages. They are left out, and `<work>/dropped.json` remembers them by their file's content."""
 
 import hashlib
 import json

@@ -1,7 +1,7 @@
-"""Where a C++ file can be mutated, and how.
+"""Finds the places at which a C++ file can be mutated, and the mutations.
 
-It reads code in Google's format: a binary operator has white space on both sides, the bracket of a template and a sign
-have not. Whatever it takes for what it is not fails to compile and is dropped (build.py)."""
+It reads code in Google's format: a binary operator has white space on both sides; the bracket of a template and a sign
+have none. If it mistakes one for the other, the mutant does not compile and is dropped (build.py)."""
 
 import re
 from dataclasses import dataclass, field

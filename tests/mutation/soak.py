@@ -1,4 +1,4 @@
-"""Mutants of engine/ against the tests that mirror it: see README.md."""
+"""Runs mutants of engine/ against the tests that mirror it; see README.md."""
 
 import argparse
 import hashlib

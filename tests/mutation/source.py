@@ -1,4 +1,5 @@
-"""What of a C++ file runs, and where the operands of its loosely binding operators begin and end."""
+"""Finds the code of a C++ file that runs, and the beginning and end of the operands of its loosely binding
+operators."""
 
 from tokens import tokenize
 

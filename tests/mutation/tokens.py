@@ -1,4 +1,4 @@
-"""C++ as tokens: as much of the language as the mutator has to know."""
+"""Splits C++ into tokens, as far as the mutator needs."""
 
 import re
 from dataclasses import dataclass

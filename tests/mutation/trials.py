@@ -1,4 +1,4 @@
-"""Tests run against mutants: which tests reach which mutants, and whether one of them notices."""
+"""Runs tests against mutants: finds which tests reach which mutants, and whether one of them fails."""
 
 import contextlib
 import json

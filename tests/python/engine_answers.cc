@@ -1,5 +1,5 @@
-// What the engine answers to inputs that Python makes, too: a line each, a name and numbers in hexadecimal, to be
-// compared to the last bit (engine_test.py).
+// Prints the engine's answers to inputs that Python makes, too: one line each, a name and numbers in hexadecimal, which
+// engine_test.py compares to the last bit.
 #include <etude/coaching.h>
 #include <etude/fuzzy.h>
 #include <etude/kinematics.h>

@@ -1,4 +1,5 @@
-"""The engine's arrays of whole takes: transitions, silhouettes, sensors, the coach; and all of it beside C++, to the last bit."""
+"""Tests the engine's functions on arrays of whole takes: transitions, silhouettes, sensors, the coach. All results
+equal those of C++ to the last bit."""
 import json
 import os
 import pathlib
@@ -141,7 +142,8 @@ class BesideWorkers(unittest.TestCase):
     """What a cell's row says of its method's answer, bit by bit, is what the same problem gives through Python."""
 
     def digests(self, task, digest, method, **keys):
-        """By trial: of the cells of one method, and of what Python answers in the environment that workers are given."""
+        """By trial: of the cells of one method, and of what Python answers in the environment that workers are
+        given."""
         pinned = {**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}  # io/process/pinned_environment.cc
         etude = os.environ["ETUDE"]
         with tempfile.TemporaryDirectory() as name:

@@ -1,4 +1,4 @@
-"""The engine on arrays: against numpy's own arithmetic, against itself one by one, and against what nobody should hand it."""
+"""Tests the engine on arrays: against numpy's arithmetic, against calls one by one, and with invalid inputs."""
 import ast
 import os
 import pathlib

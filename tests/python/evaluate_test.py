@@ -1,4 +1,4 @@
-"""etude.evaluate: arrays and files, judged as the program judges files."""
+"""Tests etude.evaluate: arrays and files are judged as the program judges files."""
 import math
 import unittest
 

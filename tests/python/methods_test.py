@@ -1,4 +1,4 @@
-"""Methods in Python: the dataclasses, what is sent by its source, runs, errors, interruption, scoring."""
+"""Tests methods in Python: the dataclasses, sending by source, runs, errors, interruption, scoring."""
 import importlib.util
 import io
 import json

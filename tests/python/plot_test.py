@@ -1,4 +1,4 @@
-"""Figures have the page's values."""
+"""Tests that figures have the page's values."""
 import csv
 import importlib.util
 import json

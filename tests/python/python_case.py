@@ -1,4 +1,4 @@
-"""What the tests of the package share: the package in the path, scratch folders, and a run made once."""
+"""Parts that the tests of the package share: the package in the path, scratch folders, and a run that is made once."""
 import json
 import os
 import pathlib

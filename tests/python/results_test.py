@@ -1,4 +1,4 @@
-"""A run as the package reads it, beside the files of the run and the tables of its page."""
+"""Tests a run as the package reads it against the run's files and the tables of its page."""
 import csv
 import importlib.util
 import json

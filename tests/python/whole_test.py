@@ -1,4 +1,5 @@
-"""What takes longer: a wheel in a clean environment, columns of many cells, every task's shapes, the notebook."""
+"""Tests that take longer: a wheel in a clean environment, columns of many cells, every task's array shapes, the
+notebook."""
 import importlib.util
 import json
 import os

@@ -16,16 +16,16 @@ class C3dWriter {
  public:
   C3dWriter(int machine, bool floats) : machine_(machine), floats_(floats) {}
 
-  std::string labels = "LSHORSHO";  ///< four letters a point
+  std::string labels = "LSHORSHO";  ///< four letters per point
   std::size_t points = 2, frames = 3;
   double scale = 0.25;
   std::string unit = "mm";
   std::size_t second_labels_from = 0;  ///< points from here on are named by LABELS2; 0 = none
-  std::size_t analogue = 0;            ///< values a frame
-  std::size_t header_frames = 0;       ///< what the header tells; 0 = the truth
+  std::size_t analogue = 0;            ///< analogue values per frame
+  std::size_t header_frames = 0;       ///< number of frames in the header; 0 = the true number
   double long_frames = 0;              ///< POINT:LONG_FRAMES; 0 = none
 
-  /// Point p of frame f, in the file's unit; points of frame 1 are lost where p is odd.
+  /// Returns the position of point p in frame f, in the file's unit; in frame 1, points with odd p are lost.
   static glm::dvec3 PlaceOf(std::size_t f, std::size_t p) {
     return glm::dvec3(100.0 * static_cast<double>(p), 10.0 * static_cast<double>(f), -50.5);
   }
@@ -79,7 +79,7 @@ class C3dWriter {
     return machine_ == kMips ? std::string{high, low} : std::string{low, high};
   }
   std::string Float(double value) const {
-    // A VAX's number has its exponent two higher, and its halves the other way round.
+    // In DEC's format, the exponent is two higher, and the halves of a number are exchanged.
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(machine_ == kDec ? value * 4 : value));
     const std::size_t low = bits & 0xffff, high = bits >> 16;
     return machine_ == kIntel ? Word(low) + Word(high) : Word(high) + Word(low);

@@ -13,12 +13,12 @@
 
 namespace etude::testing {
 
-/// How many numbers a computation gave, and their sum under fixed weights in [−1, 1): golden values of a whole result
-/// in two numbers. It changes when any of the numbers does, or when one is added, left out, or stands elsewhere. It
-/// says that something changed, not what: it stands beside tests that say what is right. A failure prints the numbers
-/// to keep; who keeps others says in the commit which results changed and why. Counts and errors have a print apart
-/// from that of many or large numbers, a billionth of which would hide them. Input is drawn one number an expression:
-/// compilers differ in the order of arguments.
+/// The number of results of a computation, and their sum with fixed weights in [−1, 1): golden values of a whole result
+/// in two numbers. The fingerprint changes if a number changes, is added, removed or moved. It shows that something
+/// changed, but not what, so other tests must check that results are right. A failure prints the new numbers; whoever
+/// stores them states in the commit which results changed and why. Use separate fingerprints for counts and errors on
+/// one hand, and for many or large numbers on the other, because a billionth of the latter would hide the former. Draw
+/// inputs one number per expression, because compilers evaluate arguments in different orders.
 class Fingerprint {
  public:
   template <typename T>
@@ -31,7 +31,7 @@ class Fingerprint {
   }
   Fingerprint& Add(const glm::dvec2& v) { return Add(v.x).Add(v.y); }
   Fingerprint& Add(const glm::dvec3& v) { return Add(v.x).Add(v.y).Add(v.z); }
-  /// Of a rotation: q and −q are the same.
+  /// Adds a rotation: q and −q give the same fingerprint.
   Fingerprint& Add(const glm::dquat& q) {
     const glm::dmat3 m = glm::mat3_cast(q);
     return Add(m[0]).Add(m[1]).Add(m[2]);
@@ -41,7 +41,7 @@ class Fingerprint {
     Add(value.has_value());
     return value ? Add(*value) : *this;
   }
-  /// All elements of vectors, arrays, spans, texts and Eigen's vectors, after their number.
+  /// Adds the number of elements, then all elements, of vectors, arrays, spans, texts and Eigen's vectors.
   template <std::ranges::range Range>
   Fingerprint& Add(const Range& values) {
     Add(static_cast<std::size_t>(std::ranges::distance(values)));
@@ -51,7 +51,8 @@ class Fingerprint {
 
   double sum() const { return sum_; }
 
-  /// Whether it is as it was kept: as many numbers, and their sum to 10⁻⁹ of what they amount to.
+  /// Compares the fingerprint with stored values: the count must be equal, and the sum equal to 10⁻⁹ of the sum of
+  /// magnitudes.
   ::testing::AssertionResult Is(std::size_t count, double sum) const {
     if (count_ == count && std::isfinite(size_) && std::abs(sum_ - sum) <= 1e-9 * size_)
       return ::testing::AssertionSuccess();

@@ -6,14 +6,14 @@
 
 namespace etude {
 
-/// How far apart two poses are, metres: the distance of the joint that differs most.
+/// Returns the distance of the joint that differs most between two poses, metres.
 inline double WorstJointDistance(const BodyPose& a, const BodyPose& b) {
   double worst = 0;
   for (const Role role : AllRoles()) worst = std::max(worst, glm::distance(a[role], b[role]));
   return worst;
 }
 
-/// The same over all frames; a kilometre for motions of different lengths.
+/// Returns the largest WorstJointDistance over all frames; a kilometre for motions of different lengths.
 inline double WorstJointDistance(const BodyMotion& a, const BodyMotion& b) {
   double worst = a.poses.size() == b.poses.size() ? 0 : 1000;
   for (std::size_t f = 0; f < std::min(a.poses.size(), b.poses.size()); ++f) {

@@ -1,5 +1,5 @@
-"""Checks JSON against a JSON Schema: by the jsonschema package where it is installed, else by the part of the standard
-that the schemas of docs/schemas use. `complaints` gives one line for everything that does not fit."""
+"""Checks JSON against a JSON Schema: with the jsonschema package if it is installed, else by the part of the
+standard that the schemas of docs/schemas use. `complaints` returns one line for every violation."""
 import json
 import pathlib
 import re

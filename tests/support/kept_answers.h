@@ -19,7 +19,7 @@ inline std::string AllReplaced(std::string text, const std::string& from, const 
   return text;
 }
 
-/// Leaves out the words of libraries, which differ between their versions, and long lists of what is allowed.
+/// Removes texts of libraries, which differ between library versions, and long lists of allowed values.
 inline std::string Shortened(const std::string& answer) {
   for (const std::string begin : {"not valid YAML: ", "not valid JSON: "}) {
     const std::size_t at = answer.find(begin);
@@ -30,9 +30,9 @@ inline std::string Shortened(const std::string& answer) {
   return at == std::string::npos || answer.size() - at < 100 ? answer : answer.substr(0, at + kAllowed.size()) + "…";
 }
 
-/// Puts the lines of a text file to `answer`, and compares what it gives, Shortened, with the line after each, which
-/// begins with two blanks. "@ TEXT" surrounds the lines that follow by a text, in which they take the place of "…"; in
-/// both, "\n" ends a line. Empty lines and those that begin with '#' are comments. `ETUDE_RENEW` works as in AreKept.
+/// Calls `answer` with each line of a text file, and compares the answer (Shortened) with the following line, which
+/// begins with two blanks. "@ TEXT" surrounds the following lines by a text, in which they replace "…"; in both, "\n"
+/// is a line end. Empty lines and lines that begin with '#' are comments. `ETUDE_RENEW` works as in AreKept.
 inline ::testing::AssertionResult AnswersAreKept(const std::string& path,
                                                  const std::function<std::string(const std::string& text)>& answer) {
   std::ifstream file(path, std::ios::binary);
@@ -52,7 +52,8 @@ inline ::testing::AssertionResult AnswersAreKept(const std::string& path,
   return AreKept(lines, path);
 }
 
-/// Returns the text after an edit "FROM => TO" of its first FROM. A line without an arrow is another text.
+/// Returns the text with its first FROM replaced, for an edit "FROM => TO". A line without an arrow is a whole new
+/// text.
 inline std::string Edited(std::string text, const std::string& line) {
   const std::size_t arrow = line.find(" => ");
   if (arrow == std::string::npos) return line;

@@ -16,9 +16,9 @@
 
 namespace etude::testing {
 
-/// Compares lines, such as complaints, with those of a text file beside the test. A failure shows the first that
-/// differs. `ETUDE_RENEW=<path, or what it begins with>` writes the file anew; the test fails all the same, and `git
-/// diff` shows what changed. Who commits that says why.
+/// Compares lines, such as complaints, with those of a text file beside the test. A failure shows the first line that
+/// differs. If `ETUDE_RENEW` is the file's path or the beginning of it, writes the file anew; the test still fails, and
+/// `git diff` shows the changes. Whoever commits them states why.
 inline ::testing::AssertionResult AreKept(const std::vector<std::string>& lines, const std::string& path) {
   const char* const renewed = std::getenv("ETUDE_RENEW");
   if (renewed != nullptr && *renewed != 0 && path.starts_with(renewed)) {
@@ -38,12 +38,12 @@ inline ::testing::AssertionResult AreKept(const std::vector<std::string>& lines,
              path);
 }
 
-/// Lines that tell how readers take texts: how many of them are read, and the first complaint of each kind about the
-/// others. Complaints are of one kind when they differ in numbers and quoted words only. The words of libraries are
-/// left out, since they change from version to version.
+/// Lines that describe how readers treat texts: the number of accepted texts, and the first complaint of each kind
+/// about the others. Two complaints are of one kind if they differ only in numbers and quoted words. Texts of libraries
+/// are left out, because they change between versions.
 class ComplaintLines {
  public:
-  /// `read` takes a text and gives a Result.
+  /// Adds texts; `read` takes a text and returns a Result.
   template <typename Texts, typename Read>
   void Add(const std::string& what, const Texts& texts, const Read& read) {
     std::set<std::string> kinds;

@@ -8,8 +8,8 @@
 
 namespace etude::testing {
 
-/// A person of the default limb lengths in centimetres, standing in a T-pose with the toes on
-/// the floor, under MotionBuilder's names. Every length below can be read off this table.
+/// Returns a person with the default limb lengths in centimetres, in a T-pose with the toes on the floor, with
+/// MotionBuilder's joint names. This table shows every length.
 inline Skeleton PersonSkeleton() {
   Skeleton person;
   const auto add = [&](const std::string& name, const std::string& parent, glm::dvec3 offset) {
@@ -48,7 +48,7 @@ inline LocalTransform& At(Clip& clip, std::size_t frame, const std::string& join
 
 inline glm::dquat Turn(double radians, const glm::dvec3& axis) { return glm::angleAxis(radians, axis); }
 
-/// Both arms hang down.
+/// Lets both arms hang down.
 inline void LowerArms(Clip& clip, std::size_t frame) {
   At(clip, frame, "LeftArm").rotation = Turn(-1.5, {0, 0, 1});
   At(clip, frame, "RightArm").rotation = Turn(1.5, {0, 0, 1});

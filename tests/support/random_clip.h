@@ -10,7 +10,7 @@
 
 namespace etude::testing {
 
-/// Numbers from nowhere in particular, the same on every machine.
+/// Pseudo-random numbers, the same on every machine.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
@@ -39,10 +39,10 @@ struct RandomClipOptions {
   int roots = 1;
   bool rest_rotations = false;
   bool moving_offsets = false;
-  bool scales = false;  ///< per axis, from 0.5 to 2; at rest and in every frame
+  bool scales = false;  ///< scales joints by 0.5 to 2 per axis, at rest and in every frame
 };
 
-/// Ten joints in a random tree, lengths around 1, turned at random in each of five frames.
+/// Returns a clip of ten joints in a random tree, with lengths around 1, rotated at random in each of five frames.
 inline Clip RandomClip(std::uint64_t seed, const RandomClipOptions& options = {}) {
   constexpr int kJoints = 10, kFrames = 5;
   Dice dice(seed);
@@ -70,7 +70,8 @@ inline Clip RandomClip(std::uint64_t seed, const RandomClipOptions& options = {}
   return clip;
 }
 
-/// The farthest that any joint of `a` is from `b`'s of the same name, in any frame; huge when there is none.
+/// Returns the largest distance, over all frames, between joints of the same name in `a` and `b`; huge if a name is
+/// missing.
 inline double WorstDistance(const Clip& a, const Clip& b) {
   double worst = a.frames.size() == b.frames.size() ? 0 : 1e9;
   std::vector<GlobalTransform> of_a, of_b;
@@ -87,7 +88,7 @@ inline double WorstDistance(const Clip& a, const Clip& b) {
 
 inline bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// The clip standing at rest for one frame.
+/// Returns one frame of the clip's skeleton at rest.
 inline Clip Resting(const Clip& clip) {
   return {.name = clip.name, .skeleton = clip.skeleton, .rate_hz = clip.rate_hz, .frames = {RestPose(clip.skeleton)}};
 }

@@ -7,7 +7,7 @@
 
 namespace etude::testing {
 
-/// `text` with the first `from` replaced; fails the test when there is none.
+/// Returns `text` with the first `from` replaced; fails the test if there is none.
 inline std::string Replaced(std::string_view text, std::string_view from, std::string_view to) {
   std::string result(text);
   const std::size_t at = result.find(from);

@@ -10,20 +10,20 @@ namespace etude::testing {
 
 using namespace ::testing;  // `testing::HasSubstr` is found whether or not a file of the same unity has this header
 
-/// What a Result, or whatever else may have no value, says about that.
+/// Returns the error of a Result that has no value; "" for other types.
 template <typename T>
 std::string WhyNone(const T& result) {
   if constexpr (requires { ToString(result.error()); }) return ToString(result.error());
   return "";
 }
 
-/// The error of a Result, "place: message"; "accepted" if there is none.
+/// Returns the error of a Result, "place: message"; "accepted" if there is none.
 template <typename T>
 std::string Refusal(const Result<T>& result) {
   return result ? "accepted" : ToString(result.error());
 }
 
-/// The same without the place.
+/// Returns the error's message without the place.
 template <typename T>
 std::string Message(const Result<T>& result) {
   return result ? "accepted" : result.error().message;
@@ -31,7 +31,7 @@ std::string Message(const Result<T>& result) {
 
 }  // namespace etude::testing
 
-/// Declares a constant that must have a value, or the test ends: `ASSERT_OK(clip, ReadBvh(text, "a.bvh"));`
+/// Declares a constant from a Result. If it has no value, the test ends: `ASSERT_OK(clip, ReadBvh(text, "a.bvh"));`
 #define ASSERT_OK(name, ...)       \
   const auto name = (__VA_ARGS__); \
   ASSERT_TRUE(name) << ::etude::testing::WhyNone(name)

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Runs every method of a world, in order, and returns their cells; a world to be skipped gives skipped cells.
+/// Runs every method of a world, in order, and returns the cells; if the world must be skipped, returns skipped cells.
 inline std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods,
                                         bool keeps_motion = false) {
   const std::unique_ptr<TaskWorld> world = task.MakeWorld(key, keeps_motion);

@@ -1,4 +1,4 @@
-"""The source tree's files, in a clone and in an unpacked archive."""
+"""Lists the source tree's files, in a clone and in an unpacked archive."""
 import os
 import pathlib
 import subprocess

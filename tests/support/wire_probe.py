@@ -1,4 +1,5 @@
-"""Stands between Etude and a method: passes every line on, and ends with a complaint at the first that its schema refuses.
+"""Stands between Etude and a method: passes every line on, and ends with a complaint at the first line that its schema
+refuses.
 
     wire_probe.py TASK SEAT COMMAND…      SEAT is - for whole problems; without COMMAND it answers nothing itself
 

@@ -1,16 +1,18 @@
-"""A method that looks the truth up: `lookup.py DEN SEEDS…` brings its own copy of Etude and of the scenario in DEN.
+"""A method that looks the truth up: `lookup.py DEN SEEDS…` brings its own copy of Etude, and a copy of the scenario in
+DEN.
 
-Behind the fence it runs the scenario itself under every seed that it can think of, and compares what its own copy is asked
-(`lookup.py spy FILE`) with what it is asked; it looks for scenarios, runs and names of them in files, descriptors and /proc,
-and for what it has left itself when it answered another condition. What it finds it says on standard error, LOOKUP first.
-Of task ik it answers the truth where it has it, else the pose that the problem starts in; of tracking the truth of that
-frame of all known ones whose ends are as far from each other, whatever the body's turn, place and size.
+Inside the fence it runs the scenario itself under every likely seed, and compares the problems of its own copy
+(`lookup.py spy FILE`) with its own problems. It searches files, descriptors and /proc for scenarios, runs and their
+names, and for notes that it left when it answered another condition. It reports what it finds on standard error, in
+lines that begin with LOOKUP. In task ik it answers the truth if it has found it, else the start pose. In task tracking
+it answers the truth of the known frame whose ends have the same distances from each other, whatever the body's heading,
+position and size.
 
-`lookup.py carry MEMORY NOISE…` meets worlds of ik twice, with two strengths of noise, and works out what is without noise.
-What it was asked it remembers from start to start in the page cache: which pages of its own file MEMORY, which it can only
-read, are in memory. It also reads `notes.json` beside it, where there is one, and logs its own.
-`lookup.py tell` is a metric that tells the truth of the cell that it is asked about by locks on files of the system, which
-it may open for reading; `lookup.py listen` a method of detection that answers what the locks say.
+`lookup.py carry MEMORY NOISE…` gets worlds of ik twice, with two strengths of noise, and computes the pose without
+noise. It remembers problems between its starts in the page cache: by the pages of its own file MEMORY, which it can
+only read, that are in memory. It also reads `notes.json` beside it, if there is one, and logs its own. `lookup.py tell`
+is a metric that encodes the truth of its cell in locks on files of the system, which it may open for reading;
+`lookup.py listen` is a method of detection that answers what the locks encode.
 """
 import ctypes
 import fcntl
@@ -250,7 +252,8 @@ def is_locked(descriptor):
 
 
 def tell():
-    """Holds the first lock of a pair for an event that was right, else the second; its value is whether a method lives."""
+    """Holds the first lock of a pair for an event that was right, else the second; its value is whether a method
+    lives."""
     files = locks()
 
     def asked(message):

@@ -1,7 +1,8 @@
-"""A method that brings its own copy of Etude (lookup.py): of plain seeds it finds the worlds and answers the truth, of secret
-ones it finds nothing, in any task and seat. Of tracking it also recognises the frames of the public clip: in open worlds it
-answers their truth, in secret ones our own solver is nearer. ETUDE_LOOKUP_TASKS takes some of them. Others carry what they
-were asked from condition to condition or from run to run, or are told by a metric."""
+"""Tests a method that brings its own copy of Etude (lookup.py). With plain seeds it finds the worlds and answers the
+truth; with secret seeds it finds nothing, in any task and seat. In tracking it also recognises the frames of the
+public clip: in open worlds it answers their truth; in secret worlds our own solver is nearer to the truth.
+ETUDE_LOOKUP_TASKS selects tasks. Other methods carry problems from condition to condition or from run to run, or get
+the truth from a metric."""
 import json
 import os
 import pathlib
@@ -44,7 +45,8 @@ class Lookup(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder, True)
 
     def run_against(self, name, text, *options, den=(), is_refused=False):
-        """A run of the scenario `text`, in which DEN is a folder of an attacker with its files: rows and what it said."""
+        """A run of the scenario `text`, in which DEN is a folder of an attacker with its files: rows and what it
+        said."""
         place = self.folder / name
         (place / "den").mkdir(parents=True)
         shutil.copy(LOOKUP, place / "den")

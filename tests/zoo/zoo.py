@@ -1,8 +1,9 @@
-"""Programs that try to get out: `zoo.py SPECIMEN DEN`. Each solves what it is asked (task ik: all angles zero) and, at its
-first problem or where its name says so, does what a hostile program would do. DEN is a folder that zoo_test.py watches.
+"""Programs that try to leave the fence: `zoo.py SPECIMEN DEN`. Each answers its problems (task ik: all angles zero)
+and, at its first problem or when its name says, does what a hostile program would do. DEN is a folder that zoo_test.py
+watches.
 
-Every specimen is bounded by what it does itself, for the day on which no fence holds: few processes, each of which ends
-within seconds; few megabytes; no signal but to those whom zoo_test.py has put there to be hit.
+In case the fence fails, every specimen limits itself: it starts few processes, each of which ends within seconds; it
+takes few megabytes; and it sends signals only to processes that zoo_test.py started as targets.
 """
 import contextlib
 import ctypes
@@ -403,8 +404,8 @@ def reads_others_temporary_files(problem):
 
 
 def opens_all_for_writing(problem):
-    """Tries every path that it sees, and to make a file in every folder. Nothing is written, and no device opened: what there is of
-    those is told by the rights to them. Without a fence it looks only where that does no harm."""
+    """Tries every path that it sees, and to make a file in every folder. Nothing is written, and no device opened:
+    what there is of those is told by the rights to them. Without a fence it looks only where that does no harm."""
     allowed = re.compile(r"/(tmp|var/tmp|dev/shm)(/.*)?"
                          r"|/proc/[0-9]+/(task/[0-9]+/)?fd/[0-9]+")  # of its own processes: there are no others
     found = []
@@ -621,7 +622,8 @@ def in_children(fills, meanwhile=lambda: None):
 
 
 def splits_a_shared_mapping(problem):
-    """1.2 GB in one piece of shared memory: each of six processes maps a sixth of it, and lets go what it has written."""
+    """1.2 GB in one piece of shared memory: each of six processes maps a sixth of it, and lets go what it has
+    written."""
     LIBC.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
     LIBC.madvise.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
     part, piece = 200 << 20, 10 << 20

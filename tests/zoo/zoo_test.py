@@ -1,5 +1,6 @@
-"""Hostile programs as methods outside, each in a run of its own, with and without a fence. Watched are a process, its files
-and sockets, the folders for temporary files, the run, and who is still there when the run has ended."""
+"""Tests hostile programs as outside methods, each in a run of its own, with and without a fence. It watches a
+process, its files and sockets, the folders for temporary files, the run, and the processes that remain when the run
+has ended."""
 import ctypes
 import fcntl
 import json
@@ -76,8 +77,8 @@ class Victim:
             self.connections += 1
 
     def need(self):
-        """Takes one of everything that the kernel counts by user or by machine, again and again, and notes what it did not get for half
-        a second: whoever takes too much is ended, but not at once."""
+        """Takes one of everything that the kernel counts by user or by machine, again and again, and notes what it
+        did not get for half a second: whoever takes too much is ended, but not at once."""
         needs = {"an inotify instance": lambda: os.close(sure(self.libc.inotify_init1(0))),
                  "a pipe of full size": self.fill_pipe, "a timer": self.make_timer,
                  "a semaphore": lambda: self.libc.semctl(sure(self.libc.semget(0, 1, 0o1600)), 0, 0),
@@ -258,8 +259,8 @@ class Zoo(unittest.TestCase):
                 self.assertEqual(self.release(name)[:2], (["unsolved", "unsolved"], []))
 
     def test_who_hides_memory_can_hold_it_where_there_is_enough(self):
-        """The control: they might be harmless for another reason than the limit. The fence itself refuses descriptors and segments
-        of memory."""
+        """The control: they might be harmless for another reason than the limit. The fence itself refuses
+        descriptors and segments of memory."""
         for name, *options in (["in_files"], ["behind_descriptors", "--no-fence"]):
             with self.subTest(name):
                 self.assertIn(f"held 540 MB {name.replace('_', ' ')}",

@@ -27,8 +27,8 @@ std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetVie
   return rms;
 }
 
-/// Calibrates, then repeats the calibration without the pictures whose residual exceeds three times the median: they
-/// are blurred, or the board moved.
+/// Calibrates twice: the second time without the pictures whose residual exceeds three times the median, because they
+/// are blurred or the board moved.
 Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const CalibrateOptions& options,
                                            std::vector<TargetView>& views) {
   std::erase_if(views, [](const TargetView& view) { return !HomographyOf(view.pairs); });
@@ -57,7 +57,7 @@ Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const Cali
   }
 }
 
-/// Returns the views of one camera, as if it were the only one.
+/// Returns the views of one camera, renumbered as views of camera 0 of a rig with one camera.
 std::vector<TargetView> ViewsOf(std::size_t camera, std::span<const TargetView> views) {
   std::vector<TargetView> own;
   for (const TargetView& view : views) {
@@ -66,15 +66,15 @@ std::vector<TargetView> ViewsOf(std::size_t camera, std::span<const TargetView> 
   return own;
 }
 
-/// Finds the films' delays, reports them, and returns the views at common moments.
+/// Finds the films' delays, reports them, and returns the views matched by time.
 Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options, const BoardViews& search,
                                           const std::vector<CameraBoards>& seen) {
   const bool are_films = std::ranges::all_of(seen, [](const CameraBoards& s) { return s.period_s > 0; });
-  // Only films have clocks to compare.
+  // Only films have clocks, so folders of pictures are not synchronised.
   if (!are_films || seen.size() < 2) return search.views();
   std::vector<double> period_s;
   for (const CameraBoards& s : seen) period_s.push_back(s.period_s);
-  // Find the delay of each film by the reprojection error of all films together.
+  // Find the delay of each film by minimising the reprojection error of all films together.
   constexpr double kLooks = 2;
   const double max_delay_s = options.sync_s > 0 ? options.sync_s : kLooks * period_s.front();
   ASSIGN_OR_RETURN(const FilmDelays steps, FindFilmDelays(search.sizes(), search.sightings(), period_s, max_delay_s,
@@ -102,7 +102,8 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
   return SynchronisedViews(search.sightings(), period_s, steps.delay_s);
 }
 
-/// Prints the residual of each camera, together with the others and alone, and warns where they differ much.
+/// Prints the residual of each camera, calibrated together with the others and alone, and warns where the two differ
+/// much.
 void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::span<const PictureSize> sizes,
                    std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
   const std::vector<double> rms = ResidualsOf(rig, views);
@@ -135,11 +136,11 @@ std::string NumberAtEnd(const std::string& name) {
   return name.substr(from);
 }
 
-// A value of --beside that names no file: compare with OpenCV's calibrateCamera.
+// The value of --beside that asks for a comparison with OpenCV's calibrateCamera instead of a file.
 constexpr const char* kOpenCv = "opencv";
 
-/// Compares with OpenCV's calibration from the same corners. OpenCV calibrates one camera, so each camera is compared
-/// alone.
+/// Compares with OpenCV's calibration from the same corners. OpenCV calibrates one camera at a time, so each camera is
+/// compared alone.
 Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const PictureSize> sizes,
                                std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
   options.listener.print(
@@ -202,7 +203,7 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
 /// Draws each camera's best picture with the corners of all its pictures, coloured by error: yellow below 0.5 px,
 /// orange below 1 px, else red.
 std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> views, std::vector<CameraBoards> seen) {
-  // One panel for each camera, one below the other.
+  // Lay out one panel for each camera, one below the other.
   constexpr int kWidth = 640, kGap = 8;
   double height = kGap;
   for (const CameraBoards& s : seen) height += kWidth * static_cast<double>(s.best.height) / s.best.width + kGap;

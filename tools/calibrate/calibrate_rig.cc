@@ -93,7 +93,7 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
   RETURN_IF_ERROR(SetSize(options.size, cameras));
   Calibrated rig;
   for (const CameraPairs& of : cameras) {
-    // Calibrate by refinement with a lens, or by a linear method, which models no lens.
+    // Calibrate by refinement, with a lens; or by a linear method, without a lens.
     const auto complain = [&](const Error& error) { return Fail({file}, "camera {}: {}", of.name, error.message); };
     rig.points.push_back(of.pairs.size());
     if (options.method == "refined") {
@@ -117,7 +117,7 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
 std::string TextOf(const Calibrated& rig) {
   constexpr double kOfNinetyFive = 2;  // half width of the 95 % interval, in standard deviations
   std::string text;
-  // Reprojection error, intrinsics, lens, position, and paper B's parameters of each camera.
+  // Print each camera's reprojection error, intrinsics, lens and position, and the parameters that paper B reports.
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     const Camera& camera = rig.cameras[i].camera;
     const Intrinsics& in = camera.intrinsics;
@@ -126,7 +126,7 @@ std::string TextOf(const Calibrated& rig) {
     text += fmt::format("\n{}: reprojection error {:.3f} px RMS over {} points\n", rig.cameras[i].name, rig.rms_px[i],
                rig.points[i]);
     const auto& s = rig.deviations[i];
-    // Print half of the 95 % interval, too, where the deviations are known.
+    // Where standard deviations are known, print half the width of the 95 % interval after the value.
     const auto with = [&](double value, double deviation) {
       return s ? fmt::format("{:.2f} ± {:.2f}", value, kOfNinetyFive * deviation) : fmt::format("{:.2f}", value);
     };
@@ -151,7 +151,7 @@ std::string PaperFor(const Board& board) {
     const char* name;
     double narrow_mm, wide_mm;
   };
-  constexpr Paper kPapers[] = {{"fits on A4 or Letter", 210, 279},  // a size that fits on both papers
+  constexpr Paper kPapers[] = {{"fits on A4 or Letter", 210, 279},  // as wide as A4, as high as Letter
                                {"needs A3 paper", 297, 420},
                                {"needs A2 paper", 420, 594},
                                {"needs A1 paper", 594, 841},

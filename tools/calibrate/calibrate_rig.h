@@ -13,24 +13,25 @@
 namespace etude {
 
 struct CalibrateOptions {
-  std::vector<std::string> inputs;  ///< one file of point pairs, or a folder of pictures or a film for each camera
+  /// Either one file of point pairs, or one folder of pictures or film for each camera.
+  std::vector<std::string> inputs;
   std::string output;
   std::vector<std::string> boards = {"5x7x0.034"};  ///< COLUMNSxROWSxSQUARE[@FIRST_CODE]
   std::string method = "refined";                 ///< for point pairs: a name of CalibrationNames()
   std::string lens = "radial2";                   ///< none, radial2, radial3
   bool skew = false;
   std::string size;             ///< "1920x1080", the size of the pictures if the point pairs are CSV
-  std::string world = "floor";  ///< floor or wall: the plane in which the first board lies
+  std::string world = "floor";  ///< "floor" or "wall": the plane in which the first board lies
   /// Every n-th frame of a film is searched; 0 = every 30th, or for OpenCV's boards about 200 frames.
   int every = 0;
   double sync_s = 0;            ///< maximum delay between films of boards; 0 = two search intervals
   std::string picture;          ///< a PNG with the corners found and their errors, "" = none
-  std::string beside;           ///< another calibration of these cameras to compare with, or "opencv"; "" = none
+  std::string beside;           ///< another calibration of these cameras to be compared with, or "opencv"; "" = none
   std::string print;            ///< a PNG to write: the board itself, to be printed
   Listener listener = {};
 };
 
-/// A rig, and the numbers that are printed about it, one entry for each camera.
+/// A calibrated rig, and the numbers that are printed about it, one entry for each camera.
 struct Calibrated {
   std::vector<NamedCamera> cameras;
   std::vector<double> rms_px;
@@ -43,15 +44,16 @@ struct Calibrated {
 Result<Board> ReadCodedBoard(const std::string& text);
 RefineOptions RefineOptionsOf(const CalibrateOptions& options);
 
-/// Finds boards in folders of pictures or in films, synchronises the films, calibrates, and reports what it found.
+/// Finds boards in folders of pictures or in films, synchronises the films, calibrates the rig, and reports the
+/// findings.
 Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options);
 
 /// Calibrates a rig from point pairs or from pictures of boards, writes the rig and the optional outputs, and reports
-/// what it found. Every complaint names the file or the option.
+/// the findings. Every complaint names the file or the option.
 Result<Calibrated> CalibrateRig(const CalibrateOptions& options);
 
-/// Writes the first of `boards` to `print` as a PNG of 16 pixels per module that states its size in print, and tells
-/// which paper it fits on.
+/// Writes the first of `boards` to `print` as a PNG of 16 pixels per module that states its size in print, and reports
+/// which paper size it fits on.
 Result<void> PrintBoard(const CalibrateOptions& options);
 
 }  // namespace etude

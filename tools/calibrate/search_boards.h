@@ -18,7 +18,7 @@ struct CameraBoards {
   std::size_t most_corners = 0;
 };
 
-/// Makes the search for the board of the options: a board as OpenCV defines it, or our own.
+/// Prepares the search for the board that the options name: a board as OpenCV defines it, or a board of ours.
 Result<BoardViews> SearchFor(const CalibrateOptions& options);
 
 /// Searches the pictures of camera `camera`, a folder or a film, for boards and adds their views.

@@ -57,7 +57,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
                                        reference->rate_hz, facts.rate_hz));
     reference = AtRate(std::move(*reference), facts.rate_hz);
   }
-  // Begin the facts for programs.
+  // Begin the JSON of findings.
   Json seen = Json::array();
   for (const FilmedView& view : session.views) {
     seen.push_back({{"film", view.path.string()}, {"camera", view.camera.name}});

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// The inputs, outputs and settings of `CaptureFilms`. A file name may be empty where its comment says so.
+/// The inputs, outputs and settings of `CaptureFilms`. A file name may be "" where its comment says so.
 struct CaptureFilmsOptions {
   std::vector<std::string> films;
   std::string rig;                   ///< a calibration: a file or folder that ReadRigFile or ReadRigPair can read
@@ -23,15 +23,16 @@ struct CaptureFilmsOptions {
   bool silhouettes = false;          ///< use the person's silhouettes, alone or together with keypoints
   std::string rooms;                 ///< for silhouettes: a folder with a picture of each film's empty room, "" = none
   bool accepts_doubtful = false;     ///< for silhouettes: write the motion even if `CapturedFilms::doubt` is not empty
-  std::string masks;                 ///< for silhouettes: a folder with masks of each film, "" = the person is found here
+  /// For silhouettes: a folder with masks of each film, "" = the masks are computed from the films.
+  std::string masks;
   std::optional<int> mask_id;        ///< the value of the person's pixels; absent = any but the background's
   double stature_m = 0;              ///< for silhouettes: the person's height, metres; 0 = estimated
   std::string output;                ///< BVH, GLB, TRC or CSV, chosen by the extension
   std::string points;                ///< a TRC of the triangulated keypoints, "" = none
   std::string report;                ///< an HTML page with all findings, "" = none
   std::string film;                  ///< an MP4 of the skeleton over the films, "" = none
-  std::string reference;             ///< a TRC to compare the triangulated keypoints with, "" = none
-  std::string distances;             ///< a file for these distances, "" = none
+  std::string reference;             ///< a TRC with which the triangulated keypoints are compared, "" = none
+  std::string distances;             ///< a file for the distances from `reference`, "" = none
   std::string layout;                ///< a name of KeypointLayouts(), "" = chosen by the number of keypoints
   std::string fit = "none";          ///< letterbox, stretch, crop
   std::vector<std::string> cameras;  ///< the rig's camera for each film; empty = matched by the films' names
@@ -39,22 +40,24 @@ struct CaptureFilmsOptions {
   std::string poses = "frames";  ///< for keypoints: "frames" fits each frame alone, "bundle" fits all frames at once
   double smooth_hz = 0;
   double max_gap_s = 0.5;
-  double outlier_px = 0;  ///< 0 = from the residuals, at most 3 % of the picture's longer side
-  double sync_s = 0;      ///< maximum difference of the films' clocks, seconds; 0 = they agree
+  /// Outlier limit, pixels; 0 = computed from the residuals, at most 3 % of the picture's longer side.
+  double outlier_px = 0;
+  double sync_s = 0;         ///< maximum difference of the films' clocks, seconds; 0 = the clocks agree
   std::string command_line;  ///< the command as typed, for the page
-  std::string version;       ///< the program's, for the page
+  std::string version;       ///< version of the program, for the page
   Listener listener = {};
 };
 
 /// The outcome of a capture.
 struct CapturedFilms {
   bool is_whole = false;  ///< false if a film was stopped: the motion is written, the film is not
-  /// Why the motion is probably wrong; then nothing was written, unless doubtful motions are accepted.
+  /// The reason why the motion is probably wrong; "" if there is none. With a reason, nothing was written unless
+  /// doubtful motions are accepted.
   std::string doubt;
   JsonPtr facts;          ///< the findings for programs (docs/schemas/facts.schema.json, "capture")
 };
 
-/// Opens a rig: the file `path`, or two files that belong together, by the name of one of them or of their folder.
+/// Opens the rig in the file `path`. If a rig consists of two files, `path` names one of them or their folder.
 Result<RigFile> OpenRig(const std::string& path);
 
 /// Captures the motion of one person from films by two or more calibrated cameras, with keypoints, marks or
@@ -62,9 +65,9 @@ Result<RigFile> OpenRig(const std::string& path);
 /// complaint names the file or the option.
 Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options);
 
-/// Measures the random error of the person's keypoints, in the rig's pixels, after the corrections of `CaptureFilms`,
-/// which it reports. Uses films, rig, keypoints, cameras, fit, layout, person and `sync_s`. Fails as `CaptureFilms`
-/// does.
+/// Measures the random error of the person's keypoints, in the rig's pixels. It first applies and reports the same
+/// corrections as `CaptureFilms`. It uses the options for films, rig, keypoints, cameras, fit, layout, person and
+/// `sync_s`. Fails in the same cases as `CaptureFilms`.
 Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options);
 
 }  // namespace etude

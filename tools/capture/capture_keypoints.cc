@@ -76,7 +76,7 @@ std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedVi
   return text;
 }
 
-/// Returns as JSON what the capture found from keypoints.
+/// Returns the findings of a capture from keypoints as JSON.
 Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views,
              const std::vector<std::string>& told) {
   Json cameras = Json::array(), fit = Json::array();
@@ -118,7 +118,7 @@ std::string FitText(const RecoveredPerson& person) {
   return text;
 }
 
-/// Tracks the person with the silhouettes, too.
+/// Tracks the person again with silhouettes added to the keypoints.
 Result<UnmarkedMotion> WithOutlines(const RecoveredPerson& person, std::size_t chosen, const ReducedTake& take,
                                     const CaptureFilmsOptions& options) {
   return RecoverByOutlines(take, options, person.motion.rate_hz,
@@ -151,18 +151,18 @@ Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& refe
   return columns;
 }
 
-/// Returns true if a reference has an estimator's landmarks; otherwise it has joints.
+/// Returns true if the markers of a reference are an estimator's landmarks; false if they are joints.
 bool HasLandmarks(const MarkerMotion& reference) {
   return std::ranges::any_of(reference.names, [](const std::string& name) { return FindLandmark(name).has_value(); });
 }
 
-/// Returns what a reference is compared with: the triangulated keypoints, or the skeleton's joints.
+/// Returns the motion that is compared with a reference: the triangulated keypoints, or the skeleton's joints.
 MarkerMotion ComparedOf(const RecoveredPerson& person, const MarkerMotion& reference, double rate_hz) {
   return HasLandmarks(reference) ? ToMarkers(person.landmarks, rate_hz) : JointMarkers(person.motion);
 }
 
 /// Compares the person with a reference, for all cameras and for each pair alone. For a pair, the person is recovered
-/// again from the keypoints of these two films.
+/// again from the keypoints of the pair's films.
 std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, const RecoveredPerson& person,
                                                  const SeenFilms& films, const RecoverPersonOptions& options) {
   const auto column = [&](std::string heading, const RecoveredPerson& of) {
@@ -196,7 +196,7 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
     overlays.push_back(
         {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
     for (auto seen : person.people[chosen].seen[i]) {
-      // Keypoints of matched persons have no lens distortion; put it back before drawing.
+      // Keypoints of matched persons have no lens distortion; add the distortion before drawing.
       for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
         const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
         keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
@@ -241,8 +241,8 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
-  // Move the rig and the points into the world: metres, Y up, the floor as the options say.
-  for (const FilmedView& view : views) {  // their cameras hold the recovery's repairs
+  // Move the rig and the points into the world: metres, Y up, with the floor that the options define.
+  for (const FilmedView& view : views) {  // these cameras hold the repairs that the recovery made
     const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
     if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
   }
@@ -274,7 +274,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
   options.listener.print(ReportText(person, views) + FitText(person));
   facts["keypoints"] = FactsOf(person, views, films.told.lines);
-  // Refine the motion with silhouettes, if asked.
+  // If the options require silhouettes, refine the motion with them.
   ReducedTake take;
   std::optional<UnmarkedMotion> both;
   if (options.silhouettes) {
@@ -297,7 +297,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));
     TellWritten(options.listener, options.points);
   }
-  // Compare with the reference, if there is one.
+  // If there is a reference, compare with it.
   if (reference) {
     const std::string what =
         fmt::format("Distance of the {} to {}, median, mm.",

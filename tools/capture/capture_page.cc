@@ -37,7 +37,7 @@ std::string PathOf(const TakeCurve& curve, const Axis& across, const Axis& up, d
   return path;
 }
 
-/// Returns a figure with curves over time and a legend.
+/// Returns a figure that shows curves over time, with a legend.
 std::string CurvesHtml(const std::vector<TakeCurve>& curves, double rate_hz, std::string_view caption) {
   std::vector<double> all;
   std::size_t frames = 1;
@@ -61,7 +61,7 @@ std::string CurvesHtml(const std::vector<TakeCurve>& curves, double rate_hz, std
       EscapeMarkup(caption), svg, legend);
 }
 
-/// Writes a table of which all columns but the first hold numbers.
+/// Writes a table in which all columns but the first hold numbers.
 std::string NumbersHtml(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows) {
   Table table{.label = heads.front()};
   for (const std::string& head : heads) table.columns.push_back({.head = head, .is_number = !table.columns.empty()});
@@ -99,7 +99,8 @@ std::string ToldHtml(const CapturePage& page) {
 }
 
 std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
-  // One table row for each camera: number of frames, median, 95th percentile, and the share of rejected keypoints.
+  // Write one table row for each camera: number of frames, median, 95th percentile, and the share of rejected
+  // keypoints.
   std::vector<TakeCurve> curves;
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> heads = {"Camera", "Frames", "Median, " + residuals.unit, "95 %, " + residuals.unit};

@@ -16,43 +16,44 @@ struct TakeCurve {
   std::vector<std::optional<double>> values;
 };
 
-/// Returns the values of the frames that have one.
+/// Returns the values of all frames that have a value.
 std::vector<double> KnownOf(const std::vector<std::optional<double>>& values);
 
 /// One camera of a captured take.
 struct CapturedCamera {
   std::string name;
-  TakeCurve residual;              ///< the measure of `CameraResiduals`, frame by frame
-  std::optional<double> left_out;  ///< share of keypoints that disagreed with the other cameras'; absent if there
-                                   ///< are no keypoints
+  TakeCurve residual;  ///< the measure of `CameraResiduals`, frame by frame, in its unit
+  /// Share of the camera's keypoints that disagreed with other cameras; absent if there are no keypoints.
+  std::optional<double> left_out;
 };
 
-/// The differences between what each camera shows and the recovered motion, by one measure.
+/// The differences between each camera's picture and the recovered motion, by one measure.
 struct CameraResiduals {
   std::string caption;  ///< the caption of the curves
   std::string unit;     ///< the unit of the curves
   std::vector<CapturedCamera> cameras;
 };
 
-/// The findings of `etude capture`, in the form of a page.
+/// The content of the page of `etude capture`.
 struct CapturePage {
   std::string title;
   std::string verdict;  ///< one or two sentences
   double rate_hz = 30;
   std::string mp4;                         ///< the bytes of the overlay film; "" if it is too large for a page
-  std::string film;                        ///< the path to which it is written, "" = nowhere
+  std::string film;                        ///< the path of the overlay film, "" = none is written
   Picture still;                           ///< the middle frame
   std::vector<std::string> told;           ///< findings, repairs and doubts, one line each
-  std::vector<CameraResiduals> residuals;  ///< for keypoints, for silhouettes, or for both
+  std::vector<CameraResiduals> residuals;  ///< one entry for keypoints, one for silhouettes, or both
   std::vector<TakeCurve> feet_cm;          ///< heights above the floor, cm
   std::string limbs;                       ///< a sentence that says where the limb lengths come from
-  std::vector<std::pair<std::string, double>> lengths_cm;          ///< limb lengths
-  std::vector<std::pair<std::string, std::array<double, 2>>> fit;  ///< for joints: median and 95th percentile, mm; may
-                                                                   ///< be empty
+  std::vector<std::pair<std::string, double>> lengths_cm;  ///< limb lengths
+  /// For each joint: median and 95th percentile of its distance from the point to which it was fitted, mm; may be
+  /// empty.
+  std::vector<std::pair<std::string, std::array<double, 2>>> fit;
   std::string version, command;
 };
 
-/// Writes one HTML page that needs no other file and may not use the network, in the style of a run's page.
+/// Writes one HTML page in the style of a run's page. It needs no other file, and may not use the network.
 std::string WriteCapturePage(const CapturePage& page);
 
 }  // namespace etude

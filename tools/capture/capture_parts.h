@@ -30,31 +30,31 @@ struct FilmedView {
   FilmFacts facts;
   NamedCamera camera;
   PixelFit fit;           ///< maps the rig's pixels to the film's
-  bool is_sized = false;  ///< the keypoint file states the size of the film's pictures
+  bool is_sized = false;  ///< true if the keypoint file states the size of the film's pictures
 };
 
 /// The films of a session and the rig that took them, in the rig file's coordinates.
 struct FilmedSession {
   std::vector<FilmedView> views;
   RigFile rig;
-  std::vector<std::string> told;  ///< findings about the rig and the films
+  std::vector<std::string> told;  ///< messages about the rig and the films
 };
 
-/// Opens the films and assigns a camera of the rig to each. Fails for fewer than two films, for cameras that are
-/// missing or named twice, for picture sizes that `--fit` does not explain, and, without `--sync`, for films of
-/// different lengths.
+/// Opens the films and assigns a camera of the rig to each. Fails if there are fewer than two films, if a camera is
+/// missing or named twice, if `--fit` does not explain the size of the pictures, and, without `--sync`, if the films
+/// have different lengths.
 Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options);
 
 /// The cameras and the keypoints from which a person is recovered.
 struct SeenFilms {
-  std::vector<ProjectionMatrix> cameras;  ///< without lens distortion, as are the keypoints
+  std::vector<ProjectionMatrix> cameras;  ///< without lens distortion, because the keypoints have none
   std::vector<SeenPeople> people;         ///< at the times of the first film's frames
   std::vector<FilmClock> clocks;          ///< the clock of each film
   MessageLog told;
 };
 
-/// Reads the keypoints or marks of all films, finds how they map to the rig's pictures and to a common time, and
-/// reports it. `session` gets the rotation of each film's pictures and the camera that really took each film.
+/// Reads the keypoints or marks of all films, maps them to the rig's pictures and to a common time, and reports how.
+/// Sets in `session` the rotation of each film's pictures and the camera that really took each film.
 Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPersonOptions& recover,
                            FilmedSession& session);
 
@@ -70,9 +70,9 @@ std::vector<std::pair<std::string, double>> ShownLengths(const LimbLengths& leng
 /// command.
 CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& motion, const LimbLengths& lengths,
                       const std::vector<std::string>& told);
-/// Returns a phrase that counts the doubtful lines among `told`.
+/// Returns a phrase with the number of doubtful lines in `told`.
 std::string DoubtsOf(const std::vector<std::string>& told);
-/// Puts the overlay film into the page and writes the page. Returns false if it was interrupted.
+/// Puts the overlay film into the page and writes the page. Returns false if Ctrl-C interrupted the film.
 Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
 /// Measures the difference between body and silhouette in each camera, per cent.
@@ -87,15 +87,16 @@ Result<bool> WriteReport(const CaptureFilmsOptions& options, const std::vector<F
                          const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
                          const UnmarkedMotion* both);
 
-/// Returns the films with the keypoints to draw over them.
+/// Returns the films with the keypoints that the overlay film draws.
 std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
                                     std::size_t chosen, const std::vector<FilmClock>& clocks);
 
-/// Writes the film of `--film`. Returns false if it was interrupted.
+/// Writes the film of `--film`. Returns false if Ctrl-C interrupted the film.
 Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
 
-/// Writes a clip, or the same motion as twenty joints, to `options.output` in the format that its extension names.
+/// Writes a motion to `options.output` in the format that its extension names: `clip` if the format holds a skeleton,
+/// else `motion`, the same motion as twenty joints.
 Result<void> WriteMotion(const CaptureFilmsOptions& options, Clip clip, const BodyMotion& motion);
 
 constexpr char kLost = '!';
@@ -108,37 +109,38 @@ struct ComparedColumn {
 };
 ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, const MarkerMotion& reference);
 
-/// Synchronises a reference with a motion if their rates differ but were taken as equal. It measures the drift between
-/// both, reports it, and undoes it if that halves the share of large distances. It also reports different lengths.
+/// Synchronises a reference with a motion whose frames were matched by number. If the frame rates differ, it measures
+/// and reports the drift between both, and removes it if that halves the share of large distances. It also reports
+/// different lengths.
 MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference, MessageLog& told);
 
-/// Prints the medians (one row for each marker of the first column and one for all) and the 95th percentiles, under the
-/// heading `words`, and writes the file of `--distances` if its name is not empty.
+/// Prints a table under the heading `words`: the medians (one row for each marker of the first column, and one row for
+/// all markers) and the 95th percentiles. Writes the file of `--distances` if its name is not "".
 Result<void> TellColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
                          const std::vector<FilmedView>& views, const CaptureFilmsOptions& options);
 
-/// Two of the films and the heading of their column.
+/// A pair of films and the heading of its column.
 struct CameraPair {
   std::size_t first = 0, second = 0;
   std::string heading;
 };
-/// Returns all pairs of films; empty for two films, because the only pair is all of them.
+/// Returns all pairs of films; empty for two films, because their only pair is the whole take.
 std::vector<CameraPair> PairsOf(std::size_t films);
 
 /// The pictures of all films, reduced in size and without lens distortion, at the times of the first film's frames.
 struct ReducedTake {
   std::vector<Camera> cameras;
-  std::vector<double> reductions;  ///< pixels of a reduced picture per pixel of the rig's camera
+  std::vector<double> reductions;  ///< for each film: pixels of its reduced picture per pixel of the rig's camera
   std::vector<std::vector<ColourImage>> pictures;
   std::vector<ColourImage> rooms;
-  std::vector<std::vector<Mask>> masks;  ///< if they are given, instead of `pictures`
+  std::vector<std::vector<Mask>> masks;  ///< used instead of `pictures` if not empty
 };
 Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                              const std::vector<FilmClock>& clocks, MessageLog& told);
 ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair);
 
-/// Findings from keypoints that support silhouettes: the person's keypoints, by the take's cameras, and the limb
-/// lengths. Both may be absent.
+/// Findings from keypoints that support silhouettes: the person's keypoints, in the take's cameras, and the limb
+/// lengths. Either may be absent.
 struct KeypointSupport {
   const MatchedPerson* person = nullptr;
   std::optional<LimbLengths> lengths = {};
@@ -146,12 +148,12 @@ struct KeypointSupport {
 Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureFilmsOptions& options, double rate_hz,
                                          const KeypointSupport& beside = {});
 
-/// Returns the joints of a reference, by their own names or computed from an estimator's landmarks. Joints that
-/// landmarks give only by rules of thumb are left out.
+/// Returns the joints of a reference, which has them by name or from which they are computed as an estimator's
+/// landmarks. Joints that landmarks determine only by rules of thumb are left out.
 MarkerMotion JointsOfReference(const MarkerMotion& reference);
 
-/// `CaptureKeypoints` captures from keypoints or marks. `CaptureUnmarked` captures from silhouettes alone, of the only
-/// person who moves in the films. With `options.silhouettes`, keypoints support the silhouettes. Both compare with
+/// `CaptureKeypoints` captures from keypoints or marks. `CaptureUnmarked` captures the only moving person of the films
+/// from silhouettes alone. With `options.silhouettes`, keypoints support the silhouettes. Both compare with
 /// `reference`, if there is one, and add their findings to `facts`. They return false if they were interrupted. If a
 /// motion from silhouettes alone is probably wrong, `facts["doubt"]` says why, and it is written only if the options
 /// accept doubtful motions.

@@ -63,7 +63,7 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
                    const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
                    const UnmarkedMotion* both) {
   constexpr double kPercent = 100;
-  // The verdict: points found, residuals, and doubts.
+  // Write the verdict: points found, residuals, and doubts.
   CapturePage page = BeginPage(options, person.motion, person.body.lengths, films.told.lines);
   page.verdict = fmt::format(
       "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the median",
@@ -75,7 +75,7 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
     page.verdict += fmt::format("; body and outlines differ by {:.0f} %", MedianOf(page.residuals.back()));
   }
   page.verdict += fmt::format("; {}.", DoubtsOf(films.told.lines));
-  // The limb lengths and the fit of the skeleton.
+  // Write the limb lengths and the fit of the skeleton.
   page.limbs = options.poses == "bundle" && options.smooth_hz == 0
                    ? "The lengths of the limbs are those that fit all keypoints best."
                    : "The lengths of the limbs are the medians of those seen.";

@@ -24,7 +24,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   const FilmOfKeypoints of{view.facts.width, view.facts.height, static_cast<std::size_t>(view.facts.frames)};
   ASSIGN_OR_RETURN(PeopleOfFilm film, is_marks ? ReadMarkedPictures(entry) : ReadKeypoints(entry, options.layout, of));
   if (!film.told.empty()) options.listener.print(fmt::format("{}: {}\n", entry.filename().string(), film.told));
-  // The file must match the film: number of frames, and picture size up to a quarter turn.
+  // Check that the file has the film's number of frames and, up to a rotation by 90°, its picture size.
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
     return Fail({entry.string()}, "{} frames, the film {} {}", film.frames.size(), view.path.string(),
                 view.facts.frames);
@@ -38,7 +38,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   return std::move(film.frames);
 }
 
-/// Maps all keypoints to the rig's pictures and reports what was done.
+/// Maps all keypoints to the rig's pictures, and reports how.
 void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<SeenPeople>& people,
                double min_confidence, MessageLog& told_lines) {
   std::vector<PictureOfFilm> films;
@@ -71,7 +71,7 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
         for (Keypoint& keypoint : person.keypoints) keypoint.pixel = guess.fit.ToRig(keypoint.pixel);
       }
     }
-    // Keypoints of pictures that were not scaled to the rig do not show how the film itself was scaled.
+    // Keypoints from pictures that were scaled otherwise than the film do not show how the film itself was scaled.
     const bool is_films_own = guess.fit.scale == view.fit.scale && guess.fit.shift == view.fit.shift;
     if (is_films_own) view.fit = guess.fit;
   }
@@ -121,7 +121,7 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
   }
 }
 
-/// Reports films that seem delayed if the keypoints are too noisy to correct the delay.
+/// Reports films that seem delayed although the keypoints are too noisy to correct the delay.
 void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int max_frames,
                  SeenFilms& films) {
   const SyncOptions clocks{.max_frames = max_frames, .max_px = recover.triangulate.robust.outlier_px};
@@ -135,8 +135,8 @@ void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptio
   }
 }
 
-/// Reports the drift that a film's keypoints show, if its rate was assumed to equal the first film's although the files
-/// state different rates.
+/// Reports the drift that a film's keypoints show, if its rate was assumed to equal the first film's rate although the
+/// two files state different rates.
 void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const FilmClock& taken, const FilmClock& nearest,
                std::size_t frames, SeenFilms& films) {
   const double rate = views.front().facts.rate_hz, own = views[film].facts.rate_hz;
@@ -148,7 +148,7 @@ void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const Fil
                   views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));
 }
 
-/// Corrects clocks that the keypoints contradict.
+/// Corrects clocks that contradict the keypoints.
 void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, bool is_set,
                 SeenFilms& films) {
   const double rate = recover.rate_hz;
@@ -240,7 +240,7 @@ constexpr Named<Mend::Kind> kMends[] = {
 
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
                MessageLog& told) {
-  // Films in which nobody matches the person.
+  // Report films in which nobody matches the person.
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto is_seen = [](const auto& seen) { return seen.has_value(); };
     if (std::ranges::any_of(person.people[chosen].seen[i], is_seen)) continue;
@@ -249,12 +249,12 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
                     "camera in the rig. It was left out",
                     views[i].camera.name));
   }
-  // Repairs: exchanged sides and exchanged people.
+  // Report repairs: exchanged sides and exchanged people.
   for (const Mend& mend : person.mends) {
     told.Tell(fmt::format("corrected: {}: {}, frames {}", views[mend.camera].camera.name,
                           NameOfValue(kMends, mend.kind), FramesText(mend.frames)));
   }
-  // Cameras that disagree with the others, and large triangulation errors.
+  // Report cameras that disagree with the others, and large triangulation errors.
   constexpr double kDoubtful = 0.1;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (person.report.rejected[i] <= kDoubtful) continue;

@@ -72,7 +72,7 @@ std::vector<Picture> NearestInTime(std::vector<Picture> film, const FilmClock& c
 
 Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                              const std::vector<FilmClock>& clocks, MessageLog& told) {
-  // All pictures are held in memory.
+  // Refuse films with more pictures than fit into memory.
   std::size_t pictures = 0;
   for (const FilmedView& view : views) pictures += view.facts.frames;
   if (pictures > kMaxPictures) {
@@ -81,7 +81,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
                 views.size(), pictures, kMaxPictures, kMaxPictures / views.size());
   }
   ReducedTake take;
-  // Read each film's masks, or its pictures and the empty room, at the times of the first film's frames.
+  // Read each film's masks, or its pictures and the picture of the empty room, at the times of the first film's frames.
   for (const FilmedView& view : views) {
     take.cameras.push_back(ReducedCamera(view.camera.camera, UnmarkedTake::kPictureSide));
     take.reductions.push_back(take.cameras.back().intrinsics.fx / view.camera.camera.intrinsics.fx);
@@ -193,8 +193,9 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
 
 constexpr double kPercent = 100;
 
-/// Reports the findings and the doubts, one line each. Returns why the motion is probably wrong, or "". It is if, in
-/// most frames of a camera, body and outline overlap by less than half, or if most frames repeat the last pose.
+/// Reports the findings and the doubts, one line each. Returns the reason why the motion is probably wrong: body and
+/// outline overlap by less than half in most frames of a camera, or most frames repeat the last pose. Returns "" if
+/// neither is the case.
 std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                          const UnmarkedMotion& person, MessageLog& told) {
   // Report the stature and the frames without a pose of their own.

@@ -50,7 +50,7 @@ Result<NamedCamera> CameraOfFilm(const CaptureFilmsOptions& options, const std::
               NamesOf(rig));
 }
 
-/// The files of a rig: one file, or two that belong together, in one folder.
+/// The files of a rig: one file, or two files of one folder that belong together.
 struct RigPaths {
   fs::path first, second;
 };
@@ -76,13 +76,13 @@ Result<RigPaths> RigPathsOf(const fs::path& path) {
   return RigPaths{path, {}};
 }
 
-/// Estimates the picture size of a camera for which the rig file gives none. Candidates are the film's size, the same
-/// turned by 90°, and scaled versions; the one whose middle is nearest to the principal point wins. Intrinsics of a
-/// scaled size are converted to the film's scale.
+/// Estimates the picture size of a camera for which the rig file gives none. Candidates are the film's size, the film's
+/// size turned by 90°, and scaled versions of both. The best candidate is the one whose middle is nearest to the
+/// principal point. Intrinsics of a scaled size are converted to the film's scale.
 void FindSize(FilmedView& view, std::vector<std::string>& told) {
   Intrinsics& in = view.camera.camera.intrinsics;
   const glm::dvec2 film(view.facts.width, view.facts.height), middle(in.cx, in.cy);
-  // The deviation of the principal point from the middle, as the logarithm of a ratio.
+  // Returns the deviation of the principal point from the middle, as the logarithm of a ratio.
   const auto off = [&](const glm::dvec2& size) {
     return std::max(std::abs(std::log(2 * middle.x / size.x)), std::abs(std::log(2 * middle.y / size.y)));
   };
@@ -98,7 +98,7 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
       }
     }
   }
-  // Report a size that is not the film's.
+  // Report a size that differs from the film's size.
   if (best != film) {
     told.push_back(
         fmt::format("{}: the rig states no size, but a principal point at ({:.0f}, {:.0f}); it is taken to be for "
@@ -110,8 +110,8 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   in.height = static_cast<int>(std::lround(best.y / scale));
 }
 
-/// Checks that the films cover the same time: equal numbers of frames at equal rates, equal durations at different
-/// rates.
+/// Checks that the films cover the same time: at equal rates, they must have equally many frames; at different rates,
+/// equal durations.
 Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time) {
   const FilmedView& first = views.front();
   for (const FilmedView& view : views) {
@@ -154,7 +154,7 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
     case MotionFormat::kNpz:
       return WriteBodyNpz(motion, StandingPose());
     case MotionFormat::kBids:
-      break;  // a folder, which no file name stands for
+      break;  // the path is a folder, so no file name can stand for a pair
     case MotionFormat::kMot:
       return WriteOpenSimMotion(motion, Retarget({.poses = {StandingPose()}}, motion.poses.front()).poses.front(),
                                 name);
@@ -201,7 +201,7 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
     if (in.width == 0) FindSize(view, told);
     const bool is_turned = options.fit == "none" && in.width != in.height && in.width == view.facts.height &&
                            in.height == view.facts.width;
-    if (is_turned) {  // the keypoints decide the direction later
+    if (is_turned) {  // the keypoints decide later in which direction the film is turned
       view.fit = {.quarter_turns = 1, .size = {in.width, in.height}};
       views.push_back(std::move(view));
       continue;
@@ -236,7 +236,7 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
   }
   const double own_rate = reference.rate_hz;
   constexpr double kWritten = 1e-5;  // the file says 29.97 for 30000/1001
-  // Different rates: measure the drift, and undo it if that halves the share of large distances.
+  // If the rates differ, measure the drift, and undo it if that halves the share of large distances.
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;

@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxNumber = 16;  // if all greys are at most this, they are numbers, not shades
+constexpr int kMaxNumber = 16;  // if no grey exceeds this, greys are region numbers, not shades
 
-/// Shows the masks of a film to `visit`, one after the other. `visit` gets the file's name for complaints.
+/// Calls `visit` with each mask of a film in order, and with the file's name for complaints.
 using MaskVisit = std::function<Result<void>(const MaskPicture& mask, const std::string& file)>;
 
 Result<void> VisitFolder(const fs::path& folder, const MaskVisit& visit) {
@@ -31,7 +31,7 @@ Result<void> VisitFolder(const fs::path& folder, const MaskVisit& visit) {
     if (entry.path().extension() == ".png" || entry.path().extension() == ".PNG") files.push_back(entry.path());
   }
   if (error) return Fail({folder.string()}, "{}", error.message());
-  // Shorter names first, so that 9.png comes before 10.png.
+  // Sort shorter names first, so that 9.png comes before 10.png.
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
     const std::string one = a.filename().string(), other = b.filename().string();
     return std::pair(one.size(), one) < std::pair(other.size(), other);
@@ -56,7 +56,7 @@ Result<void> VisitFilm(const fs::path& path, const MaskVisit& visit) {
   }
 }
 
-/// Returns the mask in which a pixel is set if at least half of its patch of the film shows the person.
+/// Returns a reduced mask: a pixel is set if at least half of its patch of the film shows the person.
 template <typename IsPerson>
 Mask Reduced(const Image<std::uint8_t>& values, const Image<FilmPatch>& patches, const IsPerson& is_person) {
   Mask mask(patches.width, patches.height);
@@ -74,7 +74,7 @@ Mask Reduced(const Image<std::uint8_t>& values, const Image<FilmPatch>& patches,
 
 bool IsEmpty(const Mask& mask) { return std::ranges::find(mask.pixels, 1) == mask.pixels.end(); }
 
-/// Returns true if the person takes more than half of the picture.
+/// Returns true if the person covers more than half of the picture.
 bool CoversMost(const Mask& mask) {
   return 2 * std::ranges::count(mask.pixels, 1) > static_cast<std::ptrdiff_t>(mask.pixels.size());
 }
@@ -97,7 +97,8 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
   const Image<FilmPatch> patches = PatchesOf(view.facts, view.camera.camera, view.fit, UnmarkedTake::kPictureSide);
   const auto frames = static_cast<std::size_t>(view.facts.frames);
-  // Values are shades (the person from 128 on) or numbers. Keep both readings until all values are known.
+  // Values are shades (128 and above is the person) or region numbers. Keep both interpretations until all values are
+  // known.
   std::vector<Mask> shades, numbers;
   std::array<bool, 256> found{};
   bool is_indexed = false;
@@ -121,7 +122,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
     return Fail({entry.string()}, "{} masks, but the film {} has {} frames; allowed: a mask for each frame (PNG)",
                 numbers.size(), view.path.string(), frames);
   }
-  // Choose the reading.
+  // Choose the interpretation.
   std::vector<std::string> ids;
   int largest = 0;
   for (int value = 1; value < 256; ++value) {
@@ -141,7 +142,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
                 : id        ? fmt::format("there is no --mask-id {}, but {}", *id, Join(ids))
                             : fmt::format("the largest value is {}; allowed: 1, 255, shades from 128 on", largest));
   }
-  // Report what looks wrong.
+  // Report suspicious masks.
   if (empty > 0) {
     told.Tell(fmt::format("masks of {}: {} of {} are empty", view.camera.name, empty, masks.size()));
   }

@@ -21,7 +21,7 @@ Paint PaintOf(Role role) {
   return name.starts_with("left_") ? kLeftLimb : name.starts_with("right_") ? kRightLimb : kMiddleLimb;
 }
 
-/// Places the films side by side.
+/// Computes the boxes of the films, side by side, and the size of the whole picture.
 std::vector<Box> Layout(std::span<const OverlayView> views, int& width, int& height) {
   double sum = 0;
   for (const OverlayView& view : views) sum += static_cast<double>(view.facts.width) / view.facts.height;
@@ -63,7 +63,7 @@ class ViewPainter {
   glm::dvec2 OnCanvas(const glm::dvec2& film) const {
     return {box_.x + film.x * box_.width / view_.facts.width, box_.y + film.y * box_.height / view_.facts.height};
   }
-  /// Returns the pixel of a point; nullopt outside the film.
+  /// Returns the pixel at which the camera shows a point; nullopt if it lies outside the film.
   std::optional<glm::dvec2> PixelOf(const glm::dvec3& place) const {
     const auto rig = Project(view_.camera, place);
     if (!rig || !IsInside(view_.fit.ToFilm(*rig))) return std::nullopt;
@@ -82,7 +82,7 @@ class FilmReader {
     return FilmReader(view, std::move(decoder));
   }
 
-  /// Returns the picture nearest to that frame of the motion. Frames must be asked for in ascending order.
+  /// Returns the film's picture that is nearest in time to a frame of the motion. Call it with ascending frames.
   Result<const ColourImage*> At(std::size_t frame) {
     const long wanted = std::clamp(std::lround((static_cast<double>(frame) - view_->offset) / (1 + view_->drift)), 0l,
                                    static_cast<long>(view_->facts.frames) - 1);
@@ -102,7 +102,7 @@ class FilmReader {
   long shown_ = -1;
 };
 
-/// Reads all films in parallel and writes their pictures one after the other into one buffer.
+/// Reads all films in parallel, and writes their pictures into one buffer, one after the other.
 class FilmReaders {
  public:
   static Result<FilmReaders> Start(std::span<const OverlayView> views) {
@@ -116,7 +116,7 @@ class FilmReaders {
   }
 
   std::size_t bytes() const { return bytes_; }
-  /// Writes the pictures for a frame of the motion. Frames must be asked for in ascending order.
+  /// Writes the films' pictures for a frame of the motion. Call it with ascending frames.
   Result<void> Write(std::size_t frame, std::span<std::uint8_t> into) {
     for (FilmReader& reader : readers_) {
       ASSIGN_OR_RETURN(const ColourImage* picture, reader.At(frame));
@@ -126,7 +126,7 @@ class FilmReaders {
     }
     return {};
   }
-  /// Reads the first picture from `from` and advances `from` behind it.
+  /// Takes the first picture of the buffer `from`, and moves `from` to the next picture.
   static ColourImage TakePicture(const OverlayView& view, std::span<const std::uint8_t>& from) {
     ColourImage picture(view.facts.width, view.facts.height);
     std::memcpy(picture.pixels.data(), from.data(), BytesOf(view));

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Returns true for the clips with which a coach corrects (paper A, section 3.3): shaking the head, waving, a slow
+/// Returns true for the clips by which a coach corrects (paper A, section 3.3): shaking the head, waving, a slow
 /// demonstration, and the puzzled act.
 bool IsCorrective(const std::string& source) {
   const std::string slow = "builtin:" + std::string(kSlowDemonstrationPrefix);
@@ -22,7 +22,8 @@ bool IsCorrective(const std::string& source) {
   return is_act || source.starts_with(slow);
 }
 
-/// The largest library: 288 hours in clips of ten seconds. A limit is needed only against patterns that match a disk.
+/// The maximum number of clips: 288 hours in clips of ten seconds. The limit only guards against patterns that match a
+/// whole disk.
 constexpr std::size_t kMaxLibraryClips = 100'000;
 
 /// Expands references into clips, each once, in the order of their first mention.
@@ -34,12 +35,12 @@ Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& 
   return all;
 }
 
-/// Returns true if a reference names the clip; a glTF file's reference names all its animations.
+/// Returns true if `reference` names the clip `source`; a reference to a glTF file names all its animations.
 bool Names(const std::string& reference, const std::string& source) {
   return source == reference || source.starts_with(reference + "#");
 }
 
-/// Replaces names that several clips have by the clips' sources, in which their folders differ.
+/// If several clips have the same name, replaces their names by their sources, which differ in the folder.
 void MakeUnique(std::vector<std::string>& names, const std::vector<std::string>& sources) {
   std::map<std::string, int> counts;
   for (const std::string& name : names) ++counts[name];
@@ -57,7 +58,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
   std::vector<std::string> named = options.clips;
   named.insert(named.end(), wanted.begin(), wanted.end());
   ASSIGN_OR_RETURN(const auto references, ListReferences(named));
-  // Read the clips one by one, and keep their motions only.
+  // Read the clips one by one, and keep only their motions.
   TaggedLibrary& library = loaded.library;
   std::vector<BodyMotion> motions;
   std::size_t done = 0;
@@ -76,7 +77,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
   }
   if (options.on_progress) options.on_progress(done, references.size());
   MakeUnique(library.names, loaded.sources);
-  // Tag all clips on one body, and build the in-betweens.
+  // Retarget all clips to one body, tag them, and build the in-betweens.
   loaded.tag_rules.memberships = loaded.system.memberships;
   loaded.tag_rules.weights = loaded.system.weights;
   loaded.tag_rules.min_clips = options.min_clips;

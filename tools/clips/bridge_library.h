@@ -23,7 +23,7 @@ struct BridgeLibraryOptions {
   double threshold = 0.4;          ///< frames match if their fuzzy distance is smaller
   int min_clips = 2;               ///< minimum number of clips in which the tags of a bridge frame must occur
   int most_per_class = 0;          ///< maximum number of bridge frames per clip and pose; 0 = all
-  bool within_class = false;       ///< compares only frames with the same ten tags
+  bool within_class = false;       ///< compare only frames with the same ten tags
   OpenOptions reading;
   OnProgress on_progress = {};     ///< gets the number of clips read
 };
@@ -35,16 +35,17 @@ struct BridgeLibrary {
   MatchRules match_rules;
   TaggedLibrary library;
   std::vector<std::string> sources;  ///< the references that open the clips again
-  std::vector<int> corrective;       ///< indices of the clips that every other clip must lead into
+  std::vector<int> corrective;       ///< indices of the clips into which every other clip must lead
 };
 
 /// Loads the clips, retargets them to one body, tags them, and finds their bridge frames. Fails as `LoadClips` does.
 Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options);
 
-/// Returns the tags of a library in the form of the tags file.
+/// Returns the tags of a library as the content of a tags file.
 BridgeTags TagsOf(const BridgeLibrary& loaded);
 
-/// Writes the tags of a library to a file. Fails without writing if the text does not read back as the same tags.
+/// Writes the tags of a library to a file. First reads the written text again; fails without writing the file if the
+/// tags differ.
 Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path);
 
 }  // namespace etude

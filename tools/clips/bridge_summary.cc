@@ -16,8 +16,8 @@ namespace {
 /// The widest matrix that fits a terminal; the output of --json has no such limit.
 constexpr int kMaxMatrixClips = 24;
 
-/// One clip's row of the table. With pairs, its coverage is measured for each other clip; without them, once for all
-/// other clips together.
+/// One clip's row of the table. With pairs, its coverage is measured for each other clip separately; without pairs, for
+/// all other clips together.
 struct ClipSummary {
   int frames = 0, bridge_frames = 0;
   int poses = 0;           ///< number of different tag combinations among its bridge frames
@@ -115,7 +115,8 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const Coverage& coverage, c
   return text;
 }
 
-/// Writes the percentage of the row's bridge frames that match one of the column's; "." means none.
+/// Writes the matrix of clips: each entry is the percentage of the row clip's bridge frames that match a bridge frame
+/// of the column clip; "." means none.
 std::string MatrixAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
   std::string text;
   const int count = coverage.ClipCount(), width = NameWidth(loaded.library);
@@ -189,7 +190,7 @@ Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, 
                 {"in_between_share", of.in_between_share}};
   };
   const TaggedLibrary& library = loaded.library;
-  // One object for each clip, and one for each ordered pair of clips.
+  // Write one object for each clip, and one for each ordered pair of clips.
   Json of_clips = Json::array(), pairs = Json::array(), ways = Json::array();
   for (int from = 0; from < coverage.ClipCount(); ++from) {
     const ClipSummary& clip = clips[from];
@@ -211,7 +212,7 @@ Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, 
       pairs.push_back(std::move(pair));
     }
   }
-  // For each corrective clip, the clips that do not lead into it.
+  // For each corrective clip, list the clips that do not lead into it.
   for (int wanted : loaded.corrective) {
     ways.push_back({{"into", library.names[wanted]}, {"not_from", NamesOf(coverage.WithoutWayInto(wanted), library)}});
   }

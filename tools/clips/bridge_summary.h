@@ -8,16 +8,17 @@
 
 namespace etude {
 
-/// A library of more clips has no table of pairs unless it is asked for: its size grows with the square of the library.
+/// For more clips than this, the table of pairs is left out unless it is requested, because its size grows with the
+/// square of the library.
 constexpr int kMaxClipsWithPairs = 300;
 
 /// Writes the number of bridge frames, the reachability, and the ways into the corrective clips, as text for a
-/// terminal. With pairs, a clip's figures are means over the other clips; without, they are for all other clips
-/// together. For more than 24 clips the matrix is only in the JSON.
+/// terminal. With pairs, a clip's figures are means over the other clips; without pairs, they are for all other clips
+/// together. For more than 24 clips, only the JSON has the matrix.
 std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
-/// Writes the same for programs (docs/schemas/bridge-summary.schema.json). Figures that need pairs are null without
-/// them, and `pairs` is missing.
+/// Writes the content of BridgeSummaryAsText for programs (docs/schemas/bridge-summary.schema.json). Without pairs, the
+/// figures that need them are null, and `pairs` is missing.
 Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
 }  // namespace etude

@@ -63,7 +63,7 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
   return facts;
 }
 
-/// Collects the facts of a file that gives no clip.
+/// Collects the facts of a file from which no clip could be read.
 ClipFacts FactsWithoutClip(const std::string& reference, const OpenOptions& options, Error complaint) {
   ClipFacts facts;
   facts.name = facts.source = reference;
@@ -104,13 +104,13 @@ std::string AxisLetter(const glm::dvec3& axis) {
 }
 
 Json JsonOf(const BodyFacts& body) {
-  // The joint of each role.
+  // Write the joint of each role.
   Json roles = Json::object();
   for (const Role role : AllRoles()) {
     const bool composed = std::ranges::find(body.composed, role) != body.composed.end();
     roles[std::string(RoleName(role))] = {{"joint", body.joints[Index(role)]}, {"composed", composed}};
   }
-  // The whole body: unit and axes, then the motion.
+  // Write the facts of the whole body: unit and axes, then the motion.
   const MotionStatistics& motion = body.motion;
   const FootSlide& slide = motion.foot_slide;
   return {{"unit", body.unit},
@@ -214,7 +214,7 @@ std::string BodyLines(const BodyFacts& body) {
   }
   std::string remarks;
   for (const std::string& remark : RemarksOf(body)) remarks += Line("remark", remark);
-  // The unit or the marker set is printed beside the stature; every change gets a line.
+  // The unit or the marker set is printed beside the stature; every other change gets its own line.
   std::string changes;
   for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
   return Line("body", fmt::format("{:.2f} m tall along its joints; {}; {} up ({})", motion.stature_m, body.changes.front(),
@@ -240,7 +240,7 @@ std::vector<std::string> RoleItems(const BodyFacts& body) {
 }  // namespace
 
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options) {
-  OpenOptions with_gaps = options;  // no fault is found in joints that the file does not show
+  OpenOptions with_gaps = options;  // so that no faults are searched in joints that the file does not show
   with_gaps.keeps_shown = true;
   auto clips = ReadClips(reference, with_gaps);
   if (!clips) return {FactsWithoutClip(reference, options, clips.error())};

@@ -24,7 +24,8 @@ struct FigureFacts {
 /// The facts about a clip's body motion.
 struct BodyFacts {
   std::array<std::string, kRoleCount> joints;  ///< by Index(role): the name of the file's joint that plays the role
-  std::vector<Role> composed;                  ///< roles that have no joint of their own and follow that joint rigidly
+  /// Roles without a joint of their own; they are rigidly attached to the joint listed for them.
+  std::vector<Role> composed;
   std::string unit;
   double metres_per_unit = 0;
   UpFinding up = {};  ///< the file's up axis, and the evidence for it
@@ -32,11 +33,11 @@ struct BodyFacts {
   bool dropped_t_pose = false;
   std::vector<std::string> changes;  ///< BodyConversion::changes
   MotionStatistics motion;
-  /// The motion's faults at the file's own rate and heights (FaultsOf); absent if none were searched for.
+  /// The motion's faults at the file's own rate and heights (FaultsOf); absent if they were not searched for.
   std::optional<MotionFaults> faults = {};
 };
 
-/// The facts of a clip, as `etude clip info` shows them. If a fact cannot be determined, it is missing and `complaint`
+/// The facts of a clip that `etude clip info` shows. If a fact cannot be determined, it is missing, and `complaint`
 /// says why.
 struct ClipFacts {
   std::string name;
@@ -52,16 +53,16 @@ struct ClipFacts {
   std::optional<Error> complaint;
 };
 
-/// Collects the facts of every clip that a reference stands for (as ExpandReference returns it). The result is never
-/// empty: a file without clips gives facts, too, and an unreadable file gives only the complaint.
+/// Collects the facts of every clip that a reference stands for; ExpandReference must have returned the reference. The
+/// result is never empty: a file without clips gives facts, too, and an unreadable file gives only the complaint.
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
 /// Collects the facts of a clip whose roles are known, without its faults.
 ClipFacts FactsOf(const OpenedClip& clip);
-/// Finds the faults of a clip's motion as FindMotionFaults does, at the rate and the heights of its file. nullopt if
-/// UnderstandClip fails at that rate.
+/// Finds the faults of a clip's motion with FindMotionFaults, at the rate and the heights of its file. Returns nullopt
+/// if UnderstandClip fails at that rate.
 std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options);
 
-/// Writes the facts as a paragraph for people. If the roles equal those of `before`, they are not repeated.
+/// Writes the facts as a paragraph for people. Roles that are the same as those of `before` are not repeated.
 std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before = nullptr);
 /// Writes the facts as a caption: "BVH · 22.9 s at 120 Hz · 31 joints · 1.59 m tall · feet slide 0.6 cm/s · 1 unit =
 /// 5.644 cm (CMU)".

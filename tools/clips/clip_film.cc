@@ -46,11 +46,11 @@ double TurnFor(Viewpoint from) {
   return Radians(90);
 }
 
-// Rough edges are less visible in motion, so less detail than on a contact sheet is enough (1.5 instead of 2).
+// Rough edges are less visible in motion, so a smaller factor than for contact sheets (2) is enough.
 constexpr double kDetail = 1.5;
-// The camera path is averaged over half a second to either side.
+// The camera path is averaged over this many frames (half a second) to either side.
 constexpr int kSmoothing = 15;
-// The number of frames that determine the visible bounds.
+// The number of frames from which the visible bounds are computed.
 constexpr int kLookedAt = 200;
 
 }  // namespace

@@ -28,13 +28,13 @@ enum class ActorKind {
 /// A clip with the figure that performs it, frame by frame at the body motion's rate.
 class ClipActor {
  public:
-  /// Makes an actor. Without a kind, it is the file's own figure if it has one, the bear for built-in clips, else the
-  /// mannequin. Fails if `kOwn` is requested for a file without meshes.
+  /// Makes an actor. Without a kind, the actor is the file's own figure if there is one; for built-in clips the bear;
+  /// else the mannequin. Fails if `kOwn` is requested for a file without meshes.
   static Result<ClipActor> Make(OpenedClip clip, std::optional<ActorKind> kind);
 
   const OpenedClip& clip() const { return clip_; }
-  /// Returns the motion of the visible figure. It differs from the clip's body for the bear, whose joints have other
-  /// positions.
+  /// Returns the motion of the visible figure. Only the bear's differs from the clip's body motion, because its joints
+  /// have other positions.
   const BodyMotion& motion() const { return motion_; }
   Figure FigureAt(std::size_t frame) const;
 
@@ -48,15 +48,15 @@ class ClipActor {
   std::shared_ptr<const Character> character_;  // the drawn figure, for kMannequin and kBear
 };
 
-/// The direction from which a clip is seen, relative to the heading of its first frame: from the front, turned by 40
-/// degrees, or from the side.
+/// The direction from which the camera sees the body, relative to the heading in the first frame: from the front,
+/// turned by 40 degrees, or from the side.
 enum class Viewpoint { kFront, kThreeQuarter, kSide };
 
 /// A clip in front of the camera: its figure, and its position in every frame.
 class Shot {
  public:
-  /// Places the clip in front of the camera. `smoothing` is that of CameraPath; 0 keeps a walker in the middle of every
-  /// picture.
+  /// Places the clip in front of the camera. `smoothing` has the meaning that it has in CameraPath; 0 keeps a walking
+  /// body in the middle of every picture.
   Shot(ClipActor actor, Viewpoint from, int smoothing);
 
   const ClipActor& actor() const { return actor_; }
@@ -66,7 +66,7 @@ class Shot {
   const FloorMove& PlacementAt(int frame) const { return placements_[static_cast<std::size_t>(frame)]; }
   Figure PlacedFigure(int frame) const;
 
-  /// Widens `bounds` so that it contains the figures of these frames.
+  /// Widens `bounds` so that they contain the figure in each of `frames`.
   void Include(const std::vector<int>& frames, ViewBounds& bounds) const;
   /// Draws a frame, with a dot on the left hand and the left foot.
   void Draw(Canvas& canvas, const Box& box, Studio& studio, Renderer& renderer, int frame) const;
@@ -76,8 +76,8 @@ class Shot {
   std::vector<FloorMove> placements_;
 };
 
-/// Returns `count` frames spread evenly over a shot, including the first and the last; all frames if the shot has
-/// fewer.
+/// Returns `count` frames spread evenly over a shot, including the first and the last; all frames if the shot has fewer
+/// than `count`.
 std::vector<int> SpreadFrames(const Shot& shot, int count);
 
 /// Draws the legend of the dots of Shot::Draw; the text ends at x = `right`.
@@ -85,9 +85,9 @@ void DrawLegend(Canvas& canvas, double right, double baseline);
 
 struct FilmOptions {
   Viewpoint from = Viewpoint::kThreeQuarter;
-  int width = 720;  ///< must be even, as must the height
+  int width = 720;  ///< pixels; width and height must be even
   int height = 720;
-  FilmWatch watch = {};  ///< if it stops the film, no file is left
+  FilmWatch watch = {};  ///< if it stops the film, no file remains
 };
 
 /// Writes an MP4 of a whole clip; the camera follows the body. Returns false if it was stopped.

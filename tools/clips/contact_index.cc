@@ -19,7 +19,7 @@ constexpr double kPictureWidth = 960, kLabelWidth = 70, kRightEdge = 20, kPanelH
 constexpr double kCm = 100;
 constexpr std::array kSides = {std::pair("left foot", Role::kLeftFoot), std::pair("right foot", Role::kRightFoot)};
 
-/// A curve over the clip, with the limit below which a foot counts as standing.
+/// A curve over the clip, with the limit below which a foot is in contact with the ground.
 struct CurvePanel {
   std::string label, unit;
   std::vector<double> values;
@@ -36,7 +36,7 @@ class ContactPicture {
                 .to = kPictureWidth - kRightEdge} {}
 
   void Add(const CurvePanel& panel) {
-    // Cut the axis at four times the limit: larger values need not be told apart, and the range near the limit stays
+    // Cut the axis at four times the limit. Larger values need not be distinguished, and the range near the limit stays
     // readable.
     const double top = std::clamp(*std::ranges::max_element(panel.values), 1.5 * panel.limit, 4 * panel.limit);
     const Axis axis{.low = 0, .high = top, .from = y_ + kPanelHeight, .to = y_};
@@ -100,7 +100,8 @@ std::string ContactIndexSvg(const std::string& name, const BodyMotion& motion) {
   const std::vector<BodyPose> velocities = JointVelocities(motion.poses, motion.rate_hz);
   ContactPicture picture(motion);
   std::string title = name;
-  // For each foot: height and speed as curves, contacts as bars, and the share of time for the title.
+  // For each foot, draw height and speed as curves and contacts as bars, and collect the share of contact time for the
+  // title.
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     const auto& [label, toes] = kSides[side];
     CurvePanel height{.label = fmt::format("{}: height of the toe tip above the lowest joint", label),

@@ -60,7 +60,7 @@ void DrawMarks(Canvas& canvas, const SheetPicture& shown, const Box& box) {
     return p.x >= 0 && p.y >= 0 && p.x <= picture.width && p.y <= picture.height;
   };
   for (const SheetMark& mark : shown.marks) {
-    if (!inside(mark.a) || !inside(mark.b)) continue;  // never draw over neighbouring pictures
+    if (!inside(mark.a) || !inside(mark.b)) continue;  // never draw outside the picture, over its neighbours
     const glm::dvec2 corner{box.x, box.y};
     if (mark.a == mark.b) {
       canvas.DrawDot(corner + mark.a * scale, 3, PaintOf(mark.colour));

@@ -10,13 +10,13 @@
 
 namespace etude {
 
-/// Draws a crowd with one camera: the bodies stand in rows on a square, each around its own grid point.
+/// Draws a crowd with one camera. The bodies stand in rows on a square, each around its own grid point.
 class CrowdStage {
  public:
-  /// Prepares pictures of this size in pixels; `renderer` must outlive this object.
+  /// Prepares pictures of `width` × `height` pixels; `renderer` must outlive this object.
   CrowdStage(int characters, int width, int height, Renderer& renderer);
 
-  /// A character: its pose relative to the floor's origin. If `stands_out` is true, all of it has one pale colour.
+  /// A character: its pose relative to its grid point. If `stands_out` is true, the whole body has one pale colour.
   struct Character {
     BodyPose pose;
     bool stands_out = false;

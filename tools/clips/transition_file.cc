@@ -64,7 +64,7 @@ Result<TransitionFile> WriteTransition(const TransitionFileOptions& options) {
                 from.begin_s + (frames - 1) / kJudgedRateHz,
                 from.begin_s > 0 ? ", after a T-pose that is left out" : "");
   }
-  // One body, that of the first clip, performs all clips.
+  // The body of the first clip performs all clips.
   const BodyPose& first = from.motion.poses.front();
   const BodyProportions proportions = MakeBodyProportions(first, StandingHipHeight(first));
   std::vector<std::string> names = {from.name, to.name};
@@ -76,7 +76,7 @@ Result<TransitionFile> WriteTransition(const TransitionFileOptions& options) {
     motions.push_back(std::move(clip.motion));
   }
   const MotionLibrary library = MakeLibrary(std::move(names), motions, proportions);
-  // Make the transition, report it, and write the file.
+  // Make the transition, fill in the result, and write the file.
   const TransitionRequest request{
       .from = 0, .request_frame = static_cast<int>(frame), .to = 1, .budget_s = options.budget_s};
   const Transition made =

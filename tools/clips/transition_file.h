@@ -11,7 +11,7 @@ namespace etude {
 
 /// A request to write a transition into a file.
 struct TransitionFileOptions {
-  std::string from, to;  ///< references of one clip each
+  std::string from, to;  ///< references; each must name one clip
   double at_s = 0;       ///< the time of the request, seconds from the first frame of `from`'s file
   double budget_s = 1;   ///< the longest wait until `to` plays, seconds
   std::string choice = "played", join = "planted-feet";  ///< names of ChoiceNames() and JoinNames()
@@ -20,11 +20,11 @@ struct TransitionFileOptions {
   OpenOptions reading;
 };
 
-/// The outcome. Times are in seconds; those of clips count from the first frames of their files.
+/// The result. Times are in seconds; times of a clip count from the first frame of its file.
 struct TransitionFile {
   Branch branch = Branch::kNone;
-  std::string why;                    ///< one sentence: why this way was taken, or why there is none
-  double left_s = 0, entered_s = 0;   ///< when `from` is left and `to` entered
+  std::string why;                    ///< one sentence: why this way was taken, or why there is no way
+  double left_s = 0, entered_s = 0;   ///< times at which `from` is left and `to` is entered
   double wait_s = 0;                  ///< from the request until `to` plays
   std::string through = {};           ///< the name of the clip in between, "" = none
   std::vector<double> points_s = {};  ///< times of the transition points in the written file
@@ -32,9 +32,9 @@ struct TransitionFile {
 };
 
 /// Plays `from` from its start, changes into `to` by a choice of frames and a join, plays `to` to its end, and writes
-/// the whole: as twenty joints with the proportions of `from`'s body, 30 Hz, metres, Y up. If there is no way (`branch`
-/// is kNone), nothing is written. Fails for clips that cannot be opened or have fewer than two frames, and for a time
-/// outside `from`.
+/// the whole motion: twenty joints with the proportions of `from`'s body, 30 Hz, metres, Y up. If there is no way
+/// (`branch` is kNone), nothing is written. Fails if a clip cannot be opened or has fewer than two frames, and if the
+/// time lies outside `from`.
 Result<TransitionFile> WriteTransition(const TransitionFileOptions& options);
 
 }  // namespace etude

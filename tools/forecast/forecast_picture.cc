@@ -24,7 +24,7 @@ constexpr double kCell = 8, kPanel = kCell * kForecastColumns, kPanelGap = 12, k
 constexpr double kTitleSize = 18, kTextSize = 13;
 constexpr Paint kUnseen{0.25, 0.27, 0.29, 1};
 
-/// The errors that the ends of the colour scale stand for, mm. The upper end is the 95th percentile.
+/// The errors at the ends of the colour scale, mm. The upper end is the 95th percentile.
 struct Scale {
   double low = 0, high = 1;
 };
@@ -46,7 +46,7 @@ Paint ColourOf(double share) {
   return {a.r + rest * (b.r - a.r), a.g + rest * (b.g - a.g), a.b + rest * (b.b - a.b), 1};
 }
 
-/// Draws the places of one height. Like the plan, it is seen from above: x to the right, z downwards.
+/// Draws the errors at all places of one height, seen from above like the plan: x to the right, z downwards.
 void DrawHeight(Canvas& canvas, const RigForecast& forecast, const Scale& scale, int height, double left, double top) {
   const ForecastPlace* places = &forecast.places[static_cast<std::size_t>(height) * kForecastRows * kForecastColumns];
   canvas.DrawText({left, top - 7}, fmt::format("{:.2f} m high", places->place_m.y), kTextSize, kSoftInk, kPanel);
@@ -66,9 +66,9 @@ void DrawHeight(Canvas& canvas, const RigForecast& forecast, const Scale& scale,
                   kCell, 2, kInk);
 }
 
-/// Draws the cameras and the volume from above, and the best place for one more camera.
+/// Draws the plan from above: the cameras, the volume, and the best place for one more camera.
 void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions& options) {
-  // Choose the scale so that the volume, all cameras and the added one fit.
+  // Choose the scale so that the volume and all cameras fit, including the added camera.
   const glm::dvec2 half(options.size_m.x / 2, options.size_m.z / 2);
   glm::dvec2 low = forecast.middle_m - half, high = forecast.middle_m + half;
   const auto include = [&](const glm::dvec3& p) {

@@ -50,7 +50,7 @@ Result<std::vector<NamedCamera>> PlacedCameras(const ForecastOptions& options) {
   return cameras;
 }
 
-/// Returns the point on the floor below the one that is nearest to all optical axes.
+/// Returns the point of the floor below the point that is nearest to all optical axes.
 Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::string& file) {
   glm::dmat3 normal(0);
   glm::dvec3 right(0);
@@ -60,8 +60,8 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
     normal += across;
     right += across * camera.p_WC;
   }
-  constexpr double kParallel = 1e-3;  // least determinant / cameras³; below it, all axes are within about 2° of each
-                                      // other
+  // Minimum of determinant / cameras³; below it, all axes are within about 2° of each other.
+  constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
     return Fail({file}, "its cameras look in parallel, so they show no common middle; name it: --middle X,Z in m");
   }
@@ -95,7 +95,7 @@ double ShareSeen(const std::vector<ForecastPlace>& places) {
   return static_cast<double>(seen) / static_cast<double>(places.size());
 }
 
-/// Returns the errors at `places`, mm, but only where `own` has one, too.
+/// Returns the errors at those of `places` where `own` has an error too, mm.
 std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std::vector<ForecastPlace>& places) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -104,12 +104,12 @@ std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std
   return errors;
 }
 
-/// Finds the best place for one more camera, which has the lens of the first one and looks at the middle of the volume.
+/// Finds the best place for one more camera. It has the lens of the first camera and looks at the middle of the volume.
 /// Tries 36 directions, three heights and three distances (0.75, 1 and 1.25 times the rig's median distance). The best
 /// has the largest sum of 1 / error over a coarse grid of places; a place that fewer than two cameras see counts 0.
 Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<ForecastPlace>& places,
                     const glm::dvec2& middle, const ForecastOptions& options) {
-  // The coarse grid, and the rig's median distance from the middle.
+  // Choose a coarse grid, and compute the rig's median distance from the middle.
   std::vector<const ForecastPlace*> coarse;
   for (int h = 1; h < kForecastHeights; h += 3) {
     for (int z = 2; z < kForecastRows; z += 4) {
@@ -134,7 +134,7 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
     for (const double height : {0.5, 1.5, 2.5}) {
       for (const double distance : {0.75 * usual, usual, 1.25 * usual}) {
         const glm::dvec3 p_WC(middle.x + distance * std::sin(angle), height, middle.y + distance * std::cos(angle));
-        if (distance < 0.1) continue;  // it would look straight down
+        if (distance < 0.1) continue;  // the candidate would look straight down
         more.back() = LookAt(cameras.front().intrinsics, p_WC, aim);
         more.back().distortion = cameras.front().distortion;
         double score = 0;
@@ -151,12 +151,12 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
   return best;
 }
 
-/// Adds the root mean square errors of standing bodies, which face +Z and +X at every second place of the floor along x
-/// and z.
+/// Adds the root mean square errors of a standing body's joints. The body faces +Z and +X, and stands on every second
+/// place of the floor along x and z.
 Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   std::array<JointErrors, kRoleCount> sums{};
   std::array<double, kRoleCount> noise_px{};
-  // The noise of each joint's keypoint: as measured, else as assumed.
+  // The noise of each joint's keypoint is the measured one if there is one, else the assumed one.
   for (const Role role : AllRoles()) {
     noise_px[Index(role)] = forecast.measured ? forecast.measured->Of(role) : options.errors.noise_px;
   }
@@ -193,8 +193,8 @@ Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions
   return {};
 }
 
-/// Adds the errors of the rig as it is, then with one change each: more exact pixels, a better calibration, one more
-/// camera.
+/// Adds the errors of the unchanged rig, and its errors after one change each: more exact pixels, a better calibration,
+/// one more camera.
 void AddWorths(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   const auto add = [&](const std::string& change, const std::vector<Camera>& changed, const SightingErrors& errors,
                        std::optional<glm::dvec3> added = {}) {
@@ -301,7 +301,7 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   } else {
     ASSIGN_OR_RETURN(forecast.middle_m, MiddleOf(forecast.cameras, options.rig));
   }
-  // Every place of the grid.
+  // Compute the error at every place of the grid.
   forecast.places = PlacesOf(cameras, forecast.middle_m, options, options.errors);
   forecast.seen = ShareSeen(forecast.places);
   if (forecast.seen == 0) {
@@ -317,7 +317,7 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   forecast.p95_mm = Quantile(errors, k95Percent);
   forecast.worst = *std::ranges::max_element(forecast.places, {},
                                              [](const ForecastPlace& place) { return place.error_mm.value_or(-1); });
-  // A person there, and what would help.
+  // Compute the errors of a person who stands there, and the gain from each change.
   RETURN_IF_ERROR(AddJoints(cameras, options, forecast));
   AddWorths(cameras, options, forecast);
   options.listener.print(fmt::format(

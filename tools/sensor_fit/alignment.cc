@@ -19,7 +19,7 @@ std::optional<Carrier> Between(const std::optional<Carrier>& a, const std::optio
   return Carrier{glm::mix(a->position, b->position, share), glm::slerp(a->rotation, b->rotation, share)};
 }
 
-/// Returns the twin's carriers at a time on the twin's clock; all are empty before its start and after its end.
+/// Returns the twin's carriers at a time on the twin's clock; all are absent before its start and after its end.
 std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin, double time_s) {
   const double frame = time_s * twin.rate_hz;
   if (frame < 0 || frame > static_cast<double>(twin.frames.size()) - 1) return {};
@@ -32,7 +32,7 @@ std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin
   return carriers;
 }
 
-/// Returns all pairs in every `stride`-th frame.
+/// Returns all pairs of a recorded joint and its carrier in every `stride`-th frame.
 std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twin, double shift_s, std::size_t stride) {
   std::vector<Pair> pairs;
   for (std::size_t t = 0; t < recording.frames.size(); t += stride) {
@@ -93,7 +93,7 @@ double RootMeanSquare(const std::vector<Pair>& pairs, const TwinAlignment& align
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
-/// Fits rotation with translation, and offsets, alternately until the residual converges. `alignment` holds the initial
+/// Fits the rigid motion and the offsets alternately until the residual converges. `alignment` holds the initial
 /// values.
 void FitAlternately(const std::vector<Pair>& pairs, int max_iterations, TwinAlignment& alignment) {
   constexpr double kSettled = 1e-6;  // metres
@@ -113,7 +113,7 @@ void FitAlternately(const std::vector<Pair>& pairs, int max_iterations, TwinAlig
   }
 }
 
-/// Computes the mean joint speed of each frame, over the joints seen in this frame and the one before.
+/// Computes the mean joint speed of each frame, over the joints that were seen in this frame and in the frame before.
 std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
   std::vector<std::optional<double>> speeds(recording.frames.size());
   for (std::size_t t = 1; t < speeds.size(); ++t) {
@@ -121,7 +121,7 @@ std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const auto &a = recording.frames[t - 1][j], &b = recording.frames[t][j];
       if (!a || !b) continue;
-      // Limit the influence of a jump to that of a fast movement.
+      // Limit the influence of a jump: no joint counts as faster than 3 m/s.
       sum += std::min(glm::distance(*a, *b) * recording.rate_hz, 3.0);
       ++count;
     }
@@ -144,7 +144,7 @@ JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   return recording;
 }
 
-/// Returns Pearson's correlation of a[t] and b[t + lag]; nullopt if they overlap in less than a second.
+/// Returns Pearson's correlation of a[t] and b[t + lag]; nullopt if both overlap for less than a second.
 std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
                                     const std::vector<std::optional<double>>& b, long lag, double rate_hz) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;

@@ -9,21 +9,22 @@
 
 namespace etude {
 
-/// The alignment of a recording with its twin: the part of their difference that is not an error of the sensor, as far
-/// as one recording shows it.
+/// The alignment of a recording with its twin. It explains the part of their difference that is no error of the sensor,
+/// as far as one recording can show it.
 struct TwinAlignment {
-  double shift_s = 0;  ///< time of the twin at the recording's time 0: difference of clocks and the sensor's lag
+  /// The twin's time at the recording's time 0: the difference of the clocks plus the sensor's lag.
+  double shift_s = 0;
   glm::dmat3 R_ST{1};  ///< rotates the twin's directions into the sensor's frame
   glm::dvec3 p_ST{0};  ///< the twin's origin in the sensor's frame
-  /// The offset of each joint in its carrier's frame; absent if no frame shows both.
+  /// The offset of each joint in its carrier's frame; absent if no frame shows both the joint and the carrier.
   std::array<std::optional<glm::dvec3>, kRoleCount> offsets{};
-  double rms_m = 0;  ///< residual over all joints
+  double rms_m = 0;  ///< RMS residual over all joints, metres
 
-  /// Returns the position of the carried joint in the sensor's frame; nullopt without a carrier or an offset.
+  /// Returns the position of the carried joint in the sensor's frame; nullopt if it has no carrier or no offset.
   std::optional<glm::dvec3> JointAt(const std::optional<Carrier>& carrier, Role role) const;
 };
 
-/// The twin's joints at the frames of a recording.
+/// The alignment of a recording, and the twin's joints at the recording's frames.
 struct TwinMatch {
   TwinAlignment alignment;
   std::vector<RolePositions> truth;  ///< one per frame of the recording, in the sensor's frame
@@ -31,12 +32,12 @@ struct TwinMatch {
 
 /// Finds time shift, rotation, translation and offsets by least squares over all joints. The shift is first found by
 /// correlating the speeds of both systems, and then refined to a tenth of a frame. For each shift, rigid motion and
-/// offsets are fitted alternately until they converge. Returns nullopt if the overlap is less than a second or less
-/// than three joints.
+/// offsets are fitted alternately until they converge. Returns nullopt if the overlap is shorter than a second or has
+/// fewer than three joints.
 std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin);
 
-/// Aligns a recording that differs little from one that is aligned already: starts from that alignment and searches
-/// only shifts within `max_shift_s` of it.
+/// Aligns a recording that differs little from an aligned one: starts from `start`, and searches only shifts within
+/// `max_shift_s` of it.
 std::optional<TwinMatch> RealignTwin(const JointRecording& recording, const TwinMotion& twin,
                                      const TwinAlignment& start, double max_shift_s);
 

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-/// Returns a position for every joint in every frame. Where the twin has none, it is the last known position, or the
-/// first one before that.
+/// Returns a position for every joint in every frame. Where the twin shows none, the joint keeps its last position;
+/// before the first one, it has the first position.
 BodyMotion WholeMotion(const RealRecording& real) {
   BodyMotion motion{.rate_hz = real.recording.rate_hz, .poses = std::vector<BodyPose>(real.match.truth.size())};
   for (const Role role : AllRoles()) {
@@ -21,15 +21,15 @@ BodyMotion WholeMotion(const RealRecording& real) {
     const auto parent = ParentOf(role);
     for (std::size_t t = 0; t < motion.poses.size(); ++t) {
       if (real.match.truth[t][j]) last = real.match.truth[t][j];
-      // A joint that the twin never shows is not compared; put it where it cannot occlude another joint.
+      // A joint that the twin never shows is not compared; put it where it cannot occlude other joints.
       motion.poses[t].joints[j] = last ? *last : parent ? motion.poses[t][*parent] : glm::dvec3(0, 0, 1);
     }
   }
   return motion;
 }
 
-/// Low-pass filters the twin's motion at 6 Hz (−3 dB, Gaussian), as is usual for optical recordings in biomechanics.
-/// Faster parts are the twin's own noise; without the filter, the simulated sensor would reproduce it as motion.
+/// Low-pass filters the twin's motion at 6 Hz (−3 dB, Gaussian), as is usual in biomechanics for optical recordings.
+/// Faster components are the twin's own noise; without the filter, the simulated sensor would reproduce them as motion.
 BodyMotion WithoutShiver(const BodyMotion& motion) {
   constexpr double kPassHz = 6;
   const double deviation_s = std::sqrt(std::log(2.0)) / (2 * kPi * kPassHz);
@@ -40,7 +40,7 @@ BodyMotion WithoutShiver(const BodyMotion& motion) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       glm::dvec3 sum(0);
       double weights = 0;
-      // Equal reach to both sides, so that the filter has no lag at the ends.
+      // Use the same reach to both sides, so that the filter has no lag near the ends.
       const long reach = std::min({kReach, t, count - 1 - t});
       for (long d = -reach; d <= reach; ++d) {
         const double off = static_cast<double>(d) / motion.rate_hz / deviation_s;
@@ -66,8 +66,8 @@ Camera SensorOf(const RealRecording& real, const BodyMotion& motion, const Intri
 
 constexpr WorldKey kFitWorlds{.suite_seed = 1, .scenario = "sensor-fit", .trial = 0};
 
-/// Multiplies `value` by real ÷ simulated, where the factor is limited to 1/3…3, and clamps it to the range that a
-/// sensor file allows.
+/// Multiplies `value` by real ÷ simulated, limited to 1/3…3, and clamps the product to the range that a sensor file
+/// allows.
 void Scale(double& value, const std::optional<double>& real, const std::optional<double>& simulated, Range allowed) {
   if (!real || !simulated || *real <= 0 || *simulated <= 0) return;
   constexpr double kMaxFactor = 3;
@@ -165,7 +165,7 @@ SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOption
   const SensorStatistics measured = StatisticsOf(real);
   SkeletonSensorOptions sensor = options.start;
   if (const double distance = MeanDistance(real); distance > 0) sensor.reference_distance_m = distance;
-  // Correct each setting by the ratio or difference of the statistics that it controls.
+  // Correct each setting by the ratio or the difference of the statistic that depends on it.
   for (int step = 0; step < options.steps; ++step) {
     const SensorStatistics simulated = SimulatedStatistics(real, sensor, options.worlds, kFitWorlds).mean;
     FitGroups(measured, simulated, sensor);

@@ -10,39 +10,43 @@
 
 namespace etude {
 
-/// A real recording, its twin, and their alignment. Simulated recordings are made from them and compared with them.
+/// A real recording, its twin, and their alignment. Simulations start from the twin's motion and are compared with the
+/// recording.
 struct RealRecording {
   JointRecording recording;
   TwinMotion twin;
   TwinMatch match;
 };
 
-/// Aligns the two. Returns nullopt if AlignTwin fails.
+/// Aligns a recording with its twin. Returns nullopt if AlignTwin fails.
 std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMotion twin);
 
 SensorStatistics StatisticsOf(const RealRecording& real);
 
-/// Simulates the sensor's recording of the twin's motion from the real sensor's position; if that is unknown, the
-/// sensor stands at its usual distance in front of the body (`SensorPlacement`). A joint that the twin lacks is absent.
+/// Simulates the sensor's recording of the twin's motion, seen from the real sensor's position. If that position is
+/// unknown, the sensor stands at its usual distance in front of the body (`SensorPlacement`). A joint that the twin
+/// lacks is absent.
 JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& options, const WorldKey& world);
 
-/// Returns statistics over `worlds` simulated recordings; each is aligned with the twin as the real one is.
+/// Returns statistics over `worlds` simulated recordings; each is aligned with the twin in the same way as the real
+/// recording.
 SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const SkeletonSensorOptions& options, int worlds,
                                             const WorldKey& first_world);
 
 struct SensorFitOptions {
   SkeletonSensorOptions start = SensorV2();  ///< settings that are not fitted keep these values
-  int worlds = 96;                           ///< simulated recordings per step; more reduce the noise of the fitted
-                                             ///< values
+  /// Simulated recordings per step; more reduce the noise of the fitted values.
+  int worlds = 96;
   int steps = 10;
   std::function<void(int step)> progress;
 };
 
 /// Fits a sensor by the method of moments, so that its simulated recordings of the twin's motion have the statistics of
-/// the real one: simulate, compare, correct, repeat. It fits each group's size and depth ratio, planted feet,
-/// correlations along bones, the white noise at rest, the share of fast errors, the stretch of shoulders, arms and
-/// hands (that of hands follows from their jumps), and the reference distance. All other settings keep their values,
-/// because such a recording does not determine them; so do the settings of groups that were never seen. Deterministic.
+/// the real recording. Each step simulates, compares and corrects. It fits each group's size and depth ratio, planted
+/// feet, correlations along bones, the white noise at rest, the share of fast errors, the stretch of shoulders, arms
+/// and hands (the hands' stretch follows from their jumps), and the reference distance. All other settings keep their
+/// values, because one recording does not determine them. The settings of groups that were never seen keep their
+/// values, too. Deterministic.
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options);
 
 }  // namespace etude

@@ -12,7 +12,7 @@ namespace {
 
 using enum Role;
 
-/// The target that carries each role's joint: one near the joint, on a bone that ends in it.
+/// The rigid target that carries each role's joint: a target near the joint, on a bone that ends at the joint.
 using T = BodyTarget;
 constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
     T::kHips,       T::kChest,        T::kChest,        T::kHead,        // trunk and head
@@ -38,8 +38,8 @@ TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
   return twin;
 }
 
-/// Computes orientations for the bones of a body that is given only by joint positions: that of the trunk, and for each
-/// limb the trunk's, swung into the limb's direction.
+/// Computes orientations for the bones of a body that is given only by joint positions. The trunk's orientation follows
+/// from its joints; a limb has the trunk's orientation, swung into the limb's direction.
 class BoneFrames {
  public:
   explicit BoneFrames(const RolePositions& places) : places_(places) {
@@ -61,8 +61,8 @@ class BoneFrames {
     if (!parent || region == Region::kTrunk) return Carrier{*place, *trunk_};
     const auto bone = Between(*parent, role);
     if (!bone) return std::nullopt;
-    // The limb's most frequent direction, relative to the trunk. The swing is undefined only for its opposite, which is
-    // then the rarest direction.
+    // The limb's most frequent direction, relative to the trunk. The swing is undefined only for the opposite
+    // direction, which is the rarest.
     const double side = RoleName(role).starts_with("left") ? 1 : -1;
     const glm::dvec3 usual =
         glm::normalize(region == Region::kArm ? glm::dvec3(side, -0.4, 0.5) : glm::dvec3(0, -1, 0.2));
@@ -105,7 +105,7 @@ TwinMotion TwinOfJoints(const JointCsv& csv) {
   return twin;
 }
 
-/// Returns the usual frame rate at which `frames` frames last closest to `seconds`.
+/// Returns the usual frame rate at which the duration of `frames` frames is closest to `seconds`.
 double UsualRate(std::size_t frames, double seconds) {
   double best = 60, best_error = 1e300;
   for (const double rate : {30.0, 50.0, 60.0, 100.0, 120.0, 200.0, 240.0}) {

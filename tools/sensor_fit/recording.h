@@ -19,19 +19,20 @@ namespace etude {
 struct JointRecording {
   double rate_hz = kJudgedRateHz;
   std::vector<RolePositions> frames;
-  /// The position of the sensor in that frame: the origin for a Kinect, unknown for other files.
+  /// The position of the sensor in the recording's frame: the origin for a Kinect, unknown for other files.
   std::optional<glm::dvec3> sensor_at;
 
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
 
-/// The rigid body that carries a joint, measured by the second system; the joint's position in its frame is constant.
+/// The rigid body that carries a joint, measured by the second system. The joint's position in the carrier's frame is
+/// constant.
 struct Carrier {
   glm::dvec3 position{0};
   glm::dquat rotation{1, 0, 0, 0};
 };
 
-/// The motion of a recording as a second system measured it: for each frame and joint its carrier, metres.
+/// The motion of a recording, measured by a second system: the carrier of each joint in each frame, metres.
 struct TwinMotion {
   double rate_hz = 60;
   std::vector<std::array<std::optional<Carrier>, kRoleCount>> frames;
@@ -40,12 +41,13 @@ struct TwinMotion {
 };
 
 /// Reads a Kinect v2's text (30 Hz unless `rate_hz` is given) or joint CSV (at the rate of its times unless `rate_hz`
-/// is given). The first row decides the format. Fails with the file, the line and what is allowed.
+/// is given). The first row decides the format. A failure states the file, the line and what is allowed.
 Result<JointRecording> ReadJointRecording(std::string_view text, const std::string& file,
                                           std::optional<double> rate_hz);
 
-/// Reads 17 rigid targets, or joint CSV, whose joints are carried by their bones. The rate is `rate_hz`, else that of
-/// the file's times, else the one of 30, 50, 60, 100, 120, 200 and 240 Hz that makes the duration closest to `seconds`.
+/// Reads 17 rigid targets, or joint CSV whose joints are then carried by their bones. The rate is `rate_hz`; if it is
+/// absent, the rate of the file's times; without times, the one of 30, 50, 60, 100, 120, 200 and 240 Hz that makes the
+/// duration closest to `seconds`.
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds);
 

@@ -44,7 +44,7 @@ ErrorSeries ErrorsOf(const JointRecording& recording, const TwinMatch& match, Ro
   return series;
 }
 
-/// Returns true if the twin's joint is at rest for five frames around `frame`.
+/// Returns true if the twin's joint is at rest from five frames before `frame` to five frames after it.
 bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, double rate_hz) {
   constexpr std::size_t kReach = 5;
   constexpr double kResting = 0.1;  // m/s
@@ -55,7 +55,7 @@ bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, dou
   return true;
 }
 
-/// Returns the standard deviation of the distance between two joints over its mean, per cent.
+/// Returns the coefficient of variation of the distance between two joints, per cent.
 std::optional<double> Variation(const JointRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
   for (const RolePositions& places : recording.frames) {
@@ -69,7 +69,7 @@ std::optional<double> Variation(const JointRecording& recording, Role a, Role b)
   return mean > 0 ? std::optional(100 * std::sqrt(squares / count) / mean) : std::nullopt;
 }
 
-/// Returns |p(t−1) − 2 p(t) + p(t+1)|; nullopt unless all three were seen.
+/// Returns |p(t−1) − 2 p(t) + p(t+1)|; nullopt unless the joint was seen in all three frames.
 std::optional<double> SecondDifference(const JointRecording& recording, std::size_t t, std::size_t j) {
   if (t == 0 || t + 1 >= recording.frames.size()) return std::nullopt;
   const auto &before = recording.frames[t - 1][j], &here = recording.frames[t][j], &after = recording.frames[t + 1][j];
@@ -278,7 +278,7 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
                        ComparedBy held_by = ComparedBy::kRatio) {
     rows.push_back({std::move(name), unit, held_by, value});
   };
-  // Errors.
+  // Add the errors.
   for (const JointGroup group : AllJointGroups()) {
     if (group == JointGroup::kFeet) continue;
     add(fmt::format("error of {}", GroupName(group)), "mm", statistics.error_mm[Index(group)]);
@@ -286,7 +286,7 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
   add("error of shoulders and hips", "mm", statistics.shoulders_and_hips_mm);
   add("error of all feet", "mm", statistics.error_mm[Index(JointGroup::kFeet)]);
   add("error of planted feet", "mm", statistics.planted_feet_mm);
-  // Ratios and correlations.
+  // Add the ratios and correlations.
   for (const JointGroup group : AllJointGroups()) {
     add(fmt::format("depth : across, {}", GroupName(group)), "", statistics.depth_ratio[Index(group)]);
   }
@@ -295,7 +295,7 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
     std::ranges::replace(name, '_', ' ');
     add("correlation along " + name, "", statistics.correlation[Index(kind)], ComparedBy::kDifference);
   }
-  // Noise at rest, varying lengths, jumps.
+  // Add noise at rest, varying lengths, and jumps.
   add("white part, quiet torso", "mm", statistics.quiet_white_mm);
   add("length of arm bones varies", "%", statistics.arm_bones_percent);
   add("length of leg bones varies", "%", statistics.leg_bones_percent);

@@ -13,19 +13,21 @@
 namespace etude {
 
 /// The statistics of a sensor's errors in a recording. A value that the recording does not determine is absent: errors
-/// need a twin, depth ratios need the sensor's position.
+/// need a twin, and depth ratios need the sensor's position.
 struct SensorStatistics {
   using ByGroup = std::array<std::optional<double>, kJointGroupCount>;
 
   ByGroup error_mm;                             ///< root mean square distance from the twin
-  std::optional<double> shoulders_and_hips_mm;  ///< both groups together
+  std::optional<double> shoulders_and_hips_mm;  ///< shoulders and hips together
   std::optional<double> planted_feet_mm;        ///< ankles and feet whose twin is slower than 0.1 m/s
-  ByGroup depth_ratio;                          ///< standard deviation along the line of sight ÷ along an axis across
-                                                ///< it
+  /// Standard deviation along the line of sight ÷ along an axis across it.
+  ByGroup depth_ratio;
   std::array<std::optional<double>, kBoneKindCount> correlation;  ///< correlation of the errors at both ends of a bone
-  std::optional<double> quiet_white_mm;                        ///< white noise per axis, torso at rest (`StatisticsOf`)
-  std::optional<double> arm_bones_percent, leg_bones_percent;  ///< standard deviation of lengths ÷ mean, both bones
-  std::optional<double> shoulder_width_percent, hand_bones_percent;  ///< the same; hand: wrist to hand
+  std::optional<double> quiet_white_mm;  ///< white noise per axis, torso at rest (`StatisticsOf`)
+  /// Standard deviation ÷ mean of the bones' lengths, per cent; over both bones of the limb.
+  std::optional<double> arm_bones_percent, leg_bones_percent;
+  /// Standard deviation ÷ mean, per cent; the hand's bone goes from wrist to hand.
+  std::optional<double> shoulder_width_percent, hand_bones_percent;
   std::optional<double> hand_jump_cm;  ///< 99th percentile of the hands' second differences
 };
 
@@ -54,10 +56,11 @@ struct StatisticRow {
 /// Returns the rows of a table of statistics, in order.
 std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics);
 
-/// The tolerances of a simulation: amounts may differ by 30 % from the real ones, correlations by 0.15.
+/// The tolerances of a simulation: statistics compared by ratio may differ by 30 % from the real ones, correlations by
+/// 0.15.
 constexpr double kSizeTolerance = 0.30, kCorrelationTolerance = 0.15;
 
-/// The number of rows in which both columns have a value, and how many of these are within the tolerances.
+/// The number of rows in which both columns have a value, and how many of these rows are within the tolerances.
 struct Agreement {
   int within = 0;
   int compared = 0;
@@ -65,8 +68,8 @@ struct Agreement {
 Agreement AgreementOf(const SensorStatistics& reference, const SensorStatistics& other);
 
 /// Writes a table for people with one line per statistic and one column per recording; "-" marks an absent value. With
-/// `compares`, the second column is followed by its ratio or difference to the first one, with "!" if it is out of
-/// tolerance.
+/// `compares`, the second column is followed by its ratio or difference to the first column, and by "!" if that is out
+/// of tolerance.
 std::string StatisticsTable(const std::vector<std::pair<std::string, SensorStatistics>>& columns, bool compares);
 
 }  // namespace etude

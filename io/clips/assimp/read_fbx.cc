@@ -22,7 +22,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z) and its sign, −1 if it points down.
+/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z), and the sign of its direction: −1 if the axis
+/// points down.
 std::pair<int, int> UpOf(const aiScene& scene) {
   std::int32_t axis = 1, sign = 1;
   if (scene.mMetaData != nullptr) {
@@ -38,8 +39,8 @@ void Append(std::string& bytes, std::uint32_t number) {
   bytes.append(raw.data(), raw.size());
 }
 
-/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer is not used: it leaves out transforms
-/// within 0.01 of the identity, so a joint that is a centimetre from its parent would move onto it.
+/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer is not used, because it leaves out
+/// transforms within 0.01 of the identity: a joint one centimetre from its parent would move onto the parent.
 class MotionGlb {
  public:
   explicit MotionGlb(const aiScene& scene) {
@@ -62,7 +63,7 @@ class MotionGlb {
     json.resize((json.size() + 3) / 4 * 4, ' ');
     std::string bytes = "glTF";
     constexpr std::uint32_t kVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942, kHeads = 12 + 8, kHead = 8;
-    // The header, the JSON chunk, and the binary chunk, which a file without animation lacks.
+    // The file is a header, the JSON chunk and the binary chunk; a file without animation has no binary chunk.
     const std::size_t binary = numbers_.empty() ? 0 : kHead + numbers_.size();
     for (const std::size_t number :
          {std::size_t{kVersion}, kHeads + json.size() + binary, json.size(), std::size_t{kJson}}) {
@@ -76,7 +77,7 @@ class MotionGlb {
   }
 
  private:
-  /// Adds a node and what is below it. A joint with pivots is a chain of nodes in assimp: its parts, which become one.
+  /// Adds a node and its subtree. assimp splits a joint with pivots into a chain of nodes; the chain becomes one node.
   std::size_t AddNode(const aiNode& first) {
     const std::size_t index = nodes_.size();
     std::vector<const aiNode*> parts = {&first};
@@ -103,7 +104,8 @@ class MotionGlb {
     return index;
   }
 
-  /// The value of keys at a time; between two of them, `mix(from, to, share)`.
+  /// Interpolates keys at a time: `mix(from, to, share)` blends the two neighbouring keys. Before the first key and
+  /// after the last one, the value is constant.
   template <typename Key, typename Mix>
   static auto ValueAt(const Key* keys, unsigned count, double time, Mix mix) {
     const auto is_before = [](const Key& key, double at) { return key.mTime < at; };
@@ -125,7 +127,7 @@ class MotionGlb {
     return {ValueAt(moved.mScalingKeys, moved.mNumScalingKeys, time, mix), rotation, place};
   }
 
-  /// The keys of a joint made of parts, at every time at which one of them has a key.
+  /// The keys of a joint that assimp splits into parts: one key at every time at which any part has one.
   struct JoinedKeys {
     std::vector<aiVectorKey> places, scales;
     std::vector<aiQuatKey> turns;
@@ -143,7 +145,7 @@ class MotionGlb {
       for (unsigned k = 0; k < moved.mNumRotationKeys; ++k) times.insert(moved.mRotationKeys[k].mTime);
       for (unsigned k = 0; k < moved.mNumScalingKeys; ++k) times.insert(moved.mScalingKeys[k].mTime);
     }
-    // Keys of the joint itself, without any of a part, are of the whole transform: assimp includes pre-rotations.
+    // If only the joint's own node has keys, they hold the whole transform, because assimp includes the pre-rotation.
     const bool is_whole = moved_parts.size() == 1 && moved_parts.begin()->first == parts.back();
     JoinedKeys joined;
     for (const double time : times) {
@@ -173,7 +175,8 @@ class MotionGlb {
         for (const float number : numbers_of(keys[i].mValue)) values.push_back(number);
       }
       if (count == 0) return;
-      constexpr float kSame = 0.01f;  // keys that differ by less are equal: quaternion numbers, metres, scales
+      // Keys that differ by less are equal: quaternion components, metres, scale factors.
+      constexpr float kSame = 0.01f;
       const std::size_t width = values.size() / count;
       for (std::size_t i = width; i < values.size(); ++i) {
         const std::size_t key = i / width;
@@ -185,7 +188,7 @@ class MotionGlb {
     };
     const auto vector = [](const aiVector3D& v) { return std::array{v.x, v.y, v.z}; };
     const auto turn = [](const aiQuaternion& q) { return std::array{q.x, q.y, q.z, q.w}; };
-    // One channel for each property that a node's keys move; nodes that are not in the scene are left out.
+    // Add one channel for each animated property of a node; leave out nodes that are not in the scene.
     std::set<std::size_t> joined;
     for (unsigned i = 0; i < animation.mNumChannels; ++i) {
       const aiNodeAnim& moved = *animation.mChannels[i];
@@ -232,7 +235,7 @@ class MotionGlb {
 bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, double& longest_s) {
   try {
     Assimp::Importer importer;
-    // Without its pivots, assimp leaves out the keys of joints that have some.
+    // If pivots are not preserved, assimp drops the keys of joints that have pivots.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_GlobalScale, "fbx");
     if (scene == nullptr || scene->mRootNode == nullptr) {

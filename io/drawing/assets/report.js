@@ -4,7 +4,7 @@
   'use strict';
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const colour = (i) => style('--m' + (i % 8));
-  // The eight colours repeat for further methods, with other dashes.
+  // After the eighth method, the colours repeat with other dashes.
   const dashes = (i) => i >= 8 ? [10, 3, 2, 3] : [[], [], [6, 4], [2, 3]][Math.floor(i / 2)];
   const short = (v) => v === 0 ? '0' : Math.abs(v) < 0.001 || Math.abs(v) >= 1e8 ? v.toExponential(1) :
       Number(v.toPrecision(3)).toLocaleString('en', {maximumFractionDigits: 6});
@@ -73,8 +73,8 @@
   };
   document.documentElement.classList.add('js');
 
-  // The card that shows the cells of a dot or row, with the command that runs them again: `etude replay` of this page's
-  // folder.
+  // The card that shows the cells of a dot or row, and the command that runs them again: `etude replay` with this
+  // page's folder.
   const folder = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/report\/[^/]*$/, '') : '.';
   const word = (text) => /^[\w.\/=,:@%+-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
   const card = make('div', '', {className: 'row-card', hidden: true});
@@ -130,7 +130,7 @@
     shown.classList.add('picked');
     // Other scripts may add to the card, such as one that shows the motion of a recorded cell.
     card.dispatchEvent(new CustomEvent('etude:cells', {bubbles: true, detail: {cells, kept: cells.filter((id) => kept.includes(id)), card}}));
-    card.querySelector('button').focus();  // the button that shows the motion, else the one that closes
+    card.querySelector('button').focus();  // focus the button that shows the motion, else the close button
   };
   document.addEventListener('click', (event) => {
     const dot = event.target.closest?.('use[data-t]'), row = event.target.closest?.('tr[data-ids]');
@@ -146,7 +146,7 @@
     });
   });
 
-  // The Tab key stops once per picture; arrows move from dot to dot, Enter opens one.
+  // The Tab key stops once per picture; the arrow keys move from dot to dot, and Enter opens a dot.
   document.querySelectorAll('figure svg').forEach((svg) => {
     const dots = [...svg.querySelectorAll('use[data-t]')];
     if (!dots.length) return;
@@ -174,8 +174,8 @@
     if (row.dataset.ids) (row.tagName === 'TR' ? row.cells[0] : row).append(button('', 'Run it again', () => show(row), 'rerun'));
   });
 
-  // A picture is saved as a file, with the colours on the screen and the marks that it uses, or is printed alone on a
-  // page of its size, which every browser saves as a PDF of vector graphics.
+  // A picture is saved as a file with the colours of the screen and the marks that it uses; or it is printed alone on a
+  // page of its own size, and the browser can save that page as a PDF of vector graphics.
   const PAINTS = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'fill-opacity', 'stroke-opacity', 'opacity', 'font-size', 'font-family', 'paint-order'];
   const whole = (svg) => {
     const copy = svg.cloneNode(true), there = svg.querySelectorAll('*');
@@ -216,7 +216,7 @@
                    button('', 'Print this picture alone, or save it as PDF', () => print(svgs), 'save pdf'));
   });
 
-  // Tables: sorted by a click on a heading, filtered, copied, with columns to choose from.
+  // Tables can be sorted by a click on a heading, filtered and copied; the reader chooses their columns.
   const LATEX = {'\\': '\\textbackslash{}', '~': '\\textasciitilde{}', '^': '\\textasciicircum{}', '<': '\\textless{}', '>': '\\textgreater{}', '|': '\\textbar{}',
                  '−': '$-$', '–': '--', '°': '$^\\circ$', '±': '$\\pm$', '×': '$\\times$', '≤': '$\\le$', '≥': '$\\ge$', '“': '``', '”': "''", '’': "'", '…': '\\dots{}',
                  '↓': '$\\downarrow$', '↑': '$\\uparrow$', '▲': '$\\bigtriangleup$', '▼': '$\\bigtriangledown$'};

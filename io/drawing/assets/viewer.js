@@ -5,14 +5,14 @@ const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder 
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];
 const ARM = [.052, .042, .034, .026], LEG = [.075, .054, .04, .03], RADIUS = [.085, .085, .055, .05, ...ARM, ...ARM, ...LEG, ...LEG];
 const HEAD = 3, HEAD_RADIUS = .1, THIN = .022;
-// The joints of a body: the twenty, or its own, which are drawn as thin lines.
+// The skeleton of a body: the twenty joints, or the body's own joints, which are drawn as thin lines.
 const BODY = {joints: JOINTS, parents: PARENT};
 const treeOf = (body) => body.joints ? {joints: body.joints.map((name) => name.replaceAll('_', ' ')), parents: body.parents} : BODY;
-// Blue, pale, red: so that readers who cannot tell green from red can read it.
+// The colour scale runs from blue over pale yellow to red; readers who cannot distinguish green from red can read it.
 const SCALE = [[45, 100, 180], [125, 180, 220], [248, 232, 175], [236, 140, 72], [178, 28, 40]];
 
 const island = document.getElementById('motions');
-let files = null;  // cell → file; read when it is first needed
+let files = null;  // cell → file; read at the first use
 const fileOf = (cell) => {
   if (!files) {
     files = new Map();
@@ -23,7 +23,7 @@ const fileOf = (cell) => {
   return files.get(cell);
 };
 
-// ---- Data of the script beside the page.
+// ---- Prepare the data of the script beside the page.
 const worlds = {};
 const prepare = (world) => {
   const scale = world.unit === 'mm' ? 1000 : 100;
@@ -37,13 +37,13 @@ const prepare = (world) => {
     body.places = new Float32Array(body.stored * 3 * body.count);
     for (let i = 0; i < body.places.length; ++i) {
       const steps = view.getUint16(2 * i, true);
-      body.places[i] = steps === 65535 ? NaN : body.low_m[i % 3] + body.step_m * steps;  // NaN: not seen
+      body.places[i] = steps === 65535 ? NaN : body.low_m[i % 3] + body.step_m * steps;  // NaN: the point was not seen
     }
     world.frames = Math.max(world.frames, body.begin + body.frames);
   }
   for (const body of world.bodies) {
     if (!body.against.length) continue;
-    // NaN, never 0, if there is nothing to compare with.
+    // Errors are NaN, never 0, where there is no reference to compare with.
     body.errors = new Float32Array(body.frames * body.count).fill(NaN);
     for (let f = 0; f < body.frames; ++f) {
       const t = f + body.begin;
@@ -110,8 +110,8 @@ const standing = (left, up) => {
   return times([Math.cos(half), ...x.map((v) => v * Math.sin(half))], first);
 };
 
-// ---- Files for other programs. Arms point sideways at rest; limbs turn by the shortest rotation, so that
-// all joints are where the viewer shows them.
+// ---- Export files for other programs. At rest, arms point sideways; limbs turn by the shortest rotation, so that all
+// joints are where the viewer shows them.
 const restOf = (body) => PARENT.map((parent, j) => {
   if (parent < 0) return [0, 0, 0];
   const p = place(body, body.begin), length = Math.hypot(...sub(jointOf(p, j), jointOf(p, parent)));
@@ -173,7 +173,7 @@ const glbOf = (world, body) => {
       accessors.push({bufferView: 0, byteOffset: 4 * numbers.length, componentType: 5126, count: n, type});
       for (const frame of frames) {
         let q = frame[j].turn;
-        // q and −q are the same rotation: take the one nearer to the last
+        // q and −q are the same rotation: take the one that is nearer to the last quaternion
         if (dot(q.slice(1), last.slice(1)) + q[0] * last[0] < 0) q = q.map((x) => -x);
         if (type === 'VEC4') last = q;
         numbers.push(...(type === 'VEC3' ? frame[j].place : [q[1], q[2], q[3], q[0]]));
@@ -197,7 +197,8 @@ const glbOf = (world, body) => {
 };
 const writers = {BVH: bvhOf, GLB: glbOf, CSV: csvOf};
 
-// ---- Drawing. A scene: {items: [{places, colours, ghost, tree}], spots: [{at, radius, colour, squash}], floor, page, line}.
+// ---- Draw. A scene is {items: [{places, colours, ghost, tree}], spots: [{at, radius, colour, squash}], floor, page,
+// line}.
 const cameraOf = (view, width, height) => {
   const {yaw, pitch, distance, target} = view, c = Math.cos(pitch);
   const eye = [target[0] + distance * c * Math.sin(yaw), target[1] + distance * Math.sin(pitch), target[2] + distance * c * Math.cos(yaw)];
@@ -225,7 +226,7 @@ const limbsOf = (scene, ghosts) => [...scene.items.filter((item) => item.ghost =
   return [...jointOf(p, from), wide * ends[0], ...jointOf(p, to), wide * ends[1], ...jointOf(c, from), ghosts ? .1 : 1, ...jointOf(c, to), 1];
 })), ...ghosts ? [] : scene.spots.map(({at, radius, colour, squash}) => [...at, radius, ...at, radius, ...colour, 1, ...colour, squash])];
 const glRenderer = (canvas, onLost) => {
-  // Antialiases on graphics cards.
+  // Ask for antialiasing only if the browser draws with a graphics card.
   const options = {stencil: true, alpha: false};
   const gl = canvas.getContext('webgl2', {...options, antialias: true, failIfMajorPerformanceCaveat: true}) ??
       canvas.getContext('webgl2', {...options, antialias: false});
@@ -418,7 +419,7 @@ const show = (world, cells) => {
   const labelOf = (body) => world.cells.length > 1 && body.cell >= 0 && body.label !== world.cells[body.cell].method ?
       `${body.label} (${world.cells[body.cell].method})` : body.label;
 
-  // Methods stand side by side if they are shown apart; a partner always stands beside its dancer.
+  // If methods are shown apart, they stand side by side; a partner always stands beside its dancer.
   const box = () => {
     const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
     for (const i of chosen) {
@@ -462,7 +463,7 @@ const show = (world, cells) => {
       ...[.1, .25, .5, 1, 2].map((s) => make('option', {value: s, selected: s === 1}, `speed × ${s}`)));
   const apart = button('Side by side', () => { state.apart = !state.apart; layOut(); home(); refresh(); });
   const byError = button('Colour by error', () => { state.byError = !state.byError; refresh(); });
-  byError.hidden = !state.byError;  // without errors there is nothing to colour by
+  byError.hidden = !state.byError;  // without errors, colouring by error has no meaning
   const scale = make('div', {class: 'scale'}, `${world.error}, ${world.unit}`, make('i'),
       make('span', {}, make('span', {}, '0'), make('span', {}, short(world.most / 2)), make('span', {}, '≥ ' + short(world.most))));
   const seek = (t) => { state.t = Math.min(Math.max(t, 0), last); refresh(); };
@@ -505,7 +506,7 @@ const show = (world, cells) => {
     seek(ahead ? ahead.frame : way > 0 ? last : 0);
   };
 
-  // The errors as a table, for readers without colours.
+  // Show the errors as a table, too, for readers who do not see colours.
   const table = make('div', {class: 'table', tabindex: 0, role: 'region', 'aria-label': 'Error by joint'});
   let cellsNow = [];
   const tabulate = () => {
@@ -588,7 +589,7 @@ const show = (world, cells) => {
     stage.prepend(canvas);
     renderer = (!flat && glRenderer(canvas, () => setUp(true))) || null;
     if (!renderer) {
-      if (!flat) return setUp(true);  // a canvas that has had a WebGL context gives no other one
+      if (!flat) return setUp(true);  // a canvas that has had a WebGL context gives no other context
       renderer = flatRenderer(canvas);
     }
     stage.dataset.renderer = renderer.kind;
@@ -626,7 +627,7 @@ const show = (world, cells) => {
     const {project} = cameraOf(view, stage.clientWidth, stage.clientHeight);
     shown.forEach(({body, places}, k) => {
       const name = names[k] ??= stage.appendChild(make('span', {class: 'name'}));
-      let head = HEAD;  // of other joints, the highest
+      let head = HEAD;  // for bodies of other joints: the highest joint
       if (body.tree !== BODY) body.tree.joints.forEach((_, j) => { if (!j || !(places[3 * head + 1] >= places[3 * j + 1])) head = j; });
       const [x, y] = project([places[3 * head], places[3 * head + 1] + .17, places[3 * head + 2]]);
       name.hidden = false;
@@ -663,7 +664,7 @@ const show = (world, cells) => {
       if (state.t > last) state.t = last;
       dirty = true;
     }
-    // Slow drawing: half the resolution, then 2D.
+    // If drawing is slow, use half the resolution; if it is still slow, draw in 2D.
     slow = state.playing && now - before > 36 ? slow + 1 : 0;
     if (slow > 5) {
       slow = 0;
@@ -706,7 +707,7 @@ const show = (world, cells) => {
 
 window.etudeViewer = {
   has: (cell) => fileOf(cell) !== undefined,
-  // Opens the world of these cells; the dialog offers the world's other cells.
+  // Opens the world of `cells`; the dialog also offers the world's other cells.
   open: (...cells) => {
     const known = cells.filter((cell) => fileOf(cell) !== undefined);
     if (opened || !known.length) return Promise.resolve(false);

@@ -7,21 +7,21 @@
 
 namespace etude {
 
-/// What a made-up method reaches in a world; may also change the status, or leave values out.
+/// Returns the result of an invented method in a world; it may also change the status, or leave values out.
 using MakeResult = std::function<CellResult(int trial, const std::string& method)>;
 
-/// A scenario "s" of task ik with the conditions noise=1 and noise=2, the methods "a" and "b", and 24 trials.
-/// `extra` are more lines of its file; the worlds were made of one clip of that digest.
+/// Makes a run of a scenario "s" of task ik with the conditions noise=1 and noise=2, the methods "a" and "b", and 24
+/// trials. `extra` holds further lines of its file. The worlds were made of one clip with the digest `clip_digest`.
 FinishedRun ExampleRun(const MakeResult& make, const std::string& extra = "", const std::string& clip_digest = "clip");
 
-/// The same with so many trials, and lines of the file that begin with its `metrics`.
+/// The number of trials of an example, and the lines of its file from `metrics` on.
 struct ExampleSetting {
   int trials = 24;
   std::string extra = "metrics: [position_error_cm, solved_practical]\n";
 };
 FinishedRun ExampleRun(const MakeResult& make, const ExampleSetting& setting, const std::string& clip_digest = "clip");
 
-/// 10 + trial for either method, plus `shift`.
+/// Returns a result with the value 10 + trial for both methods, plus `shift`.
 CellResult ExampleResult(int trial, double shift = 0);
 
 }  // namespace etude

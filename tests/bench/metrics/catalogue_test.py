@@ -1,4 +1,4 @@
-"""The build reads the files of bench/metrics/catalogue, and ends at a fault with its place."""
+"""Tests that the build reads the files of bench/metrics/catalogue, and ends at a fault with the fault's place."""
 import os
 import pathlib
 import subprocess

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// A metric's value for the input of a test vector, by the functions that the tasks measure with; nothing where the
-/// metric has no value. Fails when the metric has no such function, or the input is not one of its own (its keys are
+/// Computes a metric for the input of a test vector, with the functions that the tasks use; nothing if the metric has
+/// no value. Fails if the metric has no function here, or if the input does not fit the metric (its keys are
 /// MetricInfo::inputs).
 Result<std::optional<double>> EvaluateMetric(std::string_view metric, std::string_view input_json);
 

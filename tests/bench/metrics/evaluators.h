@@ -8,17 +8,17 @@
 
 namespace etude {
 
-/// Nothing where the metric has no value.
+/// The value of a metric; nothing if it has none.
 using Value = std::optional<double>;
 
-/// What computes a metric from the input of a test vector, by the functions that the tasks measure with; throws
-/// Json::exception for what is no such input.
+/// A metric's function from the input of a test vector to its value. It uses the functions that the tasks use, and
+/// throws Json::exception for input that does not fit.
 struct Evaluator {
   std::string_view metric;
   Value (*value)(const Json& in);
 };
 
-/// By domain; `EvaluateMetric` looks in all of them.
+/// Return the evaluators of each domain; `EvaluateMetric` searches all of them.
 std::span<const Evaluator> IkEvaluators();  ///< tracking, too
 std::span<const Evaluator> CaptureEvaluators();
 std::span<const Evaluator> TransitionEvaluators();  ///< matching, too

@@ -1,4 +1,4 @@
-"""`etude list metrics`: other implementations can agree with it, and would notice if they did not."""
+"""Tests that other implementations can agree with `etude list metrics`, and that a test fails if they do not."""
 import copy
 import json
 import math

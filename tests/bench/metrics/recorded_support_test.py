@@ -1,5 +1,5 @@
-"""What holds a body up, computed a second time from recordings: of each request that a run keeps, in Python, by the
-definition of `unsupported_frames` (docs/reference/metrics.md), the frames in a row that nothing supports."""
+"""Computes from recordings, in Python, the longest run of unsupported frames of each request that a run keeps, by
+the definition of `unsupported_frames` (docs/reference/metrics.md), and compares it with the run."""
 import json
 import math
 import pathlib

@@ -3,8 +3,8 @@
 
     etude list metrics --json | python3 second_implementation.py
 
-recomputes every test vector from its input, prints those that disagree, and how many agree. Exit code 1 when one
-disagrees, when a metric has no vector, or when this file does not know a metric or its version.
+recomputes every test vector from its input, prints the vectors that disagree, and the number of those that agree. Exit
+code 1 if one disagrees, if a metric has no vector, or if this file does not know a metric or its version.
 """
 import json
 import sys

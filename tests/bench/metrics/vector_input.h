@@ -10,21 +10,21 @@
 
 namespace etude {
 
-/// The pieces that the inputs of test vectors are made of (docs/reference/metrics.md, "The vectors' inputs"). All throw
-/// Json::exception for what does not fit; `EvaluateMetric` turns that into an Error.
+/// Readers of the parts of test vectors' inputs (docs/reference/metrics.md, "The vectors' inputs"). All throw
+/// Json::exception for input that does not fit; `EvaluateMetric` turns that into an Error.
 
-/// [x, y, z].
+/// Reads [x, y, z].
 glm::dvec3 ReadPoint(const Json& json);
-/// Like ReadPoint; null is nothing.
+/// Reads [x, y, z]; null gives nothing.
 std::optional<glm::dvec3> ReadOptionalPoint(const Json& json);
-/// Three axes, each [x, y, z]: the columns of the matrix.
+/// Reads three axes, each [x, y, z]: the columns of the matrix.
 glm::dmat3 ReadAxes(const Json& json);
-/// {"left_hand": [x, y, z], …}; a joint that is not named is at the origin.
+/// Reads {"left_hand": [x, y, z], …}; a joint that is not named is at the origin.
 BodyPose ReadPose(const Json& json);
-/// {"rate_hz": 30, "frames": 3, "joints_m": {"left_hand": [[x, y, z], …], …}}: one position per frame, or one for all;
-/// a joint that is not named stays at the origin; rate_hz is 30 when it is not said.
+/// Reads {"rate_hz": 30, "frames": 3, "joints_m": {"left_hand": [[x, y, z], …], …}}: one position per frame, or one for
+/// all frames. A joint that is not named stays at the origin. rate_hz is 30 by default.
 BodyMotion ReadMotion(const Json& json);
-/// Rows from the top, each a list of 0 and 1.
+/// Reads rows from the top, each a list of 0 and 1.
 Mask ReadMask(const Json& json);
 
 }  // namespace etude

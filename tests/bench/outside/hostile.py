@@ -1,5 +1,5 @@
-"""Programs that no harness should have to meet: `hostile.py BEHAVIOUR [ANSWER]`. Each greets politely and answers
-every problem with ANSWER (a JSON object), but for what its behaviour says."""
+"""Hostile programs: `hostile.py BEHAVIOUR [ANSWER]`. Each does the handshake and answers every problem with ANSWER
+(a JSON object), except as its behaviour says."""
 import json
 import os
 import signal

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A method of task ik whose work a browser does: a page reads the problem and answers with its start pose."""
+"""A method of task ik that runs in a browser: a page reads the problem and answers with its start pose."""
 import html
 import json
 import pathlib

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Two conditions × three trials × two methods, quick to run.
+/// A scenario of two conditions, three trials and two methods, quick to run.
 inline const std::string kSmallScenario = R"(
 scenario: small
 question: Does it run?

@@ -10,13 +10,13 @@ namespace etude {
 inline const std::string kHead = "scenario: s\nquestion: q?\ntask: ik\n";
 inline const std::string kMethods = "methods: [{name: a}, {name: b}]\n";
 
-/// The scenarios of "s.yaml", which may include others of `more`.
+/// Parses the scenarios of "s.yaml", which may include texts of `more`.
 inline Result<std::vector<Scenario>> Parse(const std::string& yaml, SourceTexts more = {}) {
   more["s.yaml"] = yaml;
   return ParseScenarios("s.yaml", more);
 }
 
-/// The only scenario of a text that is right.
+/// Parses a valid text with one scenario.
 inline Scenario ParseOne(const std::string& yaml) {
   const auto scenarios = Parse(yaml);
   EXPECT_TRUE(scenarios) << ToString(scenarios.error()) << "\n" << yaml;
@@ -25,7 +25,7 @@ inline Scenario ParseOne(const std::string& yaml) {
   return scenarios->front();
 }
 
-/// What is said about a text that is wrong, in one line; "" when it is right.
+/// Returns the complaint about an invalid text in one line; "" if the text is valid.
 inline std::string Complaint(const std::string& yaml, const SourceTexts& more = {}) {
   const auto scenarios = Parse(yaml, more);
   const std::string complaint = scenarios ? "" : ToString(scenarios.error());

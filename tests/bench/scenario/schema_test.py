@@ -1,4 +1,5 @@
-"""docs/schemas/scenario.schema.json: editors accept what the program runs, and mark what it refuses."""
+"""Tests docs/schemas/scenario.schema.json: editors accept the scenarios that the program runs, and mark those that
+it refuses."""
 import pathlib
 import re
 import sys

@@ -11,9 +11,9 @@
 
 namespace etude {
 
-/// The distribution of the differences. Without an effect the pseudo-median of the units' means is zero: The first five
-/// laws are drawn for each world and are symmetric. The others are drawn for each unit, and its worlds add normal
-/// noise.
+/// The distribution of the differences. Without an effect, the pseudo-median of the units' means is zero. The first
+/// five laws are drawn for each world and are symmetric. The others are drawn for each unit; the unit's worlds add
+/// normal noise.
 enum class SampleLaw {
   kNormal,
   kHeavyTailed,  ///< Student's t of 3 degrees of freedom
@@ -56,14 +56,14 @@ struct Percentage {
 /// The error rates of verdicts on samples of one design.
 struct VerdictRates {
   SampleDesign design;
-  /// The share of verdicts *better* or *worse* where nothing differs, judged with a threshold near zero.
+  /// The share of verdicts *better* or *worse* if there is no difference, judged with a threshold near zero.
   Percentage false_alarms;
   /// The share of false alarms of a test that treats worlds as units.
   Percentage false_alarms_of_worlds;
   /// The share of intervals that contain the true pseudo-median: without an effect, and with an effect of twice the
   /// threshold.
   double coverage_without = 0, coverage_with = 0;
-  /// The share of right verdicts where the effect is 1, 2 and 4 times the threshold.
+  /// The share of right verdicts if the effect is 1, 2 and 4 times the threshold.
   std::array<double, 3> power{};
 };
 

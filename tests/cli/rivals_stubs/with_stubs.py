@@ -1,4 +1,4 @@
-"""with_stubs.py PROGRAM: runs a method with the packages of this folder in place of installed ones."""
+"""with_stubs.py PROGRAM: runs a method with the packages of this folder instead of installed ones."""
 import pathlib
 import runpy
 import sys

@@ -1,4 +1,4 @@
-// What the library answers is what the engine answers, or what the input was made of.
+// The library's answers equal the engine's answers, or the values from which the input was made.
 #include <etude/cameras.h>
 #include <etude/capture.h>
 #include <etude/coaching.h>

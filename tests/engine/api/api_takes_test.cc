@@ -1,4 +1,5 @@
-// The library's silhouettes and transitions are the engine's to the last bit; what the engine only asserts is refused.
+// The library's silhouettes and transitions equal the engine's to the last bit. Where the engine only asserts, the
+// library refuses with a reason.
 #include <etude/silhouettes.h>
 #include <etude/transitions.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The library gives what the engine gives, and refuses with reasons what the engine only asserts.
+// The library returns what the engine returns. Where the engine only asserts, the library refuses with a reason.
 #include <etude/capture.h>
 #include <etude/fuzzy.h>
 #include <etude/recognition.h>

@@ -1,4 +1,4 @@
-// What the library refuses just beyond each limit and takes just within.
+// The library refuses inputs just beyond each limit, and accepts inputs just within.
 #include <etude/cameras.h>
 #include <etude/capture.h>
 #include <etude/coaching.h>

@@ -1,4 +1,5 @@
-// Cameras calibrated from rendered pictures of boards: corners are where they were, and the truth is within the ± told.
+// Calibrates cameras from rendered pictures of boards: corners are at their true pixels, and the truth lies within the
+// reported ±.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// What readers of rigs and point pairs complain of when files are spoilt line by line, and how often they read them.
+// The complaints of readers of rigs and point pairs about files damaged line by line, and how often they accept such
+// files.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The golden value of calibration: cameras and boards refined from noisy views. What is right is said by the tests
-// beside.
+// The golden value of calibration: cameras and boards refined from noisy views. The other tests of this folder check
+// that results are right.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The golden value of capture by marks that err or are missing: measured, bridged, recovered. What is right is said by
-// the tests beside.
+// The golden value of capture by marks that are noisy or missing: lengths, gaps, recovery. The other tests of this
+// folder check that results are right.
 #include <gtest/gtest.h>
 
 #include <vector>

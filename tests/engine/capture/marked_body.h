@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// A state without straight limbs, one for each `phase`, near each other for near ones.
+/// Returns a state without straight limbs for each `phase`; near phases give near states.
 inline TreeState ModelState(const KinematicTree& tree, double phase) {
   TreeState state = StandingState(tree);
   state.root_position = {0.1 * std::sin(phase), 0, 0.1 * std::cos(phase)};
@@ -22,24 +22,25 @@ inline TreeState ModelState(const KinematicTree& tree, double phase) {
   return state;
 }
 
-/// The tree's body in such a state.
+/// Returns the tree's body in ModelState.
 inline BodyPose ModelPose(double phase = 0) {
   const KinematicTree body = MakeBodyTree({});
   return ToBodyPose(body, ModelState(body, phase));
 }
 
-/// A camera around the stage: 0° = in front of the body, 90° = at its left hand.
+/// Returns a camera around the stage: 0° is in front of the body, 90° at its left hand.
 inline ProjectionMatrix CameraAt(double degrees, double height) {
   const double a = Radians(degrees);
   return MatrixOf(LookAt({}, {3.8 * std::sin(a), height, 3.8 * std::cos(a)}, {0, 0.9, 0}));
 }
 
-/// No limb of a body in an everyday pose lies in a plane through all three; the first two are a pair as paper B's.
+/// Returns three cameras; no limb of a body in an everyday pose lies in a plane through all three. The first two stand
+/// like paper B's pair.
 inline std::vector<ProjectionMatrix> ThreeCameras() {
   return {CameraAt(-40, 1), CameraAt(40, 2.2), CameraAt(100, 1.5)};
 }
 
-/// What a faultless hand draws on one picture.
+/// Returns the marks of a perfect annotator on one picture.
 inline Marks ExactMarks(const BodyPose& pose, const ProjectionMatrix& matrix) {
   Marks marks;
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
@@ -52,7 +53,7 @@ inline Marks ExactMarks(const BodyPose& pose, const ProjectionMatrix& matrix) {
   return marks;
 }
 
-/// `[camera][frame]`
+/// Marks as `[camera][frame]`.
 using TakeMarks = std::vector<std::vector<Marks>>;
 
 inline TakeMarks ExactMarks(const std::vector<BodyPose>& poses, const std::vector<ProjectionMatrix>& cameras) {
@@ -64,7 +65,7 @@ inline TakeMarks ExactMarks(const std::vector<BodyPose>& poses, const std::vecto
   return marks;
 }
 
-/// The unit vector along the limb that `mark` draws.
+/// Returns the unit vector along the limb that `mark` draws.
 inline glm::dvec3 LimbOf(const BodyPose& pose, const StrokeMark& mark) {
   return glm::normalize(pose[mark.to] - pose[mark.from]);
 }

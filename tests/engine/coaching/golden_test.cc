@@ -1,4 +1,4 @@
-// The coaching pipeline's golden value: sessions of every policy with players who do anything, and every word said.
+// The golden value of the coaching pipeline: sessions of every policy with random players, and every text.
 #include <gtest/gtest.h>
 
 #include <set>

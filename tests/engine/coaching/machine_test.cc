@@ -1,4 +1,4 @@
-// The coach's machine, arrow by arrow.
+// The coach's state machine, transition by transition.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

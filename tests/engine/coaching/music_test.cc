@@ -1,4 +1,4 @@
-// Music-time tags against closed forms, and the target: clocks that drift and stutter.
+// Music-time tags against closed forms, with clocks that drift and stutter.
 
 #include "sim/music/music.h"
 

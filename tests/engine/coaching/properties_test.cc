@@ -1,4 +1,4 @@
-// What must hold whatever a player does: random players, every policy, several ways from clip to clip.
+// Properties that must hold for every player: random players, every policy, several choices of transitions.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Claps, stillness, mirror images, and the checks of a dance.
+// The detection of claps, stillness and mirror images, and the checks of a dance.
 
 #include <gtest/gtest.h>
 

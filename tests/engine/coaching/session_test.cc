@@ -1,4 +1,4 @@
-// The coach with a sensor: filter, recogniser and machine together, on a body that dances a built-in song.
+// The coach with a sensor: filter, recogniser and state machine together, on a body that dances a built-in song.
 
 #include "engine/coaching/session.h"
 

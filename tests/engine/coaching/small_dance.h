@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// A body in the ready stance whose arms are raised by so many degrees.
+/// Returns a body in the ready stance with its arms raised by `degrees`.
 inline BodyPose ArmsAt(double degrees) {
   Controls controls = ReadyStance();
   for (Side side : {Side::kLeft, Side::kRight})
@@ -18,7 +18,7 @@ inline BodyPose ArmsAt(double degrees) {
   return PoseOf(controls);
 }
 
-/// Arms that go up and down again, so many frames long.
+/// Returns a motion of `frames` frames in which the arms go up and down again.
 inline BodyMotion Flap(std::size_t frames, double height_deg) {
   BodyMotion motion;
   for (std::size_t i = 0; i < frames; ++i) {
@@ -29,8 +29,8 @@ inline BodyMotion Flap(std::size_t frames, double height_deg) {
 
 constexpr std::size_t kRepetitionFrames = 90;
 
-/// Two moves, each danced twice in a row: four repetitions of three seconds, the first at one second. A tag at the
-/// beginning of each, music at the dance's own tempo.
+/// Returns a dance of two moves, each danced twice in succession: four repetitions of three seconds, the first at one
+/// second. There is a tag at the beginning of each repetition, and the music has the dance's own tempo.
 inline Dance SmallDance() {
   Dance dance{.title = "small", .tempo_bpm = 120, .motion = Flap(4 * kRepetitionFrames + 60, 60)};
   for (const char* name : {"first", "second"}) {
@@ -48,7 +48,7 @@ inline Dance SmallDance() {
   return dance;
 }
 
-/// A coach of the small dance, and a player who is told what to do.
+/// A session of a coach with the small dance, and of a player whose behaviour the test sets.
 class SmallSession {
  public:
   explicit SmallSession(const CoachOptions& options = {}, const char* policy = "at-first-mistake",
@@ -60,7 +60,7 @@ class SmallSession {
     state_ = coach_.BeginDancing();
   }
 
-  /// What the player does from now on.
+  /// The player's behaviour from now on.
   struct Player {
     bool seen = true;
     bool moves = true;
@@ -71,7 +71,7 @@ class SmallSession {
     bool moment = false;
   } player;
 
-  /// Plays `frames` frames, or until something of that kind was decided; false when it was not.
+  /// Plays `frames` frames, or until the coach decides an event of this kind; returns false if it did not.
   bool Until(CoachEvent event, int frames = 3000) {
     for (int i = 0; i < frames; ++i) {
       Next();
@@ -109,7 +109,7 @@ class SmallSession {
     const double swing = player.moves ? 0.25 * std::sin(0.3 * static_cast<double>(state_.frame)) : 0;
     SensedFrame frame = StreamOf({.poses = {ArmsAt(20)}}).frames.front();
     for (SensedJoint& joint : frame.joints) joint.position.x += swing;
-    if (player.claps) {  // apart and together, four times a second
+    if (player.claps) {  // the hands move apart and together four times a second
       const double gap = state_.frame % 8 < 4 ? 0.6 : 0.05;
       frame[Role::kLeftHand].position = {gap / 2, 1.4, 0.4};
       frame[Role::kRightHand].position = {-gap / 2, 1.4, 0.4};

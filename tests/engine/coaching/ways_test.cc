@@ -1,5 +1,5 @@
-// Every way that a session can need, of every song, by paper A's transitions (sections 3.5 and 4): from the end of
-// every window into every corrective act, from there into the slow demonstration, from there back to the dance.
+// Every transition that a session of any song can need, by paper A's method (sections 3.5 and 4): from the end of every
+// window into every corrective act, from there into the slow demonstration, and from there back to the dance.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What exporters write beyond the letter of the format; none of it may change the motion.
+// Deviations from the format that exporters write; none of them may change the motion.
 #include <gtest/gtest.h>
 
 #include <string>

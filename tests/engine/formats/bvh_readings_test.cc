@@ -1,4 +1,5 @@
-// Programs read OFFSET beside positions in two ways. Two small readers, which share nothing with ours, must agree.
+// Programs interpret OFFSET together with position channels in two ways. Two small readers, which share nothing with
+// ours, must agree with it.
 #include <gtest/gtest.h>
 
 #include <cmath>

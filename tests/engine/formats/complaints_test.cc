@@ -1,4 +1,4 @@
-// What readers of files complain of when one thing is spoilt, and how often they read it all the same.
+// The complaints of file readers about texts with one damage, and how often they accept such texts.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// Which way is up, of people in every posture before cameras as people set them up: the truth is within the angle told.
+// Finds the up axis from people in every posture, seen by cameras as people set them up; the truth must lie within the
+// reported angle.
 #include "engine/keypoints/find_up.h"
 
 #include <fmt/core.h>

@@ -1,5 +1,5 @@
-// The golden value of people by keypoints that err, are mistaken, or are not there: followed, matched, mended,
-// recovered and adjusted. What is right is said by the tests beside.
+// The golden value of people from keypoints that are noisy, mistaken or missing: tracked, matched, repaired, recovered
+// and adjusted. The other tests of this folder check that results are right.
 #include <gtest/gtest.h>
 
 #include <vector>

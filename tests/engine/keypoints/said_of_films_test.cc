@@ -1,4 +1,4 @@
-// What is said of films and rigs that do not fit together.
+// The messages about films and rigs that do not fit together.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Four cameras about the origin, with lenses.
+/// Returns four cameras around the origin, with lens distortion.
 inline std::vector<Camera> FourCameras() {
   const Intrinsics in{.width = 1280, .height = 720, .fx = 900, .fy = 900, .cx = 640, .cy = 360, .skew = 0};
   std::vector<Camera> cameras{LookAt(in, {0.3, 1.3, 4}, {0, 1, 0}), LookAt(in, {3.2, 2.1, 2.4}, {0, 1, 0}),
@@ -18,22 +18,22 @@ inline std::vector<Camera> FourCameras() {
   return cameras;
 }
 
-/// Their matrices, without lenses.
+/// Returns the matrices of cameras, without lens distortion.
 inline std::vector<ProjectionMatrix> MatricesOf(const std::vector<Camera>& cameras) {
   std::vector<ProjectionMatrix> matrices;
   for (const Camera& camera : cameras) matrices.push_back(MatrixOf(camera));
   return matrices;
 }
 
-/// The four cameras without lenses.
+/// Returns the four cameras without lens distortion.
 inline std::vector<Camera> Pinholes() {
   std::vector<Camera> cameras = FourCameras();
   for (Camera& camera : cameras) camera.distortion = {};
   return cameras;
 }
 
-/// A stick figure that walks on the spot and swings its arms, standing at (x, 0, z): every landmark but hands and hips'
-/// middle. Its limbs keep their lengths: shank 0.42, thigh 0.43, upper arm 0.29, forearm 0.25.
+/// Returns a stick figure that walks on the spot at (x, 0, z) and swings its arms. It has every landmark but the hands
+/// and the hips' middle. Its limbs keep their lengths: shank 0.42, thigh 0.43, upper arm 0.29, forearm 0.25 m.
 inline LandmarkPositions Walker(double x, double z, double seconds) {
   using enum Landmark;
   LandmarkPositions marks;
@@ -65,7 +65,7 @@ inline LandmarkPositions Walker(double x, double z, double seconds) {
   return marks;
 }
 
-/// What a camera shows of it, each coordinate off by `sigma_px`.
+/// Returns the keypoints of the figure in a camera, with noise of `sigma_px` on each coordinate.
 inline SeenPerson Seen(const Camera& camera, const LandmarkPositions& places, double sigma_px, RandomStream& dice) {
   SeenPerson person;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {

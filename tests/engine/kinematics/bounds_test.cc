@@ -1,4 +1,4 @@
-// Faults and what counts as one place or within reach, at their bounds.
+// Faults at their bounds, and the bounds of equal positions and of reach.
 #include <gtest/gtest.h>
 
 #include "engine/kinematics/capture_body.h"

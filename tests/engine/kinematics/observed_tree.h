@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// What faultless cameras and strokes would tell of `pose`.
+/// Returns the observation of `pose` by perfect cameras and strokes.
 inline LimbObservation Observe(const BodyPose& pose) {
   LimbObservation observation{pose, {}};
   for (Role limb : ObservedLimbs()) {
@@ -19,7 +19,7 @@ inline LimbObservation Observe(const BodyPose& pose) {
   return observation;
 }
 
-/// The same with ends off by `metres` per axis and directions turned by `degrees` (standard deviations).
+/// Adds noise to an observation: to ends `metres` per axis, to directions `degrees` (standard deviations).
 inline LimbObservation Disturb(LimbObservation observation, int trial, double metres, double degrees) {
   RandomStream random({.suite_seed = 7, .scenario = "kinematics-test", .trial = trial}, "observation");
   for (glm::dvec3& end : observation.ends.joints) end += metres * random.Normal3();

@@ -10,13 +10,13 @@
 
 namespace etude {
 
-/// Paper B's body of default lengths.
+/// Returns paper B's body with default lengths.
 inline const KinematicTree& Body() {
   static const KinematicTree tree = MakeBodyTree({});
   return tree;
 }
 
-/// A pose of `tree` uniform in `share` of every joint's range about its middle, standing somewhere, turned somehow.
+/// Returns a pose of `tree`, uniform in the middle `share` of every joint's range, at a random position and heading.
 inline TreeState RandomPose(const KinematicTree& tree, int trial, double share) {
   RandomStream random({.suite_seed = 7, .scenario = "kinematics-test", .trial = trial}, "pose");
   TreeState state = StandingState(tree);
@@ -31,7 +31,7 @@ inline TreeState RandomPose(const KinematicTree& tree, int trial, double share) 
   return state;
 }
 
-/// The problem of finding `truth` back from angles disturbed by `noise_deg` (standard deviation).
+/// Returns the problem of finding `truth` from angles with noise of `noise_deg` (standard deviation).
 inline IkProblem DisturbedProblem(const KinematicTree& tree, const TreeState& truth, int trial, double noise_deg) {
   RandomStream random({.suite_seed = 7, .scenario = "kinematics-test", .trial = trial}, "noise");
   IkProblem problem{truth, {}, tree.limits};

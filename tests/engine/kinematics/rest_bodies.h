@@ -9,14 +9,14 @@
 
 namespace etude {
 
-/// The twenty roles of paper B's default body, each limb by itself.
+/// Returns the twenty roles of paper B's default body, each limb separate.
 inline RestBody PlainRestBody() {
   const std::vector<BodyPose> standing = {ToBodyPose(MakeBodyTree({}), StandingState(MakeBodyTree({})))};
   return RestBodyOf(standing);
 }
 
-/// The same as mocap files have bodies: a hip joint that turns nothing, a second spine joint from which collars and
-/// neck leave, a neck of two joints, toes that bend.
+/// Returns the same body with the joints of mocap files: a hip joint that rotates nothing, a second spine joint from
+/// which collars and neck branch, a neck of two joints, and toes that bend.
 inline RestBody JointedRestBody() {
   RestBody body = PlainRestBody();
   const auto add = [&](const char* name, int parent, const glm::dvec3& at) {
@@ -24,7 +24,7 @@ inline RestBody JointedRestBody() {
     return static_cast<int>(body.joints.size()) - 1;
   };
   const auto place = [&](Role role) { return body.roles[Index(role)].position; };
-  // Toes: the foot bends where its ball is, a little below the straight line.
+  // The foot bends at its ball, a little below the straight line to the toes.
   for (const Role foot : {Role::kLeftFoot, Role::kRightFoot}) {
     RestBody::RoleAnchor& tip = body.roles[Index(foot)];
     tip.joint = add("toe", tip.joint, glm::mix(place(*ParentOf(foot)), tip.position, 0.7) + glm::dvec3(0, -0.02, 0));
@@ -38,8 +38,8 @@ inline RestBody JointedRestBody() {
   return body;
 }
 
-/// The same as depth sensors see it: the trunk is one piece, and hips and shoulders hang from its middle, each on a
-/// joint of its own.
+/// Returns the same body with the joints of depth sensors: the trunk is one piece; hips and shoulders are attached to
+/// its middle by separate joints.
 inline RestBody SensorRestBody() {
   using enum Role;
   const BodyPose rest = PlainRestBody().Pose();

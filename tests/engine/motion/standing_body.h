@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// A body of round lengths, standing on the floor.
+/// Returns a body with round lengths that stands on the floor.
 inline BodyPose Standing() {
   using enum Role;
   BodyPose pose;

@@ -1,4 +1,4 @@
-// What bears a body does not depend on where it is, which way it faces, or which side is left.
+// Which joints bear a body does not depend on its position, its heading, or an exchange of left and right.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,5 +1,5 @@
-// The recognition pipeline's golden value: a noisy sensor that loses joints and bodies, and the evidence of every
-// recogniser. What is right is said by the tests beside.
+// The golden value of the recognition pipeline: a noisy sensor that loses joints and bodies, and the evidence of every
+// recogniser. The other tests of this folder check that results are right.
 #include <gtest/gtest.h>
 
 #include "engine/recognition/recognise.h"

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// A standing body that raises its arms sideways: `left` and `right` in radians from hanging, elbows straight. `size`
-/// scales it, `move` puts it elsewhere.
+/// Returns a standing body that raises its arms sideways: `left` and `right` are radians from hanging, elbows are
+/// straight. `size` scales the body, `move` moves it.
 inline BodyPose ArmsRaised(double left, double right, double size = 1, const FloorMove& move = {}) {
   using enum Role;
   BodyPose pose;
@@ -37,7 +37,7 @@ inline BodyPose ArmsRaised(double left, double right, double size = 1, const Flo
   return move.Apply(pose);
 }
 
-/// Arms that swing once to `left` and `right` at most and back within `seconds`, at 30 Hz.
+/// Returns a motion of `seconds` at 30 Hz in which the arms swing once up to `left` and `right`, and back.
 inline BodyMotion Swing(double left, double right, double seconds, double size = 1, const FloorMove& move = {}) {
   BodyMotion motion;
   const int frames = static_cast<int>(seconds * motion.rate_hz);
@@ -48,12 +48,12 @@ inline BodyMotion Swing(double left, double right, double seconds, double size =
   return motion;
 }
 
-/// Standing still.
+/// Returns a motion that stands still.
 inline BodyMotion Rest(double seconds, double size = 1, const FloorMove& move = {}) {
   return Swing(0, 0, seconds, size, move);
 }
 
-/// One after the other.
+/// Returns a recording of the motions, one after the other.
 inline SkeletonStream Then(const std::vector<BodyMotion>& motions) {
   BodyMotion all;
   for (const BodyMotion& motion : motions) all.poses.insert(all.poses.end(), motion.poses.begin(), motion.poses.end());

@@ -1,5 +1,5 @@
-// The retargeting pipeline's golden value: people of any rig, from their names to a body and back to a rig. What is
-// right is said by the tests beside.
+// The golden value of the retargeting pipeline: people of any rig, from their joints' names to a body and back to a
+// rig. The other tests of this folder check that results are right.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

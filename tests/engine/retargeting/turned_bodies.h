@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// `from` and everything that hangs from it, turned about `from`.
+/// Rotates `from`, and every joint below it in the tree, about `from`.
 inline BodyPose Turned(BodyPose pose, Role from, const glm::dquat& turn) {
   const glm::dvec3 pivot = pose[from];
   std::array<bool, kRoleCount> below{};
@@ -28,7 +28,7 @@ inline BodyPose MirrorImage(const BodyPose& pose) {
   return mirrored;
 }
 
-/// Standing with straight legs and the toes straight ahead: all hinges along X.
+/// Returns a body that stands with straight legs and the toes straight ahead, so that all hinges lie along X.
 inline BodyPose AtAttention() {
   BodyPose pose = StandingPose();
   for (const Role hip : {Role::kLeftHip, Role::kRightHip}) {

@@ -14,13 +14,13 @@
 
 namespace etude {
 
-/// An angle of a body's joint.
+/// A value for one angle of a joint.
 struct Bend {
   int joint, axis;
   double degrees;
 };
 
-/// The body as it stands, but for these bends.
+/// Returns the standing state of the body with these angles changed.
 inline TreeState Bent(const SilhouetteBody& body, const std::vector<Bend>& bends) {
   TreeState state = StandingState(body.tree);
   for (std::size_t i = 0; i < state.angles.size(); ++i) state.angles[i] = body.habits[i].angle;
@@ -30,9 +30,9 @@ inline TreeState Bent(const SilhouetteBody& body, const std::vector<Bend>& bends
   return state;
 }
 
-/// A ball as a camera sees it.
+/// A ball in a camera's view.
 struct SeenBall {
-  glm::dvec3 centre;  ///< From the camera, in world axes.
+  glm::dvec3 centre;  ///< from the camera, in world axes, metres
   double radius;
 
   bool IsMetBy(const glm::dvec3& ray) const {
@@ -41,14 +41,14 @@ struct SeenBall {
   }
 };
 
-/// The mask that a pinhole camera would make of capsules, by rays: a pixel is set when the line of sight through its
-/// centre comes nearer to some capsule's axis than its radius there. Shares nothing with the code under test but the
-/// body's description.
+/// Computes by ray casting the mask of capsules in a pinhole camera: a pixel is set if the ray through its centre comes
+/// nearer to some capsule's axis than the capsule's radius there. Shares only the body's description with the tested
+/// code.
 inline Mask RayCast(const SilhouetteBody& body, const TreeState& state, const Camera& camera, double thickness = 1) {
   const TreeFrames frames = ComputeFrames(body.tree, state);
   struct Limb {
-    SeenBall around;                 ///< Holds all of it: a ray that misses it misses the limb.
-    std::array<SeenBall, 13> balls;  ///< Along the axis.
+    SeenBall around;                 ///< contains the whole limb: a ray that misses it misses the limb
+    std::array<SeenBall, 13> balls;  ///< balls along the axis
   };
   std::vector<Limb> limbs;
   for (const FleshCapsule& flesh : body.flesh) {
@@ -78,7 +78,7 @@ inline Mask RayCast(const SilhouetteBody& body, const TreeState& state, const Ca
   return mask;
 }
 
-/// Cameras around the middle, 3.8 m away, at different heights.
+/// Returns cameras around the middle of the stage, 3.8 m away, at different heights.
 inline std::vector<Camera> CamerasAround(const std::vector<double>& angles_deg) {
   std::vector<Camera> cameras;
   for (std::size_t i = 0; i < angles_deg.size(); ++i) {

@@ -1,5 +1,5 @@
-// The golden value of tracking by silhouettes: small pictures of somebody who turns, some cut off, some of nobody. What
-// is right is said by the tests beside.
+// The golden value of tracking by silhouettes: small pictures of a turning person, some cut off, some without a person.
+// The other tests of this folder check that results are right.
 #include <gtest/gtest.h>
 
 #include <cmath>

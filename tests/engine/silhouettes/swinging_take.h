@@ -12,7 +12,7 @@
 
 namespace etude {
 
-// An arm that swings, facing half to the left.
+// Returns a state with one swinging arm, facing half to the left.
 inline TreeState Swinging(const SilhouetteBody& body, double phase) {
   TreeState state = Bent(body, {{body.limbs[0].upper, 1, -60},
                                 {body.limbs[1].upper, 0, 60 + 40 * std::sin(phase)},
@@ -24,7 +24,7 @@ inline TreeState Swinging(const SilhouetteBody& body, double phase) {
   return state;
 }
 
-/// Its silhouettes in three cameras.
+/// The silhouettes of the swinging body in three cameras.
 struct SwingingTake {
   SilhouetteBody body = MakeSilhouetteBody({});
   std::vector<ProjectionMatrix> matrices;
@@ -50,7 +50,7 @@ struct SwingingTake {
   }
 };
 
-/// The mean error over frames that are all found; `state_of(k)` is the k-th found state.
+/// Returns the mean error over frames, which must all be found; `state_of(k)` is the k-th found state.
 template <typename StateOf>
 double MeanErrorOver(const SwingingTake& take, const StateOf& state_of) {
   double sum = 0;

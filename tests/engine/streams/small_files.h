@@ -9,8 +9,8 @@
 
 namespace etude::testing {
 
-/// A person at the origin who faces +Z with the arms out, 1.7 m tall, toes on the floor; the left hand `raised` m
-/// higher.
+/// Returns a person at the origin who faces +Z with the arms out, 1.7 m tall, toes on the floor; the left hand is
+/// `raised` m higher.
 inline BodyPose StandingPose(double raised = 0) {
   using enum Role;
   BodyPose pose;
@@ -26,22 +26,22 @@ inline BodyPose StandingPose(double raised = 0) {
   return pose;
 }
 
-/// A left hand that goes up and down once in two seconds.
+/// Returns a motion in which the left hand goes up and down once in two seconds.
 inline BodyMotion WavingMotion(int frames = 60, double rate_hz = 30) {
   BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
   for (int t = 0; t < frames; ++t) motion.poses.push_back(StandingPose(0.3 * std::sin(3.14159 * t / rate_hz)));
   return motion;
 }
 
-/// Where a sensor 1 m high and 3 m before the person sees a place, in the Kinect SDK's space (X to the sensor's left, Y
-/// up, Z away from it), tilted down by `tilt` radians.
+/// Returns a position in the Kinect SDK's space (X to the sensor's left, Y up, Z away from the sensor), for a sensor 1
+/// m high and 3 m before the person, tilted down by `tilt` radians.
 inline glm::dvec3 KinectSpace(const glm::dvec3& world, double tilt = 0) {
   const glm::dvec3 level(-world.x, world.y - 1, 3 - world.z);
   const double c = std::cos(tilt), s = std::sin(tilt);
   return {level.x, c * level.y + s * level.z, -s * level.y + c * level.z};
 }
 
-/// A Kinect v1's rows; `fourth` is put after each place, `stamp` before each row, where they are not empty.
+/// Returns the rows of a Kinect v1; `fourth`, if not "", stands after each position.
 inline std::string KinectV1Text(const BodyMotion& motion, const std::string& fourth = "", double tilt = 0) {
   std::string text;
   for (const BodyPose& pose : motion.poses) {
@@ -54,7 +54,7 @@ inline std::string KinectV1Text(const BodyMotion& motion, const std::string& fou
   return text;
 }
 
-/// The same with a clock before each row: `first`, then `step` more each time.
+/// Returns the rows with a time before each: `first`, then `step` more in each row.
 inline std::string WithClock(const std::string& rows, double first, double step) {
   std::string text;
   int row = 0;
@@ -66,8 +66,8 @@ inline std::string WithClock(const std::string& rows, double first, double step)
   return text;
 }
 
-/// Joints of a Kinect v2 in the order of its SDK: those of Kinect v1 with the neck, the shoulder centre, hand tips and
-/// thumbs beside them.
+/// Returns the joints of a Kinect v2 in its SDK's order: those of a Kinect v1, and the neck, the shoulder centre, hand
+/// tips and thumbs.
 inline std::vector<glm::dvec3> KinectV2Joints(const BodyPose& pose) {
   using enum Role;
   std::vector<glm::dvec3> joints;
@@ -82,7 +82,7 @@ inline std::vector<glm::dvec3> KinectV2Joints(const BodyPose& pose) {
   return joints;
 }
 
-/// A Kinect v2's rows, `unit` to a metre; `rest` is put after each place.
+/// Returns the rows of a Kinect v2, with `unit` units per metre; `rest` stands after each position.
 inline std::string KinectV2Text(const BodyMotion& motion, const std::string& rest, double unit = 1) {
   std::string text;
   for (const BodyPose& pose : motion.poses) {
@@ -93,7 +93,7 @@ inline std::string KinectV2Text(const BodyMotion& motion, const std::string& res
   return text;
 }
 
-/// NTU's text with one body, or none in the frame `without`; every joint in `state`.
+/// Returns NTU's text with one body, or with none in the frame `without`; every joint has the tracking state `state`.
 inline std::string NtuText(const BodyMotion& motion, int state = 2, std::size_t without = 1000000) {
   std::string text = fmt::format("{}\n", motion.poses.size());
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
@@ -106,7 +106,8 @@ inline std::string NtuText(const BodyMotion& motion, int state = 2, std::size_t 
   return text;
 }
 
-/// What the offline processor writes: millimetres, X to the camera's right, Y down, Z away from it.
+/// Returns the output of the Azure Kinect's offline processor: millimetres, X to the camera's right, Y down, Z away
+/// from the camera.
 inline std::string AzureText(const BodyMotion& motion, const std::string& confidence = "") {
   using enum Role;
   constexpr int kRoleOfJoint[32] = {0,  1,  2,  2,  4,  4,  5,  6,  7,  7,  7, 8, 8, 9, 10, 11,

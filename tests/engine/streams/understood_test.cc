@@ -1,4 +1,4 @@
-// What texts of skeletons are understood as: format, rate, level and floor, or the complaint; read as a whole and live.
+// How texts of skeletons are interpreted: format, rate, level and floor, or the complaint; read as a whole and live.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -7,7 +7,7 @@
 
 namespace etude::testing {
 
-/// A person who stands with straight arms that hang `left` and `right` degrees from down, to the sides.
+/// Returns a standing person with straight arms, raised sideways by `left` and `right` degrees from hanging.
 inline BodyPose ArmsAt(double left, double right) {
   using enum Role;
   BodyPose pose;
@@ -26,7 +26,8 @@ inline BodyPose ArmsAt(double left, double right) {
   return pose;
 }
 
-/// Both arms go from `low` to `high` degrees and back in `seconds`, at rest for half a second before and after.
+/// Returns a recording in which both arms go from `low` to `high` degrees and back in `seconds`, with half a second of
+/// rest before and after.
 inline SkeletonStream Raise(double low, double high, double seconds = 2) {
   BodyMotion motion;
   const int move = static_cast<int>(30 * seconds), rest = 15;

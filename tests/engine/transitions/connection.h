@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// All built-in moves and acts, danced by one body.
+/// Returns all built-in moves and acts, danced by one body.
 inline MotionLibrary BuiltinLibrary() {
   std::vector<std::string> names = BuiltinMoveNames();
   for (const std::string& act : BuiltinActNames()) names.push_back(act);
@@ -17,14 +17,14 @@ inline MotionLibrary BuiltinLibrary() {
   return MakeLibrary(names, clips, MakeBodyProportions(PoseOf(Controls{}), 0.9));
 }
 
-/// What transitions through in-betweens came to.
+/// Statistics of transitions through in-betweens.
 struct Connections {
   int tried = 0, found = 0;
   int forced = 0;
   double worst_wait_s = 0;
 };
 
-/// Tries every `step`-th frame of every clip into every other clip.
+/// Tries transitions from every `step`-th frame of every clip into every other clip.
 inline Connections TryAll(const MotionLibrary& library, int step, const MatchRules& rules = {}) {
   Connections connections;
   const int count = static_cast<int>(library.tagged.size());

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A straight body tipped backwards about its feet: by 0° it stands, by 90° it lies on its back.
+/// Returns a straight body tipped backwards about its feet: at 0° it stands, at 90° it lies on its back.
 inline BodyPose TippedBody(double degrees) {
   BodyPose pose = PosedBody().Pose();
   const glm::dvec3 pivot = 0.5 * (pose[Role::kLeftFoot] + pose[Role::kRightFoot]);
@@ -21,7 +21,7 @@ inline BodyMotion LyingClip(int frames) {
   return {kJudgedRateHz, std::vector<BodyPose>(static_cast<std::size_t>(frames), TippedBody(90))};
 }
 
-/// Who lies, lies for a quarter of the clip, is tipped up and stands for the last quarter.
+/// Returns a clip whose body lies for a quarter of the time, rises, and stands for the last quarter.
 inline BodyMotion RisingClip(int frames) {
   BodyMotion motion;
   for (int f = 0; f < frames; ++f) {

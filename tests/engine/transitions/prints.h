@@ -26,7 +26,7 @@ inline void AddTo(testing::Fingerprint& print, const std::optional<PreferredJoin
   if (join) print.Add(join->blend_s).Add(join->way).Add(join->carried);
 }
 
-/// Adds all that a record says, its words too.
+/// Adds all fields of a record to a fingerprint, texts included.
 inline void AddTo(testing::Fingerprint& print, const TransitionRecord& record) {
   print.Add(record.branch).Add(record.request_frame).Add(record.segments.size()).Add(record.candidates.size());
   for (const Segment& segment : record.segments) {
@@ -42,7 +42,8 @@ inline void AddTo(testing::Fingerprint& print, const TransitionRecord& record) {
   print.Add(record.pairs_seen).Add(record.pairs_matched).Add(record.wait_s).Add(record.cost_unit).Add(record.why);
 }
 
-/// A dance that takes up a few poses again and again, of grades in steps of an eighth: nearly everything in it ties.
+/// Returns a library with a dance that repeats a few poses, with grades in steps of an eighth, so that nearly all
+/// distances tie.
 inline MotionLibrary LibraryOfTies() {
   RandomStream dice({.suite_seed = 6, .scenario = "ties", .trial = 0}, "poses");
   const BodyMotion poses = RandomClip(dice, 60, 0.6);
@@ -67,7 +68,7 @@ inline MotionLibrary LibraryOfTies() {
   return library;
 }
 
-/// Some built-in moves and acts, danced by one body with feet.
+/// Returns some built-in moves and acts, danced by one body with feet.
 inline MotionLibrary LibraryOfMoves() {
   const std::vector<std::string> names = {"aerobic", "jump", "boxing", "sway", "wave", "praise"};
   std::vector<BodyMotion> clips;
@@ -75,7 +76,7 @@ inline MotionLibrary LibraryOfMoves() {
   return MakeLibrary(names, clips, MakeBodyProportions(PoseOf(Controls{}), 0.9));
 }
 
-/// Clips that lie, stand up and lie down, and some that stand.
+/// Returns clips that lie, stand up and lie down, and some that stand.
 inline MotionLibrary LibraryOfLying() {
   RandomStream dice({.suite_seed = 6, .scenario = "lying", .trial = 0}, "clips");
   BodyMotion sinks = RisingClip(110), rises = RisingClip(75);

@@ -13,8 +13,8 @@
 
 namespace etude {
 
-/// A body whose every limb swings about an axis of its own while it walks a curve: smooth, and never two clips alike.
-/// `wildness` 0 stands still; at 1 limbs swing by up to a right angle to both sides.
+/// Returns a body that walks along a curve while each limb swings about its own axis. The motion is smooth, and no two
+/// clips are alike. At `wildness` 0 the body stands still; at 1 limbs swing by up to a right angle to both sides.
 inline BodyMotion RandomClip(RandomStream& dice, int frames, double wildness) {
   struct Swing {
     glm::dvec3 axis;

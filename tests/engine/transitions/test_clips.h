@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// A body standing still for `frames` frames with both arms raised sideways by `degrees`.
+/// Returns a clip of `frames` frames in which a body stands still with both arms raised sideways by `degrees`.
 inline BodyMotion StandingClip(int frames, double degrees) {
   PosedBody body;
   const glm::dvec3 left(1, 0, 0);
@@ -16,8 +16,8 @@ inline BodyMotion StandingClip(int frames, double degrees) {
   return {kJudgedRateHz, std::vector<BodyPose>(static_cast<std::size_t>(frames), body.Pose())};
 }
 
-/// The arms swing from hanging to overhead and back while the body walks and turns: smooth, and no two
-/// frames alike.
+/// Returns a clip in which the arms swing from hanging to overhead and back while the body walks and turns. The clip is
+/// smooth, and no two frames are alike.
 inline BodyMotion WavingClip(int frames, double phase = 0) {
   BodyMotion motion;
   for (int f = 0; f < frames; ++f) {
@@ -28,8 +28,8 @@ inline BodyMotion WavingClip(int frames, double phase = 0) {
   return motion;
 }
 
-/// A clip of given fuzzy grades instead of poses: each frame is down to one number, `levels[f]`, put
-/// into the grades of RH, so that the distance of two frames is the difference of their levels.
+/// Returns a clip with given fuzzy grades instead of poses. Each frame has one number, `levels[f]`, in the grades of
+/// RH, so that the distance of two frames is the difference of their levels.
 inline TaggedClip ClipOfLevels(const std::vector<double>& levels, std::vector<int> bridge_frames) {
   TaggedClip clip;
   for (double level : levels) {

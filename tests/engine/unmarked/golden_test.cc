@@ -1,5 +1,5 @@
-// The golden value of capture without marks: small films with noise of which little is followed. What is right is said
-// by the tests beside.
+// The golden value of capture without marks: short noisy films of which a few frames are tracked. The other tests of
+// this folder check that results are right.
 #include <gtest/gtest.h>
 
 #include <cmath>

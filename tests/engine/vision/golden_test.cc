@@ -1,5 +1,5 @@
-// The golden values of pictures: people in front of rooms, and limbs by the colours of a suit. What is right is said by
-// the tests beside.
+// The golden values of pictures: people in front of rooms, and limbs recognised by the colours of a suit. The other
+// tests of this folder check that results are right.
 #include <gtest/gtest.h>
 
 #include <algorithm>

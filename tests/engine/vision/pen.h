@@ -5,8 +5,8 @@
 
 namespace etude {
 
-/// Every pixel centre of the picture within `radius` of the segment; with flat ends none before a or behind b.
-/// `put` is told the pixel and where along the segment it is, 0 to 1 (less before a, more behind b).
+/// Calls `put` for every pixel whose centre lies within `radius` of the segment; with flat ends, for none before a or
+/// behind b. `put` gets the pixel and its position along the segment, 0 to 1 (less before a, more behind b).
 template <typename Put>
 void DrawPen(int width, int height, const glm::dvec2& a, const glm::dvec2& b, double radius, bool has_flat_ends,
              Put put) {

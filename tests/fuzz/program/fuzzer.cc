@@ -1,5 +1,5 @@
-// What libFuzzer calls. `etude_fuzz --target=bvh corpus/bvh` fuzzes one reader; `--list` names all, `--make=FOLDER`
-// writes every target's seeds and dictionary there.
+// The functions that libFuzzer calls. `etude_fuzz --target=bvh corpus/bvh` fuzzes one reader; `--list` names all
+// readers; `--make=FOLDER` writes the seeds and the dictionary of every reader into FOLDER.
 #include <fmt/format.h>
 
 #include <cstdint>

@@ -9,13 +9,13 @@
 
 namespace etude::fuzz {
 
-/// Where readers of files find what they are to read; soaks put it into memory ($TMPDIR).
+/// A folder for files that a reader reads; soaks put it into memory ($TMPDIR).
 class Folder {
  public:
   Folder() : folder_(std::move(TemporaryFolder::Make("fuzz").value())) {}
 
   const std::filesystem::path& path() const { return folder_.path(); }
-  /// The path of a file that holds these bytes now.
+  /// Writes a file with these bytes, and returns its path.
   std::filesystem::path With(std::string_view name, std::string_view bytes) const {
     const std::filesystem::path file = path() / name;
     std::filesystem::create_directories(file.parent_path());

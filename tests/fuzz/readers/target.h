@@ -9,18 +9,18 @@
 
 namespace etude::fuzz {
 
-/// What complaints call what is read.
+/// The file name in complaints.
 inline const std::string kFile = "fuzzed";
 
 /// A reader under attack.
 struct Target {
   std::string name;
-  /// Reads `bytes` as if a user had given them. Whatever they are, it returns; what it has taken, our own writer writes
-  /// so that it is taken again (Require).
+  /// Reads `bytes` as if a user had given them, and always returns. If the reader accepts them, our own writer must
+  /// write them so that the reader accepts them again (Require).
   void (*read)(std::string_view bytes);
-  /// Good inputs, made by the program: what mutations start from.
+  /// Returns good inputs, made by the program, from which mutations start.
   std::vector<std::string> (*seeds)();
-  /// Words of the format that no seed has, for the fuzzer's dictionary.
+  /// Words of the format that no good input contains, for the fuzzer's dictionary.
   std::vector<std::string> words = {};
 };
 
@@ -31,20 +31,20 @@ std::vector<Target> CameraTargets();
 std::vector<Target> SettingTargets();
 std::vector<Target> RunTargets();
 std::vector<Target> AnswerTargets();
-/// All of them.
+/// Returns all readers.
 const std::vector<Target>& Targets();
 
-/// Ends the program, saying `broken`, unless `holds`.
+/// Unless `holds`, ends the program with the message `broken`.
 void Require(bool holds, const char* broken);
-/// What must have been read or written; else ends the program, saying why it was not.
+/// Returns the value of a Result that must have one; otherwise ends the program with the error.
 template <typename T>
 decltype(auto) Required(const Result<T>& result, const char* broken) {
   if (!result) Require(false, (std::string(broken) + ": " + ToString(result.error())).c_str());
   if constexpr (!std::is_void_v<T>) return *result;
 }
 
-/// Of texts that a reader takes and a writer writes: what was read is written, that is read again, and written as the
-/// same bytes.
+/// For texts that a reader accepts: writes the value that was read, reads the written text again, and requires that
+/// writing gives the same bytes.
 template <typename Read, typename Write>
 void RequireRoundTrip(std::string_view bytes, const Read& read, const Write& write) {
   const auto once = read(bytes);
@@ -58,7 +58,8 @@ void RequireRoundTrip(std::string_view bytes, const Read& read, const Write& wri
   Require(write(*twice) == text, "what was read is written otherwise the second time");
 }
 
-/// The texts of files of the tree whose names end so; `folder` from its root, where tests run.
+/// Returns the texts of the tree's files whose names end with `ending`; `folder` is relative to the root, where tests
+/// run.
 std::vector<std::string> FilesOf(const std::string& folder, std::string_view ending);
 
 }  // namespace etude::fuzz

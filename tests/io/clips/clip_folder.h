@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// A folder of its own for motion files.
+/// A test with its own folder for motion files.
 class ClipFolder : public ::testing::Test {
  protected:
   std::string Write(const std::string& name, std::string_view bytes) {
@@ -23,7 +23,7 @@ class ClipFolder : public ::testing::Test {
   TemporaryFolder folder_ = *TemporaryFolder::Make("clips-test");
 };
 
-/// Too little of a body to be understood, but whole files.
+/// A valid file with too few joints to be understood as a body.
 inline constexpr std::string_view kTwoJoints = R"(HIERARCHY
 ROOT Hips
 {
@@ -46,14 +46,14 @@ Frame Time: 0.1
 1 0 0 0 0 0 0 0 0
 )";
 
-/// Two nodes, no animation; `buffers` is put in.
+/// Returns a glTF with two nodes and no animation; `buffers` is inserted.
 inline std::string GltfWith(const std::string& buffers) {
   return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
              "nodes": [{"name": "Hips", "children": [1]}, {"name": "Chest"}])" +
          buffers + "}";
 }
 
-/// Moves "Chest" for one second, under two names; the numbers are in `uri`.
+/// Returns a glTF that moves "Chest" for one second, under two names; `uri` holds the numbers.
 inline std::string GltfWithAnimations(const std::string& uri) {
   const std::string animation = R"("channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
                                    "samplers": [{"input": 0, "output": 1}])";
@@ -65,7 +65,7 @@ inline std::string GltfWithAnimations(const std::string& uri) {
                   animation + R"(}, {"name": "Armature|Walk", )" + animation + "}]");
 }
 
-/// The content of the animations' buffer: times 0 and 1, positions (0, 0, 0) and (0, 1, 0).
+/// Returns the content of the animations' buffer: times 0 and 1, positions (0, 0, 0) and (0, 1, 0).
 inline std::string AnimationBytes() {
   const float numbers[] = {0, 1, 0, 0, 0, 0, 1, 0};
   return {reinterpret_cast<const char*>(numbers), sizeof(numbers)};

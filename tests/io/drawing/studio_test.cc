@@ -1,4 +1,5 @@
-// Pictures of the studio and how films are drawn: by lanes, again only where something changed, in several processes.
+// Pictures of the studio, and how films draw them: vectorised, redrawn only where something changed, in several
+// processes.
 #include "io/drawing/studio.h"
 
 #include <gmock/gmock.h>

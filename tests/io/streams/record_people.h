@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// People who differ, each in one recording, as a Kinect sees them, with labels of what they did.
+/// Recordings of different people by a Kinect, one for each person, with labels of their performances.
 struct Recorded {
   std::vector<NamedStream> streams;
   std::vector<LabelledPart> parts;

@@ -4,11 +4,11 @@
 
 namespace etude {
 
-/// ExampleRun with what the cells of `ik-weights` keep of single effectors and joints. Every figure tells where it
-/// comes from, so that a table which takes it from elsewhere shows.
+/// Returns ExampleRun, with the errors of single effectors and joints in the cells of `ik-weights`. Every figure
+/// encodes its origin, so that a test detects a table with figures from the wrong place.
 RunData EffectorRun();
 
-/// The figures of EffectorRun. `axis`: 0…2; `effector`, `dof`: in the tree's order.
+/// Return the figures of EffectorRun. `axis` is 0…2; `effector` and `dof` are in the tree's order.
 double StartPositionError(int trial, int effector, int axis);
 double PositionError(int method, int trial, int effector, int axis);
 double OrientationError(int method, int trial, int effector, int axis);

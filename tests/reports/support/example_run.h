@@ -4,15 +4,15 @@
 
 namespace etude {
 
-/// A small hand-made run: four scenarios as `scenarios/quick` asks them, with plausible figures, all
-/// verdicts, failures with reasons, missing values, curves, and hostile names. Nothing is recorded.
+/// Returns a small invented run: four scenarios with the questions of `scenarios/quick`, plausible figures, all
+/// verdicts, failures with reasons, missing values, curves, and hostile names. It has no recordings.
 RunData ExampleRun();
 
-/// Adds what a film needs: a coach stepping from one arm move to another, and a capture by two cameras
+/// Adds the recordings that films need: a coach that changes from one arm move to another, and a capture by two cameras
 /// whose recovered skeleton is slightly off.
 void AddRecordings(RunData& run);
 
-/// Adds one request of the scenario "transition" as three methods recorded it, with everything that explains a
+/// Adds the recordings of one request of the scenario "transition" under three methods, with all that explains a
 /// transition: "now" cuts, "fuzzy-bridge" goes through an in-between, "gate-inertialised" takes the best of its
 /// candidates.
 void AddTransitions(RunData& run);

@@ -4,11 +4,12 @@
 
 namespace etude {
 
-/// ExampleRun with both verdicts and rivals, as a run of today has them: ik's worlds are their own units, capture's come
-/// from 4 clips (too few for a verdict beyond them), detection's from 6 and transition's from 8 clips.
+/// Returns ExampleRun with both verdicts and with rivals, as present-day runs have them. The worlds of ik are units;
+/// capture's worlds come from 4 clips (too few for a verdict on other clips), detection's from 6 and transition's from
+/// 8 clips.
 RunData UnitRun();
 
-/// Gives the scenario both, in the same way, its clips being so many.
+/// Adds both verdicts to a scenario in the way of UnitRun; its worlds then come from `clips` clips.
 void AddUnits(RunData& run, ScenarioSummary& scenario, int clips);
 
 }  // namespace etude

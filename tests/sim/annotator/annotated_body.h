@@ -12,7 +12,8 @@
 
 namespace etude {
 
-/// The nearest part of `body` at every pixel, by rays: what the renderer does, without it.
+/// Returns the nearest part of `body` at every pixel, by ray casting: the renderer's result, computed without the
+/// renderer.
 inline LabelImage LabelsOf(const std::vector<Capsule>& body, const Camera& camera) {
   const Intrinsics& in = camera.intrinsics;
   LabelImage labels(in.width, in.height);
@@ -33,7 +34,7 @@ inline LabelImage LabelsOf(const std::vector<Capsule>& body, const Camera& camer
   return labels;
 }
 
-/// A picture of labels in which every limb stands out, and all of it is on the person.
+/// A label picture in which every limb is visible, and lies wholly on the person.
 struct Shown {
   LabelImage labels;
   ColourImage colours;
@@ -48,7 +49,7 @@ struct Shown {
   AnnotatedPicture picture() const { return {labels, colours, person}; }
 };
 
-/// A standing person with the arms half raised, about 1.8 m tall.
+/// Returns a standing person with the arms half raised, about 1.8 m tall.
 inline BodyPose StandingBody() {
   using enum Role;
   BodyPose pose;
@@ -70,11 +71,11 @@ inline BodyPose StandingBody() {
   return pose;
 }
 
-/// A picture no larger than it need be.
+/// Returns intrinsics of a picture that is no larger than needed.
 inline Intrinsics NarrowPicture() { return {.width = 300, .height = 400, .cx = 150, .cy = 200}; }
 
 inline Camera FrontCamera() { return LookAt(NarrowPicture(), {1.5, 1.4, 3.5}, {0, 0.95, 0}); }
-/// A camera on the person's left.
+/// Returns a camera on the person's left.
 inline Camera SideCamera() { return LookAt(NarrowPicture(), {3.8, 1.2, 0}, {0, 0.95, 0}); }
 
 inline std::size_t StrokeTo(Role role) {

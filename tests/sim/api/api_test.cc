@@ -1,4 +1,4 @@
-// What etude::sim gives is what the simulation gives, and what cannot be simulated is refused with its reason.
+// etude::sim returns what the simulation returns, and refuses with a reason what cannot be simulated.
 #include <etude/sim/pictures.h>
 #include <etude/sim/sensor.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The coach of a dance by the library's types steps as the engine's own does.
+// The coach of a dance in the library's types takes the same steps as the engine's coach.
 #include <etude/sim/dances.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

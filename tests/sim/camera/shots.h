@@ -12,7 +12,7 @@ namespace etude {
 
 inline constexpr WorldKey kShotWorld{.suite_seed = 7, .scenario = "camera", .trial = 0};
 
-/// No effect at all, noise neither.
+/// Returns camera effects without any effect or noise.
 inline CameraEffects NoEffects() { return {.noise = 0}; }
 
 inline Camera PlainCamera(int width = 640, int height = 480) {
@@ -25,7 +25,7 @@ inline CameraModel ModelOf(const CameraEffects& effects, Camera camera = PlainCa
   return {camera, effects, 30, {kShotWorld, "camera", is_reference}};
 }
 
-/// A scene told by the colour of each pixel of the pinhole at a time.
+/// A scene, given by the colour of each pixel of the pinhole camera at a time.
 using Painter = std::function<Rgb8(int x, int y, double frame)>;
 
 inline CameraModel::Scene SceneOf(const CameraModel& model, Painter painter) {
@@ -49,13 +49,13 @@ inline ColourImage ShootFlat(CameraModel& model, Rgb8 colour, std::size_t frame 
       model, [=](int, int, double) { return colour; }, frame);
 }
 
-/// A colour's value by name: 'r', 'g' or 'b', as linear light.
+/// Returns a colour's value as linear light; `colour` is 'r', 'g' or 'b'.
 inline double LightAt(const ColourImage& picture, int x, int y, char colour = 'g') {
   const Rgb8& pixel = picture.At(x, y);
   return LightOfCodes()[colour == 'r' ? pixel.r : colour == 'g' ? pixel.g : pixel.b];
 }
 
-/// The least squares line through points: y = intercept + slope · x.
+/// The least-squares line through points: y = intercept + slope · x.
 struct Line {
   double slope = 0, intercept = 0;
 };

@@ -1,4 +1,4 @@
-// What makes a performance a body's: measured on every built-in move, 120 times a second.
+// Properties that make a performance possible for a body, measured on every built-in move, 120 times a second.
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// Tells whether the frame shows the key pose: every target's feature (engine/fuzzy) within its tolerance.
+/// Returns true if the frame shows the key pose: every target's feature (engine/fuzzy) lies within its tolerance.
 inline bool ShowsKeyPose(const KeyPose& key_pose, const BodyPose& pose, double standing_hip_height) {
   const PoseFeatures features = ComputeFeatures(pose, standing_hip_height);
   return std::ranges::all_of(key_pose.targets, [&](const KeyPose::Target& target) {
@@ -20,14 +20,14 @@ inline bool ShowsKeyPose(const KeyPose& key_pose, const BodyPose& pose, double s
   });
 }
 
-/// The first time, seconds from the motion's first frame, by which every key pose has been shown in frames of
-/// [from_s, to_s], in whatever order; nothing when one of them never is. What recognisers are taught of a move must be
-/// in it; it is no truth to judge them by.
+/// Returns the first time, in seconds from the motion's first frame, by which every key pose has been shown in frames
+/// of [from_s, to_s], in any order; nothing if one of them is never shown. A move must contain all key poses that
+/// recognisers learn for it; but this is no truth to judge recognisers by.
 inline std::optional<double> FirstReached(std::span<const KeyPose> key_poses, const BodyMotion& motion, double from_s,
                                           double to_s) {
   if (motion.poses.empty()) return std::nullopt;
   const double standing = StandingHipHeight(motion.poses.front());
-  // Frames are counted, not summed: the end of a window must not depend on rounding.
+  // Count frames instead of adding times, because the end of a window must not depend on rounding.
   constexpr double kSlack = 1e-9;
   const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(from_s * motion.rate_hz - kSlack)));
   double reached_s = from_s;

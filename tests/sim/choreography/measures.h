@@ -10,10 +10,11 @@
 
 namespace etude {
 
-/// A toe that counts as standing still.
+/// The speed below which a toe counts as standing still.
 constexpr double kStillMmps = 5;
 
-/// The fastest that a toe moves along the floor while it is down, mm/s, and how many frames it is down.
+/// Returns the highest speed of a toe along the floor while it is down, mm/s, and the number of frames in which it is
+/// down.
 inline std::pair<double, int> FastestSlide(const BodyMotion& motion, Role toe) {
   constexpr double kDown = 0.0005;
   double fastest = 0;

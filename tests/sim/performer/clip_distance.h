@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// One performance as distances are measured on it: hips at the origin, trunk 50 cm long, 15 Hz.
+/// One performance, normalised for distances: hips at the origin, trunk 50 cm long, 15 Hz.
 using NormalisedClip = std::vector<BodyPose>;
 
 inline NormalisedClip Normalised(const std::vector<BodyPose>& poses) {
@@ -25,7 +25,7 @@ inline NormalisedClip Normalised(const std::vector<BodyPose>& poses) {
   return clip;
 }
 
-/// Metres, root mean square over the joints.
+/// Returns the root mean square distance over the joints, metres.
 inline double RmsGap(const BodyPose& a, const BodyPose& b) {
   double square = 0;
   for (Role role : AllRoles()) {
@@ -35,7 +35,7 @@ inline double RmsGap(const BodyPose& a, const BodyPose& b) {
   return std::sqrt(square / kRoleCount);
 }
 
-/// Dynamic time warping: the mean gap along the path of the least sum of gaps, centimetres.
+/// Returns the dynamic time warping distance: the mean gap along the path with the smallest sum of gaps, centimetres.
 inline double WarpedDistanceCm(const NormalisedClip& a, const NormalisedClip& b) {
   struct Path {
     double sum = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// The figures of fidelity_test.cc, of a crowd, and how they order the presets.
+// The figures of fidelity_test.cc for a crowd, and the order of the presets by them.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-// People differ as real ones do. What was measured on recordings, 20 people and 14 moves (10 people and 10 actions), by
-// dynamic time warping, root mean square per joint, trunk scaled to 50 cm: the same move by another person 10.4 cm
-// (16–28) away, the nearest other move 11.5 cm (15–38); from one taught clip of one other person, one-nearest-neighbour
-// finds 82 %; durations vary with a coefficient of 0.2–0.4.
+// Simulated people differ as real people do. Measured on recordings of 20 people and 14 moves (10 people and 10
+// actions), by dynamic time warping, root mean square per joint, trunk scaled to 50 cm: the same move by another person
+// is 10.4 cm (16–28) away, the nearest other move 11.5 cm (15–38). With one taught clip by one other person,
+// one-nearest-neighbour classification finds 82 %. Durations vary with a coefficient of variation of 0.2–0.4.
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@ struct PerformedClip {
   double duration_s = 0;
 };
 
-/// Performs every move once, by one person, as they mean it.
+/// Returns one performance of every move by one person, with the intended execution.
 inline std::vector<PerformedClip> EveryMoveOf(int number, People people) {
   const WorldKey key{11, "fidelity", number};
   const Person person = DrawPerson(key, people);
@@ -38,7 +38,7 @@ inline std::vector<PerformedClip> EveryMoveOf(int number, People people) {
   return clips;
 }
 
-/// The scores of a one-nearest-neighbour classifier on everybody's moves, taught by one clip of each move by one other
+/// The scores of a one-nearest-neighbour classifier on everybody's moves. It knows one clip of each move by one other
 /// person.
 struct Neighbours {
   double found = 0;                               ///< share of clips nearest to their own move

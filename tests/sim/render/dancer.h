@@ -6,8 +6,9 @@
 
 namespace etude {
 
-/// A dancer of capsules in mid-move, facing +Z: arms and legs at different heights, the left forearm in
-/// front of the trunk, so that parts hide each other. Written out by hand, independent of sim/body.
+/// Returns a dancer of capsules in the middle of a move, facing +Z. Arms and legs are at different heights, and the
+/// left forearm is in front of the trunk, so that parts hide each other. The dancer is written by hand, independent of
+/// sim/body.
 inline std::vector<Capsule> Dancer() {
   return {{Part::kTrunk, {0, 0.98, 0}, {0.02, 1.38, -0.02}, 0.13},
           {Part::kHead, {0.03, 1.58, 0}, {0.03, 1.66, 0}, 0.10},

@@ -1,4 +1,4 @@
-// Furnished rooms, pixel by pixel, against the ray caster.
+// Furnished rooms against the ray caster, pixel by pixel.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -8,15 +8,14 @@
 
 namespace etude {
 
-/// The first thing that a viewing ray meets.
+/// The first surface that a viewing ray hits.
 struct Sight {
   std::uint32_t label = 0;
   double depth = std::numeric_limits<double>::infinity();
 };
 
-/// The renderer's second implementation: one ray at a time, in double precision, with sim/body's
-/// HitDistance and a ray-triangle test instead of shaders. The room is the studio, or `interior`, which must outlive
-/// it.
+/// The renderer's second implementation: one ray at a time, in double precision, with sim/body's HitDistance and a
+/// ray-triangle test instead of shaders. The room is the studio, or `interior`, which must outlive this object.
 class RayCaster {
  public:
   RayCaster(const Camera& camera, std::vector<Capsule> shape, const std::vector<Surface>& surfaces = {},
@@ -30,7 +29,7 @@ class RayCaster {
     }
   }
 
-  /// (u, v) in pixels, the centre of pixel (i, j) being (i + 0.5, j + 0.5).
+  /// Casts the ray of the point (u, v), in pixels; the centre of pixel (i, j) is (i + 0.5, j + 0.5).
   Sight Cast(double u, double v) const {
     const Intrinsics& in = camera_.intrinsics;
     const double y = (v - in.cy) / in.fy;
@@ -68,7 +67,7 @@ class RayCaster {
     return sight;
   }
 
-  /// Tells whether the label is the same all around (u, v), `margin` pixels away: false on outlines.
+  /// Returns true if the label is the same all around (u, v), at a distance of `margin` pixels; false on outlines.
   bool IsClear(double u, double v, double margin) const {
     const std::uint32_t label = Cast(u, v).label;
     for (const double du : {-margin, 0.0, margin}) {
@@ -84,7 +83,7 @@ class RayCaster {
     Part part;
     glm::dvec3 a, b, c;
 
-    // Möller and Trumbore 1997, both sides.
+    // Returns the distance of the triangle (Möller and Trumbore 1997); both sides count.
     double Hit(const glm::dvec3& origin, const glm::dvec3& direction) const {
       constexpr double kNowhere = std::numeric_limits<double>::infinity();
       const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(direction, ac);
@@ -131,12 +130,13 @@ class RayCaster {
 
 struct Comparison {
   int compared = 0;
-  int on_outlines = 0;     // differ, where the outline runs through the pixel's centre
-  int wrong_labels = 0;    // differ, and no outline explains it
-  double worst_depth = 0;  // metres, away from outlines
+  int on_outlines = 0;     // pixels that differ because the outline runs through their centre
+  int wrong_labels = 0;    // pixels that differ although no outline is near
+  double worst_depth = 0;  // largest difference of depth away from outlines, metres
 };
 
-/// Compares every third pixel of every third row. An outline within a 20th of a pixel excuses a difference.
+/// Compares every third pixel of every third row. A difference within a 20th of a pixel of an outline counts as on the
+/// outline.
 inline Comparison Compare(const View& view, const RayCaster& caster) {
   constexpr double kMargin = 0.05;
   Comparison result;
@@ -160,7 +160,7 @@ inline Comparison Compare(const View& view, const RayCaster& caster) {
   return result;
 }
 
-/// A usual camera, one with all of its intrinsics crooked, one close by from above.
+/// Returns a usual camera, a camera with unusual values of all intrinsics, and a close camera above the person.
 inline std::vector<Camera> TestCameras() {
   const Intrinsics skewed{.width = 501, .height = 377, .fx = 480, .fy = 455, .cx = 230.25, .cy = 201.5, .skew = 14};
   const Intrinsics close{.width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};

@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// Draws a picture with smooth edges: at twice the size, then averaged.
+/// Draws a picture with smooth edges: at twice the size, then averages 2 × 2 pixels.
 inline ColourImage DrawSmooth(Renderer& renderer, const std::vector<Figure>& figures, Camera camera) {
   ColourImage picture(camera.intrinsics.width, camera.intrinsics.height);
   Intrinsics& in = camera.intrinsics;

@@ -1,4 +1,4 @@
-// The studio's pictures, byte for byte: what a staged room, clothes and speed must leave alone.
+// The studio's pictures, byte for byte; changes for furnished rooms, clothes and speed must not alter them.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -11,7 +11,7 @@ namespace etude {
 
 using JointErrors = std::vector<FrameErrors>;
 
-/// The sensor's processes over a whole motion, one entry per frame.
+/// Runs the sensor's processes over a whole motion; returns one entry per frame.
 inline JointErrors ErrorsOver(const BodyMotion& truth, const Camera& sensor, const SkeletonSensorOptions& options,
                               const WorldKey& world) {
   ContinuousErrors process(sensor, options, truth.rate_hz, world);

@@ -1,5 +1,5 @@
-// Faults are inserted into real clips: does FindMotionFaults find each, name it and date it, and say nothing of clips
-// that nobody spoilt? `ETUDE_FAULT_CLIPS` names further clips, one pattern a line; `scripts/soak faults` sets it.
+// Inserts faults into real clips. FindMotionFaults must find, name and date each fault, and report nothing in unchanged
+// clips. `ETUDE_FAULT_CLIPS` names further clips, one pattern per line; `scripts/soak faults` sets it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>

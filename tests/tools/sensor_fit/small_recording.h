@@ -8,14 +8,14 @@
 
 namespace etude {
 
-/// The pose of a sensor's space in an optical system's, for recordings made up by tests.
+/// The pose of a sensor's space in an optical system's space, for invented recordings.
 struct MadeUp {
   glm::dquat rotation = glm::normalize(glm::dquat(0.3, 0.5, -0.7, 0.2));
   glm::dvec3 translation{0.4, -0.3, 2.9};
-  double shift_s = 0.35;  ///< the recording's time 0 is this time of the twin
+  double shift_s = 0.35;  ///< time of the twin at the recording's time 0
 };
 
-/// A dance seen by an optical system at 60 Hz: the joints' carriers turn with time, each in its own way.
+/// Returns a dance recorded by an optical system at 60 Hz; each joint's carrier rotates with time in its own way.
 inline TwinMotion DancingTwin(double seconds, double tempo = 1,
                               const std::vector<std::string>& moves = {"boxing", "side_kick", "clap"}) {
   const BodyMotion motion = AfterEachOther(moves);
@@ -34,7 +34,7 @@ inline TwinMotion DancingTwin(double seconds, double tempo = 1,
   return twin;
 }
 
-/// Returns the place of each joint in its carrier.
+/// Returns the position of each joint in its carrier's frame.
 inline glm::dvec3 OffsetOf(std::size_t joint) {
   const auto j = static_cast<double>(joint);
   return {0.02 * std::sin(j), 0.03 * std::cos(2 * j), 0.01 * std::sin(3 * j)};

@@ -1,4 +1,5 @@
-"""What no body can do (bench/metrics/transition_body.h), a second time: of a `join` as transition.py reads it."""
+"""A second implementation of impossible motion (bench/metrics/transition_body.h), for a `join` that transition.py
+reads."""
 import math
 
 from independent import common, support

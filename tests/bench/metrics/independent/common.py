@@ -1,5 +1,5 @@
-"""What the metrics share: units, averages, the body, vectors. The others write `common.` before what a test exchanges
-for a mistake (metrics_test.py)."""
+"""Parts that the metrics share: units, averages, the body, vectors. Other files write `common.` before each part, so
+that a test can replace it by a wrong one (metrics_test.py)."""
 import math
 
 CM, MM = 100, 1000  # in a metre

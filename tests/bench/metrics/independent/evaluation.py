@@ -1,4 +1,5 @@
-"""Metrics of any answer against any truth: frames, each a list of positions, null where a joint is not seen."""
+"""Metrics of any answer against any truth. Motions are frames, each a list of positions, null for a joint that is
+not seen."""
 import cmath
 import math
 
@@ -250,8 +251,8 @@ def continuous(quaternions, start):
 
 
 def curves(given):
-    """Of each angle the pairs (answer, truth) in which both are known, the truth near its circular mean, the answer near
-    the truth."""
+    """Of each angle the pairs (answer, truth) in which both are known, the truth near its circular mean, the answer
+    near the truth."""
     def near(angle, other):
         while abs(angle - other) > 180:
             angle += 360 if angle < other else -360

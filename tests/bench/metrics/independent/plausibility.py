@@ -1,4 +1,4 @@
-"""Faults of motions without a truth, each a kind, a time and a size."""
+"""Faults of motions without a truth; each fault has a kind, a time and a size."""
 from . import common
 
 

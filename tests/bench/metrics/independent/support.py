@@ -1,4 +1,5 @@
-"""What holds a body up (engine/motion/support.h), a second time: of a `join` as transition.py reads it."""
+"""A second implementation of the search for the joints that bear the body (engine/motion/support.h), for a `join`
+that transition.py reads."""
 import math
 
 from independent import common
@@ -43,7 +44,8 @@ def velocities(frames, rate):
 
 
 def falling(frames, rate):
-    """Of each frame of a clip: whether its mass centre falls freely, where its joints, though slow at the top, rest on nothing."""
+    """Of each frame of a clip: whether its mass centre falls freely, where its joints, though slow at the top, rest
+    on nothing."""
     reach, last = max(round(FALLING_S * rate), 1), len(frames) - 1
     heights = [mass_centre(pose)[1] for pose in frames]
 

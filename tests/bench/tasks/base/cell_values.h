@@ -9,7 +9,8 @@
 
 namespace etude {
 
-/// A cell's value of a metric, nothing where it is missing. A metric that the cell does not tell of fails the test.
+/// Returns a cell's value of a metric; nothing if it is missing. Fails the test if the cell does not list the metric at
+/// all.
 inline std::optional<double> ValueOf(const CellResult& cell, std::string_view id) {
   for (const MetricValue& metric : cell.metrics) {
     if (metric.id == id) return metric.value;

@@ -25,7 +25,7 @@ inline void ListPlaces(const Json& json, const Json::json_pointer& at, std::vect
   }
 }
 
-/// The same answer with one value, anywhere in it, replaced by one that a careless or hostile program may say.
+/// Returns the answer with one value, anywhere in it, replaced by a value that a careless or hostile program may send.
 inline Json Mutated(Json json, RandomStream& dice) {
   const std::array<Json, 16> said = {Json(nullptr),
                                      Json(-1),
@@ -49,19 +49,19 @@ inline Json Mutated(Json json, RandomStream& dice) {
   return json;
 }
 
-/// Why an answer is refused, or "no complaint".
+/// Returns the reason for which an answer is refused, or "no complaint".
 inline std::string ComplaintAbout(TaskWorld& world, const Json& answer) {
   const auto judged = world.Judge(answer);
   return judged ? "no complaint" : judged.error().message;
 }
 
-/// The same of a good answer once `value` stands at a place of it ("/events/2/score").
+/// Returns the complaint about a good answer after the value at `pointer` ("/events/2/score") was replaced by `value`.
 inline std::string ComplaintWith(TaskWorld& world, Json answer, const char* pointer, const Json& value) {
   answer[Json::json_pointer(pointer)] = value;
   return ComplaintAbout(world, answer);
 }
 
-/// The same of a good answer after an edit "PLACE = VALUE" or "PLACE erased", or of another answer.
+/// Returns the complaint about a good answer after an edit "PLACE = VALUE" or "PLACE erased", or about another answer.
 inline std::string ComplaintOfEdit(TaskWorld& world, Json answer, const std::string& edit) {
   if (!edit.starts_with('/')) return ComplaintAbout(world, Json::parse(edit));
   const std::size_t end = edit.find(' ');
@@ -78,7 +78,8 @@ struct Judgements {
   int refused = 0, scored = 0;
 };
 
-/// Judges `count` answers, each one of the good ones Mutated: all are refused with a reason or scored with numbers.
+/// Judges `count` answers; each is one of the good answers, changed by Mutated. Every answer must be refused with a
+/// reason, or scored with numbers.
 inline Judgements JudgeMutations(TaskWorld& world, const std::vector<Json>& good, int count, RandomStream dice) {
   Judgements judgements;
   for (int i = 0; i < count; ++i) {

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// Makes a task of the keys of a condition, "{…}", and a list of methods, "[…]".
+/// Makes a task from the keys of a condition, "{…}", and a list of methods, "[…]".
 inline Result<std::unique_ptr<Task>> MakeTask(const TaskKind& kind, const std::string& condition,
                                               const std::string& methods = "[]", const ClipLibrary& clips = {}) {
   ASSIGN_OR_RETURN(const auto keys, ParseYaml(condition, "test.yaml"));

@@ -1,4 +1,5 @@
-// Before a sensor without errors nobody who makes no mistake is corrected, and nobody is praised for standing there.
+// With a sensor without errors, a person without mistakes is never corrected, and a person who stands still is never
+// praised.
 #include <gtest/gtest.h>
 
 #include "bench/tasks/coach/learner_player.h"

@@ -24,7 +24,7 @@ methods:
   - {name: adaptive-euro, filter: one-euro, weights: adaptive}
 )";
 
-  /// A task made of a scenario's text; the text must live as long as the task is being made only.
+  /// Makes a task from a scenario's text; the text must live only until this function returns.
   static Result<std::unique_ptr<Task>> MakeTask(const std::string& yaml, const ClipLibrary& clips) {
     ASSIGN_OR_RETURN(auto node, ParseYaml(yaml, "test.yaml"));
     Fields condition(node, "a detection scenario");
@@ -36,7 +36,7 @@ methods:
     return *LoadClips({"builtin:clap", "builtin:boxing", "builtin:sway", "builtin:side_kick"}, {});
   }
 
-  /// A clip as a user's file gives it: no move is known.
+  /// Returns a clip as a user's file would give it, without a known move.
   static LibraryClip Unlabelled() {
     LibraryClip clip{.name = "walk", .motion = FourMoves().clips.front().motion};
     return clip;
@@ -44,7 +44,7 @@ methods:
 
   static WorldKey World(int trial) { return {.suite_seed = 1, .scenario = "detection-test", .trial = trial}; }
 
-  /// All of kFourMethods in one world.
+  /// Runs all of kFourMethods in one world.
   static std::vector<CellResult> CellsOf(const Task& task, int trial, bool keeps_motion = false) {
     return RunWorld(task, World(trial), 4, keeps_motion);
   }

@@ -17,7 +17,7 @@ inline LibraryClip BuiltinClipOf(const std::string& name) {
   return clips->clips.front();
 }
 
-/// A standing body whose arms and trunk swing, all angles well within their limits.
+/// Returns states of a standing body whose arms and trunk swing, with all angles well within their limits.
 inline std::vector<TreeState> SwingingStates(const KinematicTree& tree, int frames) {
   std::vector<TreeState> states(static_cast<std::size_t>(frames), StandingState(tree));
   for (int k = 0; k < frames; ++k) {

@@ -1,6 +1,6 @@
-// Transitions that no body can make, each led by quintics to the wanted pose, and chosen among forty by the very metric
-// that must not credit them. `ETUDE_CHEAT_CLIPS` names another library than the built-in moves, one pattern a line
-// (`scripts/soak cheats`).
+// Transitions that no body can make. Each is led by quintics to the wanted pose, and is chosen among forty by the very
+// metric that must not credit it. `ETUDE_CHEAT_CLIPS` names another library than the built-in moves, one pattern per
+// line (`scripts/soak cheats`).
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

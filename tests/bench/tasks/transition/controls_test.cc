@@ -1,4 +1,4 @@
-// Ways to fool a yardstick, each beside what it fools: `clean_share` must credit none of them.
+// Ways to fool a metric, each beside the metric that it fools; `clean_share` must credit none of them.
 
 #include <gtest/gtest.h>
 

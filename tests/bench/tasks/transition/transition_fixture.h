@@ -51,7 +51,7 @@ methods:
 
   static WorldKey Trial(int trial) { return {.suite_seed = 1, .scenario = "test", .trial = trial}; }
 
-  /// All of kMethods in one world.
+  /// Runs all of kMethods in one world.
   static std::vector<CellResult> CellsOf(const Task& task, int trial, bool keeps_motion = false) {
     return RunWorld(task, Trial(trial), 6, keeps_motion);
   }

@@ -1,6 +1,7 @@
-"""Stands for Pose2Sim in tests: its documented calls, files and settings, and no others. Anything else fails.
+"""Replaces Pose2Sim in tests: it has only the documented calls, files and settings. Any other use fails.
 
-The triangulation is the linear one; the filter changes nothing. As the original, the filtered file lacks the last frame.
+Its triangulation is linear, and its filter changes nothing. As with the original, the filtered file lacks the last
+frame.
 """
 import json
 import math

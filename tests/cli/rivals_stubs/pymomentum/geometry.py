@@ -1,4 +1,4 @@
-"""Stands for pymomentum.geometry in tests: the documented calls that the example uses, and no others."""
+"""Replaces pymomentum.geometry in tests: it has only the documented calls that the example uses."""
 import numpy as np
 
 

@@ -1,4 +1,4 @@
-"""Stands for pymomentum.solver2 in tests: the documented calls that the example uses, and no others."""
+"""Replaces pymomentum.solver2 in tests: it has only the documented calls that the example uses."""
 import numpy as np
 from pymomentum import geometry
 

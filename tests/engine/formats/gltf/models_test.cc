@@ -1,5 +1,4 @@
-// Files as they are found in the world: assimp's own test models, among them broken ones; and files that somebody broke
-// byte by byte.
+// Real files: assimp's own test models, some of them broken, and files damaged byte by byte.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

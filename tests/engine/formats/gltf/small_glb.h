@@ -23,7 +23,7 @@ std::string RawBytes(std::initializer_list<T> values) {
 
 inline std::string Floats(std::initializer_list<float> values) { return RawBytes(values); }
 
-/// A GLB of these two parts, padded as they must be.
+/// Returns a GLB file of these two parts, padded as the format requires.
 inline std::string Glb(std::string json, std::string binary = "") {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   binary.resize((binary.size() + 3) / 4 * 4, '\0');
@@ -33,7 +33,7 @@ inline std::string Glb(std::string json, std::string binary = "") {
   return "glTF" + RawBytes<std::uint32_t>({2}) + size(12 + chunks.size()) + chunks;
 }
 
-/// A body of two bones under one triangle, which bows within two seconds: small enough to break in every place.
+/// A body of two bones in one triangle, which bows within two seconds. It is small enough to damage every part of it.
 inline constexpr std::string_view kSmallGltf = R"({"asset":{"version":"2.0"},
 "scene":0,"scenes":[{"nodes":[0,2]}],
 "nodes":[{"name":"Hips","children":[1],"translation":[0,1,0]},{"name":"Spine","translation":[0,0.5,0]},
@@ -58,7 +58,7 @@ inline constexpr std::string_view kSmallGltf = R"({"asset":{"version":"2.0"},
 {"buffer":0,"byteOffset":244,"byteLength":48}],
 "buffers":[{"byteLength":292}]})";
 
-/// Where its parts stand.
+/// The positions of the parts in the buffer.
 enum SmallGltfPart : std::size_t {
   kPositions = 0,
   kJoints = 36,
@@ -82,7 +82,7 @@ inline std::string SmallBinary() {
 
 inline std::string SmallGlb() { return Glb(std::string(kSmallGltf), SmallBinary()); }
 
-/// The content, which must be readable.
+/// Reads the content of a file that must be readable.
 inline GltfContent Read(const std::string& bytes, const FetchFile& fetch = {}) {
   auto content = ReadGltf(bytes, "test.glb", fetch);
   EXPECT_TRUE(content) << (content ? "" : ToString(content.error()));
@@ -94,7 +94,7 @@ inline std::string GlbComplaint(const std::string& bytes, const FetchFile& fetch
   return content ? "read without complaint" : ToString(content.error());
 }
 
-/// What every file that was not refused must hold.
+/// Expects the properties that every accepted file must have.
 inline void ExpectSane(const GltfContent& content) {
   const Character& character = content.character;
   const int joints = static_cast<int>(character.skeleton.joints.size());

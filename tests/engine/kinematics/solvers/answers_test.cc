@@ -1,4 +1,4 @@
-// What every solver comes to, told a line a run: how runs end, after how many iterations, and how far off they are.
+// The results of every solver, one line per run: how runs end, after how many iterations, and with which errors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

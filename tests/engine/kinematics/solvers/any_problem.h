@@ -9,14 +9,14 @@
 
 namespace etude {
 
-/// Goals of 10⁻³ cm and 10⁻³°.
+/// Returns options with goals of 10⁻³ cm and 10⁻³°.
 inline IkOptions Tightly(int max_iterations = 1000) {
   IkOptions options{.position_goal = 1e-5, .axis_goal = Radians(1e-3)};
   options.max_iterations = max_iterations;
   return options;
 }
 
-/// What became of many trials.
+/// Statistics of many trials.
 struct SolvedMany {
   int solved = 0, outside = 0;
   double hidden = 0;  ///< root of the mean squared angle to the truth, in units of the noise
@@ -47,7 +47,8 @@ SolvedMany SolveMany(int trials, double pose_range, double noise_deg, const Solv
 using SolverOnTrial =
     std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, int trial)>;
 
-/// On random problems, some of which have a solution: angles stay within their ranges, and the status says what is so.
+/// Runs random problems, some of which have a solution. Expects that angles stay within their ranges and that the
+/// status is true.
 inline void ExpectHonestAnswersToAnyProblem(const SolverOnTrial& solve) {
   int converged = 0;
   for (int trial = 0; trial < 500; ++trial) {
@@ -71,7 +72,8 @@ inline void ExpectHonestAnswersToAnyProblem(const SolverOnTrial& solve) {
   EXPECT_LT(converged, 450);
 }
 
-/// A body of some 100 km, a target beyond its reach, weights from next to nothing to a million.
+/// Runs problems with a body of some 100 km, a target beyond its reach, and weights from nearly nothing to a million.
+/// Expects finite answers.
 inline void ExpectFiniteAnswersAtAbsurdSizes(const SolverOnTrial& solve, const IkOptions& options) {
   KinematicTree tree = Body();
   for (TreeJoint& joint : tree.joints) joint.p_PJ *= 1e5;

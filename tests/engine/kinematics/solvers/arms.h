@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// A chain of limbs along Z, its first joint 1 m from the root. With one degree of freedom a joint it lies in the plane
-/// of Y and Z, where positive angles turn Z towards −Y.
+/// Returns a chain of limbs along Z; its first joint is 1 m from the root. With one degree of freedom per joint, the
+/// chain lies in the plane of Y and Z, where positive angles rotate Z towards −Y.
 inline KinematicTree Arm(const std::vector<double>& lengths, int dofs) {
   KinematicTree arm{.joints = {{.name = "root"}}};
   double above = 1;
@@ -27,25 +27,25 @@ inline KinematicTree Arm(const std::vector<double>& lengths, int dofs) {
   return arm;
 }
 
-/// Reach for a place, from some angles; the tip's axes do not matter.
+/// Returns the problem of reaching a position from the angles `start`; the tip's axes do not matter.
 inline IkProblem Reach(const KinematicTree& arm, std::vector<double> start, const glm::dvec3& place) {
   IkProblem problem{StandingState(arm), {EffectorTarget{.position = place, .axis_weights = glm::dvec3(0)}}, arm.limits};
   problem.start.angles = std::move(start);
   return problem;
 }
 
-/// Where the tip of an arm of two hinges is, by plane trigonometry.
+/// Returns the tip's position for an arm of two hinges, by plane trigonometry.
 inline glm::dvec3 TwoHingeTip(double upper, double lower, double first, double second) {
   return {0, -upper * std::sin(first) - lower * std::sin(first + second),
           1 + upper * std::cos(first) + lower * std::cos(first + second)};
 }
 
-/// The elbow's angle that puts the tip `distance` from the first joint: the law of cosines.
+/// Returns the elbow's angle that puts the tip at `distance` from the first joint, by the law of cosines.
 inline double ElbowAngle(double upper, double lower, double distance) {
   return std::acos((distance * distance - upper * upper - lower * lower) / (2 * upper * lower));
 }
 
-/// Goals far below what any solver needs, so that angles can be compared.
+/// Returns options with goals so small that angles can be compared.
 inline IkOptions Exactly() {
   IkOptions options{.position_goal = 1e-10};
   options.max_iterations = 5000;

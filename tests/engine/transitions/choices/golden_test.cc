@@ -1,5 +1,5 @@
-// The golden value of the choices: what every choice plans, by several rules, for requests of libraries of every kind.
-// What is right is said by the tests beside.
+// The golden value of the choices: the plans of every choice, under several rules, for requests of libraries of every
+// kind. The other tests of this folder check that results are right.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,5 +1,5 @@
-// The golden value of the joins: what is shown along ways of every kind, joined by every join. What is right is said
-// by the tests beside.
+// The golden value of the joins: the shown motion along transitions of every kind, with every join. The other tests of
+// this folder check that results are right.
 #include <gtest/gtest.h>
 
 #include "engine/transitions/joins/planted_feet.h"

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The largest second difference of any joint at a frame, metres.
+/// Returns the largest second difference of any joint at a frame, metres.
 inline double JumpAt(const BodyMotion& motion, int frame) {
   double worst = 0;
   for (Role role : AllRoles()) {
@@ -18,7 +18,7 @@ inline double JumpAt(const BodyMotion& motion, int frame) {
   return worst;
 }
 
-/// Clip 0 up to frame `left`, then clip 1 after frame `entered`.
+/// Returns the segments: clip 0 up to frame `left`, then clip 1 after frame `entered`.
 inline std::vector<Segment> Segments(int left, int entered, const BodyMotion& next) {
   return {{.clip = 0, .first = 0, .last = left, .own = {}},
           {.clip = 1, .first = entered, .last = static_cast<int>(next.poses.size()) - 1, .own = {}}};

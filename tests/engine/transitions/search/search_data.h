@@ -12,7 +12,8 @@ namespace etude {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Grades as motion gives them: every feature's input wanders smoothly, so that frames in a row are close.
+/// Returns grades like those of a motion: every feature's input changes smoothly, so that consecutive frames are
+/// similar.
 inline std::vector<Grades> WanderingFrames(int count, RandomStream& stream) {
   std::vector<Grades> frames;
   PoseFeatures features, speeds;
@@ -28,7 +29,7 @@ inline std::vector<Grades> WanderingFrames(int count, RandomStream& stream) {
   return frames;
 }
 
-/// Grades that no motion has: each by itself, uniform in [low, high).
+/// Returns grades that no motion has: each is independent and uniform in [low, high).
 inline std::vector<Grades> RandomFrames(int count, double low, double high, RandomStream& stream) {
   std::vector<Grades> frames(static_cast<std::size_t>(count));
   for (Grades& grades : frames) {
