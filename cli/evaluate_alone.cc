@@ -47,7 +47,7 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
   return limits;
 }
 
-/// For each kind of fault: a metric that is above 0 if a clip shows the fault, and the fault's word.
+/// For each kind of fault: a metric that is above 0 if a clip shows the fault, and the word for the fault.
 constexpr std::pair<std::string_view, std::string_view> kTelling[] = {
     {"floats_share", "floats"}, {"sinks_share", "sinks"},   {"skates_share", "skates"},
     {"jumps", "jumps"},         {"pops", "pops"},           {"freezes_share", "freezes"},

@@ -265,7 +265,8 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
 }
 
 std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
-  // Write the headings: first the comparison on these worlds, then the verdict for other units.
+  // Write the headings: first those of the comparison on these worlds, then those of the comparison for other units
+  // (clips, people, …).
   Table table;
   for (const char* head : {"scenario",        "condition",        "metric",        "baseline",        "method",
                            "pairs",           "differing",        "only_baseline", "only_method",     "neither",

@@ -201,7 +201,8 @@ class Exporter {
   }
 
  private:
-  /// Writes the pictures of each take as a film, at the rate in the condition's setting. Does nothing without takes.
+  /// Writes the pictures of each take as a film, at the rate in the condition's setting. Does nothing if there
+  /// are no takes.
   Result<void> SaveFilms(const Payload& problem, int condition, const std::string& path) const {
     const auto is_picture = [](const Attachment& file) { return IsPictureOfTake(file.name); };
     if (std::ranges::none_of(problem.files, is_picture)) return {};

@@ -67,17 +67,19 @@ std::optional<double> MaxFeedbackDelaySeconds(const CoachedSession& session);
 /// never falls to one half.
 std::optional<double> RepetitionsUntilRight(std::span<const std::vector<PerformanceTruth>> moves);
 
-/// Returns `retention`: the mean of `chances`, the probabilities of a right performance in a test. Empty without tests.
+/// Returns `retention`: the mean of `chances`, the probabilities of a right performance in a test. The result is empty
+/// if there are no tests.
 std::optional<double> Retention(std::span<const double> chances);
 
 /// Returns `beat_error_ms`: the 95th percentile of the absolute errors. The input is in seconds, the result in
-/// milliseconds. Empty without errors.
+/// milliseconds. The result is empty if there are no errors.
 std::optional<double> BeatErrorMs(std::span<const double> errors_s);
 
-/// Returns the median of `values`; `transition_jump_cm` uses it. Empty without values.
+/// Returns the median of `values`; `transition_jump_cm` uses it. The result is empty if there are no values.
 std::optional<double> MedianOf(std::vector<double> values);
 /// Returns `transition_natural_share`: the share of transitions with a natural jump (IsNatural). Jumps are compared
-/// with the natural jumps of the unbroken song, of which at least one is required. Empty without transitions.
+/// with the natural jumps of the unbroken song, of which at least one is required. The result is empty if there are no
+/// transitions.
 std::optional<double> NaturalShare(std::span<const double> jumps_cm, const std::vector<double>& natural_jumps_cm);
 
 }  // namespace etude

@@ -11,10 +11,11 @@
 
 namespace etude {
 
-/// Returns `fault_found`: among the performances with a fault of any size, the share that were not called right. Empty
-/// without such performances.
+/// Returns `fault_found`: among the performances with a fault of any size, the share that were not called right. The
+/// result is empty if there are no such performances.
 std::optional<double> FaultFound(const std::vector<bool>& called);
-/// Returns the share of grey performances that were called right. Empty without grey performances.
+/// Returns the share of grey performances that were called right. The result is empty if there are no grey
+/// performances.
 std::optional<double> GreyCalledRight(const std::vector<bool>& called);
 
 /// A performance of a move, and the move that a recogniser spotted most often during it.
@@ -23,7 +24,7 @@ struct NamedMove {
   std::string named;  ///< the move that was spotted; empty if none was
 };
 
-/// Returns the share of performances whose move was named correctly. Empty without performances.
+/// Returns the share of performances whose move was named correctly. The result is empty if there are no performances.
 std::optional<double> MoveNamed(std::span<const NamedMove> performances);
 
 /// Returns `latency_s`: the time from the completion of a right performance until it was called right. `first_right_s`
@@ -48,8 +49,8 @@ struct MoveCall {
   int frame = 0;
 };
 
-/// Returns the share of right performances in which the requested move was called at least once. Empty without right
-/// performances.
+/// Returns the share of right performances in which the requested move was called at least once. The result is empty
+/// if there are no right performances.
 std::optional<double> RightSpotted(std::span<const MoveWindow> right, std::span<const MoveCall> calls);
 
 /// Returns `false_alarms_per_min`. The whole session counts as time, including performances. `session_s` must be
@@ -75,7 +76,7 @@ struct MomentMatch {
 MomentMatch MatchMoments(std::span<const Moment> points, std::span<const Moment> detections, double tolerance_s);
 
 /// Returns the mean of the F-scores of all moves that occur among points or detections, as defined in MSRC-12's paper.
-/// Returns nothing without points and detections.
+/// Returns nothing if there are neither points nor detections.
 std::optional<double> MeanFScore(std::span<const Moment> points, std::span<const Moment> detections,
                                  double tolerance_s);
 

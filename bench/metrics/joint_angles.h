@@ -52,9 +52,9 @@ AgreementSums SumAgreement(const AngleTracks& found, const AngleTracks& truth, s
 /// Returns the sums over the frames of `a` and the frames of `b` together.
 AgreementSums Together(const AgreementSums& a, const AgreementSums& b);
 
-/// Returns the root mean squared difference, degrees; nothing without frames.
+/// Returns the root mean squared difference, degrees; nothing if there are no frames.
 std::optional<double> RmsOf(const AgreementSums& sums);
-/// Returns the mean of answer − truth, degrees; nothing without frames.
+/// Returns the mean of answer − truth, degrees; nothing if there are no frames.
 std::optional<double> BiasOf(const AgreementSums& sums);
 /// Returns ICC(A,1) of McGraw and Wong 1996: two-way random, absolute agreement, single measure. A frame is a subject;
 /// truth and answer are the two raters. Returns nothing with fewer than two frames, or if nothing varies by more than

@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// Counts how a threshold on a distance decides about pairs of frames. The pairs are all that a transition could have
+/// Counts the pairs of frames that match by a threshold on a distance. The pairs are all that a transition could have
 /// used: every bridge frame of the old clip within the allowed wait × every bridge frame of the new clip
 /// (docs/reference/metrics.md, Matching).
 struct MatchTally {

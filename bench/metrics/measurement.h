@@ -16,7 +16,7 @@ struct MeasuredAndTrue {
 /// The mean error of measurements, and the coverage: the share of true values that were measured.
 struct MeasuredError {
   std::optional<double> mean;      ///< over all measured values; empty if there are none
-  std::optional<double> coverage;  ///< share of the true values that were measured; empty without true values
+  std::optional<double> coverage;  ///< share of the true values that were measured; empty if there are none
 };
 
 /// Returns the angle between the measured and the true direction, degrees (`limb_direction_error_deg`), and its

@@ -104,7 +104,7 @@ double Overlap(const BodyPose& pose) {
 /// The measurements of one frame.
 struct BodyFrame {
   bool flight = false;
-  std::optional<double> zmp_cm, slip_mps2;  // nothing without support
+  std::optional<double> zmp_cm, slip_mps2;  // nothing if no joint supports the body
   double glide_cm = 0;                      // least travel of a support in this frame
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
   std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each foot at rest, radians

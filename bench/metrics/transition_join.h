@@ -118,9 +118,9 @@ struct CleanMeasures {
   std::optional<double> settle_s;
   bool possible = false;  ///< all measures of its body are within their limits (transition_body.h)
 };
-/// Returns true if the transition is clean by `clean_share_v3`: natural and calmly natural, slide ≤ 6 cm/s or ≤ the
-/// slide of the clips themselves, settled within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5, supported, at most a third of
-/// the wanted clip skipped. `possible` is ignored.
+/// Returns true if the transition is clean by `clean_share_v3`: `natural`, `calmly_natural` and `supported` are true;
+/// `slide_cmps` is at most 6 or at most `own_slide_cmps`; the motion settles within 1.5 s; `strange_cm_s` is at most 10
+/// and `live` at least 0.5; at most a third of the wanted clip is skipped. `possible` is ignored.
 bool IsCleanByVersion3(const CleanMeasures& measures);
 /// Returns true if the transition is clean by `clean_share`: clean by version 3, and possible for a human body.
 inline bool IsClean(const CleanMeasures& measures) { return IsCleanByVersion3(measures) && measures.possible; }

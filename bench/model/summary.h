@@ -60,7 +60,7 @@ std::string_view VerdictName(Verdict verdict);
 
 /// A test of paired differences (bench/statistics/paired_tests.h).
 struct PairedTest {
-  std::optional<double> p;  ///< two-sided; nothing without pairs
+  std::optional<double> p;  ///< two-sided; nothing if there are no pairs
   std::string how;          ///< "exact", "normal approximation", "9,999 draws"
 };
 

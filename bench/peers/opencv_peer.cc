@@ -82,8 +82,8 @@ struct OpenCvPerson::State {
   int max_hole_px;
   double cosine2;
   int steps;               ///< the threshold in steps of cvtColor's hue (2°)
-  cv::Mat bx, by3, reach;  ///< kSameHue
-  cv::Mat hue;             ///< kHsv
+  cv::Mat bx, by3, reach;  ///< used only by kSameHue
+  cv::Mat hue;             ///< used only by kHsv
   cv::Mat chroma, planes[2], dot, own, tmp, mask, hsv, apart;
   Buffers buffers;
 

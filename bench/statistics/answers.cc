@@ -134,8 +134,8 @@ class Measurer {
     return answer;
   }
 
-  /// Returns the number of answers that compare a method with its baseline; these are judged together. The number of
-  /// answers that compare a method with a rival is about as large.
+  /// Returns the size of a family of answers, whose p-values are corrected together: the number of answers that compare
+  /// a method with its baseline. The family of comparisons with rivals has about the same size.
   int CountAnswers() const {
     const auto compared = std::ranges::count_if(
         study_.methods, [](const ComparedMethod& method) { return method.name != method.against; });

@@ -169,7 +169,7 @@ LimbLengths MedianLengths(std::span<const OptionalJoints> frames) {
   const auto set = [&](double LimbLengths::*length, std::vector<double> found) {
     if (const auto median = MedianOf(std::move(found)); median && *median > 0) lengths.*length = *median;
   };
-  // Measure the lengths between two joints.
+  // Measure the lengths between pairs of joints.
   for (const auto& [length, a, b] : kBetween) {
     std::vector<double> found;
     for (const OptionalJoints& joints : frames) {

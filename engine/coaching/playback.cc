@@ -136,8 +136,8 @@ BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::si
   return ClipPlace(playback).Apply(clip[index]);
 }
 
-/// The point at which a clip is left: the clip, its whole frame, the fraction of a frame shown beyond it, and the
-/// clip's floor move.
+/// The point at which a clip is left: the clip, its last whole frame, the fraction of a frame that has been shown after
+/// it, and the place of the clip on the floor.
 struct Leaving {
   int clip = 0;
   int frame = 0;

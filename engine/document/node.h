@@ -16,7 +16,7 @@ struct Node {
 
   Kind kind = Kind::kNull;
   std::string scalar;          ///< kScalar: the text without quotes
-  std::vector<Node> items;     ///< kSequence
+  std::vector<Node> items;     ///< kSequence: the elements, in order
   std::vector<Entry> entries;  ///< kMapping, in the order of the document; keys are unique
   Place place;
 

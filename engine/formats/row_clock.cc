@@ -32,7 +32,7 @@ double PrintedStep(std::span<const double> times) {
 /// Returns the rate that best fits steps of one to three frames, starting from the rate of the median step. Steps about
 /// half-way between whole numbers of frames are unclear and left out; they occur beside a row at a wrong time.
 double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
-  constexpr double kUnclear = 0.4;  // distance from a whole number, in frames
+  constexpr double kUnclear = 0.4;  // a step farther than this from a whole number of frames is unclear
   constexpr int kRounds = 4;
   constexpr double kMaxFrames = 3;
   double rate = 1 / LowerPercentile(steps, 0.5);

@@ -15,7 +15,8 @@
 namespace etude {
 namespace {
 
-/// A hypothesis: how a picture was rotated and mirrored, and whether its keypoints are in the rig's own pixels.
+/// A hypothesis: how a picture was rotated and mirrored, and whether its keypoints are pixels of the rig's original
+/// picture, not of the fitted film.
 struct Guess {
   int quarter_turns = 0;
   bool is_mirrored = false;
@@ -141,7 +142,7 @@ class Guesser {
     return misses.empty() ? 0 : LowerPercentile(misses, 0.5);
   }
 
-  // Interprets the keypoints of all films as the rig's own pixels if that reduces the distance.
+  // Interprets the keypoints of all films as pixels of the rig's original pictures if the distance is then smaller.
   void ChooseStored() {
     bool is_fitted = false;
     for (const PictureOfFilm& film : films_) {

@@ -31,9 +31,9 @@ struct PictureGuess {
 /// only if the keypoints are more than 0.3 % of the height off the other cameras' epipolar lines, and it must reduce
 /// this distance to less than half and to less than 5 % of the height (median over frames, over the best-fitting people
 /// and labelling of sides). A wrong correction cannot halve random errors. If pictures were fitted, the keypoints of
-/// all films may instead be in the rig's own pixels (if the estimator ran on the original pictures). The interpretation
-/// with the smaller distance is taken, unless a file states the film's size. `told` also names a second correction that
-/// is nearly as good, which is common with two cameras.
+/// all films may instead be pixels of the original pictures, on which the estimator then ran. The interpretation with
+/// the smaller distance is taken, unless a file states the film's size. `told` also names a second correction that is
+/// nearly as good, which is common with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// Returns the distance of keypoints, mapped as declared, from the other cameras' epipolar lines, as a share of the

@@ -150,7 +150,8 @@ class Mender {
           has_better = best != nullptr;
         }
         if (!worst || (!has_better && seeing < 3)) break;
-        // Replace the keypoints, or remove them if three cameras or more see the person.
+        // Take the better person's keypoints. If there is no better person, remove the keypoints: at least two other
+        // cameras see the person.
         person_.seen[*worst][frame] = has_better ? instead : std::nullopt;
         (has_better ? found : nobody)[*worst].frames.push_back(frame);
       }

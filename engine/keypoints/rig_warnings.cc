@@ -54,7 +54,7 @@ std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> pa
   return std::sqrt((count - 1) / count * squares);
 }
 
-/// A factor on the focal length of one film, or of all films if `film` is nullopt.
+/// A factor that multiplies the focal length of one film, or of all films if `film` is nullopt.
 struct FocalGain {
   std::optional<std::size_t> film;
   double gain = 1, error = 0;

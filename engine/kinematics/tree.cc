@@ -64,7 +64,7 @@ void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames
       out.R_WJ[i] = state.root_frame;
       continue;
     }
-    // Compute the joint's rest axes from its parent, then its rotations about X, Y and Z, as far as it has them.
+    // Compute the joint's rest axes from its parent, then the rotations that it has about X, Y and Z.
     const LimbFrame& X_WP = out.joints[joint.parent];
     glm::dmat3 R_WL = X_WP.axes * joint.R_PJ;  // R_WJ until the joint turns
     out.R_WJ[i] = R_WL;

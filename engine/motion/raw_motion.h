@@ -53,7 +53,7 @@ struct RawMotion {
 constexpr const char* kMidwayHips = "(midway between the hips)";
 
 /// Appends a joint midway between the hips, which then plays the hip centre. It gets the orientation of the joint that
-/// carries the left hip. Does nothing without both hips.
+/// carries the left hip. Does nothing if a hip is missing.
 void AddMidwayHips(RawMotion& motion);
 /// Returns true if a joint of the file itself plays the hip centre.
 bool HasOwnRoot(const RawMotion& motion);

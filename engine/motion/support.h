@@ -110,7 +110,7 @@ std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<cons
 glm::dvec3 MassCentre(const BodyPose& pose);
 
 /// Returns the horizontal distance from a point (x, z) of the floor to the convex hull of `joints`, metres; 0 inside
-/// the hull. Returns nullopt without joints. Feet have no width here.
+/// the hull. Returns nullopt if `joints` is empty. Feet have no width here.
 std::optional<double> OffsetFromJoints(const glm::dvec2& point, const BodyPose& pose, const JointSet& joints);
 /// Returns OffsetFromJoints of the mass centre.
 std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints);

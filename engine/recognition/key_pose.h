@@ -53,7 +53,7 @@ class PoseSequence {
 /// The rules that decide when a key pose counts as reached. `scenarios/quick/detection.yaml` shows their effect on a
 /// stream with a sensor's errors.
 struct KeyPoseOptions {
-  /// The factor on every tolerance. Raise it above 1 for a noisy sensor or untrained people: at 1.2, fixed weights
+  /// Multiplies every tolerance. Raise it above 1 for a noisy sensor or untrained people: at 1.2, fixed weights
   /// detect about as much as adaptive ones.
   double tolerance_scale = 1.0;
   /// The weighted share of a pose's angles that must be within their tolerances, in (0, 1]. At 0.8 (ours), fixed

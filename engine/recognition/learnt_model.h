@@ -54,7 +54,7 @@ struct BoostingOptions {
   bool takes_turns = false;
   /// The number of multiple-instance rounds. Each round trains on one performance per bag. The first round takes the
   /// bag's first performance; later rounds take the performance that the previous round's model finds most likely,
-  /// because it decides about the bag.
+  /// because this performance determines the bag's label.
   int rounds = 3;
 };
 

@@ -112,7 +112,7 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints) {
   return spreads.empty() ? 0 : UpperMedian(std::move(spreads));
 }
 
-/// Returns the unit in which `spread` is a person's size, 0.8 to 2.3 m; nullopt without such a unit.
+/// Returns the unit in which `spread` is a person's size, 0.8 to 2.3 m; nullopt if there is none.
 std::optional<double> UnitOfSpread(double spread) {
   for (const double unit : {1.0, 0.01, 0.001}) {
     if (spread * unit >= 0.8 && spread * unit <= 2.3) return unit;
@@ -158,7 +158,7 @@ std::optional<glm::dvec3> PlaceIn(const NumberArray& array, std::size_t index) {
   return std::max({size.x, size.y, size.z}) > kMaxAbsolute ? std::nullopt : std::optional(place);
 }
 
-/// Returns the first text of the array `name`, in lower case; empty without such an array.
+/// Returns the first text of the array `name`, in lower case; "" if there is no such array.
 std::string TextOf(const Npz& arrays, const std::string& name) {
   const auto found = arrays.texts.find(name);
   if (found == arrays.texts.end() || found->second.size() != 1) return "";

@@ -19,7 +19,7 @@ namespace etude {
 std::vector<std::string> JointLayoutNames();
 
 /// Returns the names of a layout's joints in its order; a joint that plays a role has the role's name. If several
-/// layouts are called `layout`, the number of `joints` selects one. Empty without such a layout.
+/// layouts are called `layout`, the number of `joints` selects one. The list is empty if there is no such layout.
 std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joints);
 
 /// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories. The file states no frame rate,

@@ -265,7 +265,7 @@ class MapFinder {
 };
 
 /// Returns how upright a pose is: the cosine of the angle between the line from shoulders to hips and a thigh or shank,
-/// taking the least upright limb. Only limbs that are found by name count; nullopt without any.
+/// taking the least upright limb. Only limbs that are found by name count; nullopt if none is found.
 std::optional<double> StandingOf(const Skeleton& skeleton, const JointNames& names, const LocalPose& pose) {
   const SkeletonTree tree(skeleton, pose);
   std::array<glm::dvec3, kRoleCount> at{};

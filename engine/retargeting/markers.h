@@ -42,8 +42,8 @@ struct MarkerBody {
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,
 /// COCO, HALPE_26, the bones of Motive and HumanIK, the augmented markers of OpenCap and Pose2Sim, Plug-in Gait. Case
-/// is ignored. The text before the last ':' is a prefix, and each prefix is one person. Joint centres (ours where no
-/// source is given):
+/// is ignored. The text before the last ':' is a prefix, and each prefix is one person. Joint centres are found
+/// by these rules, which are ours where no source is named:
 /// - the mean of the markers on both sides of a joint, if a set has both;
 /// - hips from the four markers of the pelvis by the regression of Harrington et al. (2007);
 /// - for single markers on the skin, the centre by MoveToJointCentres;

@@ -45,7 +45,7 @@ struct BodyConversion {
   std::string Note() const { return Join(changes, "; "); }
 };
 
-/// Converts a clip to a body's motion (ours where no source is given):
+/// Converts a clip to a body's motion (steps without a named source are ours):
 /// - Z-up files are rotated upright (FindUp).
 /// - A leading T-pose is dropped if the body jumps away from it; CMU's converted files begin with one.
 /// - The motion is resampled to `rate_hz` by interpolating rotations (SampleFrame); the first frame is unchanged.

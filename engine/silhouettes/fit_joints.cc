@@ -150,7 +150,7 @@ TreeState FitJoints(const SilhouetteBody& body, const JointTargets& targets, con
     fit.Minimise(state);
     return state;
   }
-  // Without a start, minimise from every heading and posture, and keep the pose with the lowest cost.
+  // Without a start pose, minimise from every heading and posture, and keep the pose with the lowest cost.
   constexpr int kHeadings = 4;
   std::optional<TreeState> best;
   double least = 0;

@@ -72,7 +72,7 @@ Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::
               Join(unknown), rest, Join(missing));
 }
 
-/// Returns the median distance between two joints over the frames that have both; 0 without such frames.
+/// Returns the median distance between two joints over the frames that have both; 0 if there are none.
 double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
   for (const RecordedFrame& frame : recording.frames) {

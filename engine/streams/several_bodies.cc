@@ -163,14 +163,14 @@ constexpr std::array<std::size_t, kRoleCount> kJointOfRole = {0,  1,  3,  26,   
                                                               5,  6,  7,  8,  12, 13, 14, 15,  // arms
                                                               18, 19, 20, 21, 22, 23, 24, 25};
 
-/// Returns the number at index `i` of a list; nullopt without one.
+/// Returns the number at index `i` of a list; nullopt if there is no finite number.
 std::optional<double> NumberAt(const Json& list, std::size_t i) {
   if (!list.is_array() || i >= list.size() || !list[i].is_number()) return std::nullopt;
   const double value = list[i].get<double>();
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Returns a body's confidences, K4ABT_JOINT_CONFIDENCE_* (0 none, 1 low, 2 medium, 3 high); null without them. The
+/// Returns a body's confidences, K4ABT_JOINT_CONFIDENCE_* (0 none, 1 low, 2 medium, 3 high); null if it has none. The
 /// offline processor does not write confidences; recorders derived from it do, under one of these names.
 const Json* ConfidencesOf(const Json& body) {
   for (const char* key : {"confidence_level", "confidence_levels", "joint_confidence"}) {

@@ -86,7 +86,7 @@ struct Candidate {
   int from_frame = 0;  ///< in the clip that is left, or in the in-between
   int to_frame = 0;    ///< in the clip that is entered, or in the in-between
   FuzzyDistance distance;
-  std::optional<double> cost;  ///< the cost by which the choice ranks, unless that is the distance
+  std::optional<double> cost;  ///< the cost by which the choice ranks pairs; empty if it ranks them by `distance`
   CandidateOutcome outcome = CandidateOutcome::kTooFar;
   int point = 0;  ///< index of the record's transition point to which it belongs
 };

@@ -66,7 +66,7 @@ class PersonFinder {
   double cosine2_ = 0;               ///< the threshold's squared cosine
   /// kRunning: mean and variance of every pixel's three channels; empty before the first picture.
   std::vector<float> mean_, variance_;
-  std::optional<ColourLikelihood> colours_;  ///< kLikelihood
+  std::optional<ColourLikelihood> colours_;  ///< used only by kLikelihood
 };
 
 }  // namespace etude

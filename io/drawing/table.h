@@ -26,7 +26,7 @@ struct TableCell {
   template <std::convertible_to<std::string_view> Text>
   TableCell(const Text& words, std::optional<double> value = {}, std::string markup = {})
       : text(std::string_view(words)), number(value), html(std::move(markup)) {}
-  /// Makes a cell of a number with all its digits; an empty cell without a number.
+  /// Makes a cell that shows a number with all its digits, or an empty cell for nullopt.
   TableCell(std::optional<double> value) : number(value) {}
   TableCell(double value) : number(value) {}
   TableCell(int value) : number(value) {}

@@ -18,9 +18,9 @@ namespace etude {
 /// The limits of an outside program, besides the time and memory that its scenario allows.
 struct ProgramLimits {
   static constexpr std::uint64_t kFileBytes = std::uint64_t{256} << 20;  ///< per file; in a fence, per scratch folder
-  /// The maximum number of open descriptors per process. The same limit holds for the user's descriptors in flight
-  /// between processes (SCM_RIGHTS): 512 pipes in flight and 256 open pipes leave other programs some of the user's
-  /// 1024 pipes of full size.
+  /// The maximum number of open descriptors per process. The kernel applies the same limit to the user's descriptors in
+  /// flight between processes (SCM_RIGHTS). At most 512 pipes are thus in flight and 256 open, so some of the user's
+  /// 1024 pipes of full size remain for other programs.
   static constexpr std::uint64_t kOpenFiles = 512;
   static constexpr std::uint64_t kPendingSignals = 1024;  ///< POSIX timers count, too
   static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< locked by mlock

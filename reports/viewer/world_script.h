@@ -38,7 +38,7 @@ QuantisedMotion Quantise(std::span<const glm::dvec3> points);
 ///                  reference bodies; the last visible one is used], "low_m": [x, y, z], "step_m", "data": Base64 of
 ///                  the steps, little-endian,
 ///                  "contacts": [[side, begin, end]], "joints": [names], "parents": [indices, −1: none] (both
-///                  absent for the twenty)}],
+///                  absent for a body of the twenty joints)}],
 ///      "targets_m": [[x, y, z]], "steps": [{"cell", "iterations", "off_cm", "off_deg"}],
 ///      "marks": [{"lane", "frame", "end", "kind", "text"}]}
 std::string WorldScript(const RunData& run, const RecordedWorld& world);

@@ -30,7 +30,7 @@ struct CameraEffects {
 
   // The sensor (sensor.h) and the file (jpeg.h).
   double bayer = 0;      ///< 1: one colour per pixel, the others interpolated; below 1: mixed with full colours
-  double noise = 1;      ///< factor on the usual standard deviation of read and shot noise
+  double noise = 1;      ///< multiplies the usual standard deviation of read and shot noise
   double jpeg_loss = 0;  ///< 100 − JPEG quality; 0: no JPEG at all
 };
 

@@ -106,14 +106,14 @@ LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side si
   return {hip, knee, ankle, ankle + to_toe};
 }
 
-/// Returns the greatest hip height at which the nearly straight standing leg still reaches its spot. The limit rises as
-/// the leg becomes free. Only x and z of `hip` are used.
+/// Returns the greatest hip height at which the foot of the nearly straight leg still reaches its spot on the floor.
+/// The result is higher for a freer leg, because a free leg must not limit the hips. Only x and z of `hip` are used.
 double HighestHip(const Controls& controls, const BodyDimensions& body, Side side, const glm::dvec3& hip) {
   const glm::dvec3 ankle = StandingGoal(controls, body, side).ankle;
   const double sideways = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
   const double reach = kReach * LegLength(body);
   const double height = std::sqrt(std::max(0.0, reach * reach - sideways * sideways));
-  // Add up to one metre, more than any leg's length: a free leg must not limit the hips.
+  // Add up to one metre, which is more than any leg's length.
   return ankle.y + height + Freedom(controls, side);
 }
 

@@ -26,7 +26,8 @@ struct CanonicalBody {
   static constexpr double kHand = 0.18;
   /// The height of the hip centre above the floor, with straight legs.
   static constexpr double kHipHeight = kThigh + kShank + kAnkleHeight;
-  /// The home spots of the feet: half the distance between them, and the outward angle of the toes, radians.
+  /// The home spots, where the feet stand in the ready stance: half the distance between them, metres, and the outward
+  /// angle of the toes, radians.
   static constexpr double kHomeHalfWidth = 0.12;
   static constexpr double kHomeToeOut = 0.2;
 };

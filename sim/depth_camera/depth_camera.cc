@@ -82,8 +82,8 @@ constexpr double kRightAngle = std::numbers::pi / 2;
 // The largest angle to which LateralDeviationPx is applied: the limit of the published measurements.
 constexpr double kMeasuredAngle = 80 * std::numbers::pi / 180;
 
-/// Computes for each pixel the angle between the normal of its surface and its line of sight, radians; 0 without a
-/// normal.
+/// Computes for each pixel the angle between the normal of its surface and its line of sight, radians; 0 if the
+/// pixel has no normal.
 Image<double> AnglesOfSight(const DepthImage& depth, const Camera& camera) {
   const NormalImage normals = NormalsOf(depth, camera);
   const Intrinsics& in = camera.intrinsics;

@@ -28,7 +28,7 @@ class Points {
   }
 
   /// Returns the vector between this pixel's point and a neighbour's, for the next pixel in the direction (right, down)
-  /// or the previous one: the vector with the smaller change of depth. Returns nullopt without a neighbour.
+  /// or the previous one: the vector with the smaller change of depth. Returns nullopt if no such vector exists.
   std::optional<glm::dvec3> StepAt(int x, int y, int right, int down) const {
     const auto here = At(x, y), next = At(x + right, y + down), before = At(x - right, y - down);
     if (!here || (!next && !before)) return std::nullopt;

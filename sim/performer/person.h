@@ -45,14 +45,14 @@ struct Person {
 
   double lag_s = 0;         ///< mean delay behind the coach
   double lag_spread_s = 0;  ///< standard deviation of the delay between performances
-  double tempo = 1;         ///< factor on the move's tempo where no music sets it
+  double tempo = 1;         ///< multiplies the move's tempo where no music sets it
   double tempo_spread = 0;  ///< standard deviation of the tempo's logarithm between performances
   double drift = 0;         ///< unevenness of the timing within a performance, as a share of its length
-  double amplitude = 1;     ///< factor on every angle's distance from the ready stance
+  double amplitude = 1;     ///< multiplies every angle's distance from the ready stance
   double tiring = 0;        ///< share of the amplitude that is lost after a minute of dancing
 
-  /// The gain of each control: the factor on the control's distance from the ready stance. Gains determine which
-  /// movements the person exaggerates or reduces, and which side is stronger.
+  /// The gain of each control, which multiplies its distance from the ready stance. Gains determine which movements
+  /// the person exaggerates or reduces, and which side is stronger.
   std::array<double, kControlCount> gains = AllGains(1);
   /// The person's posture: offsets that are added to every control, in every move and at rest.
   Controls posture = {};

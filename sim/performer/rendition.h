@@ -29,7 +29,7 @@ inline double EasedTime(double time, double length) {
 /// The random variation of one performance, without its faults. It differs between the performances of one person.
 struct Chance {
   double lag_s = 0;        ///< delay behind the coach
-  double tempo = 1;        ///< factor on the move's tempo
+  double tempo = 1;        ///< multiplies the move's tempo
   double unevenness = 0;   ///< unevenness of the timing from the first beat to the last, as a share of the performance
   std::uint64_t ways = 0;  ///< the random key of its offsets
 };
@@ -52,8 +52,9 @@ class Rendition {
   /// Returns the weight of the dance: 1 while the person dances, 0 while they stand still.
   double Presence(double share) const;
 
-  /// Returns the share of the performance reached at `due`: MeantShare without the faults, DancedShare with them. In a
-  /// performance on time, `due` runs evenly from 0 to 1. Both functions increase.
+  /// Returns the share of the performance that is reached at time `due`: MeantShare without the faults, DancedShare
+  /// with them. `due` is the share that a perfectly timed performance has reached at that time. Both functions
+  /// increase.
   double MeantShare(double due) const;
   double DancedShare(double due) const;
   /// Returns the delay of the whole performance, as a share of its length.

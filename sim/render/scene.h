@@ -140,7 +140,7 @@ constexpr glm::dvec3 kLamp{-1.8, 2.9, 4.0};
 /// casts shadows; or an interior.
 struct Room {
   std::uint64_t texture_seed = 1;  ///< determines the spots of the wall and floor
-  double brightness = 1.0;         ///< factor on the light (exposure, lamp drift), ≥ 0; does not change hues
+  double brightness = 1.0;         ///< multiplies the light (exposure, lamp drift), ≥ 0; does not change hues
   bool casts_shadows = true;
   const Interior* interior = nullptr;  ///< null: the studio. Must live until the picture is drawn.
 };

@@ -76,7 +76,7 @@ double DepthDeviation(DepthLaw law, double z);
 /// The errors of a Kinect-like skeleton sensor: `SensorV1()`, `SensorV2()` or a file (docs/sensor.md). Comments at the
 /// presets state the sources of the values.
 struct SkeletonSensorOptions {
-  /// A factor on every size, probability and lag below (probabilities are limited to 1). It does not affect which
+  /// Multiplies every size, probability and lag below (probabilities are limited to 1). It does not affect which
   /// joints are hidden or out of view, nor the offsets of guesses for hidden joints. At 0, hidden joints are inferred
   /// correctly, and all other joints are reported at their true positions.
   double strength = 1.0;

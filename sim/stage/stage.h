@@ -23,7 +23,7 @@ class Movers {
   /// Returns the figures at a time, which may be before the take. They are labelled kClutter and kBystander.
   std::vector<Figure> At(double seconds) const;
 
-  /// Returns the second person's joints at a time; nullopt without a second person.
+  /// Returns the second person's joints at a time; nullopt if there is no second person.
   std::optional<BodyPose> BystanderAt(double seconds) const;
 
  private:
@@ -81,7 +81,7 @@ class StagedRoom {
   Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
   /// Returns the moving objects at `seconds` after the take's start; a negative time is before it.
   std::vector<Figure> MoversAt(double seconds) const;
-  /// Returns the second person's joints; nullopt without a second person.
+  /// Returns the second person's joints; nullopt if there is no second person.
   std::optional<BodyPose> BystanderAt(double seconds) const;
   /// Returns the factor by which the 100 Hz flicker of mains-powered lamps changes the light of a picture taken at this
   /// time.

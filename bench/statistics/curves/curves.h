@@ -76,7 +76,7 @@ struct Wait {
 
 /// Returns the Kaplan–Meier estimate (1958) of the share still waiting. The first point is (the earliest time, 1); then
 /// comes (time, share) after each time at which a wait ended. A censored wait counts as at risk up to and including its
-/// time. Empty without waits.
+/// time. The curve is empty if there are no waits.
 std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits);
 
 /// Returns the median waiting time: the first time at which the survival curve is ½ or less. Empty if the curve never

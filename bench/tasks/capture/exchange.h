@@ -69,7 +69,7 @@ Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& k
 /// true skeleton at that time is drawn. Fails without a renderer.
 Result<SensorSheet> MakeCaptureSheet(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
-/// The answer of an outside method, one entry per frame, null without a pose:
+/// The answer of an outside method, one entry per frame, null for a frame without a pose:
 ///
 ///     {"poses": [[sixty numbers], null, …]}
 ///

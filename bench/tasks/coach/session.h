@@ -84,7 +84,7 @@ struct SessionParts {
   const Recogniser& recogniser;
   FilterOptions filter;
   bool sees_truth = false;     ///< true: the coach receives the learner's true motion, not the sensed one
-  CaptureMethod capture = {};  ///< if the sensor is cameras: the causal method that makes skeletons
+  CaptureMethod capture = {};  ///< if cameras are the sensor: the causal method that makes skeletons
 };
 
 /// Decides in each frame if the coach corrects, instead of the coach's own policy.

@@ -76,7 +76,7 @@ struct DetectionMethod {
   std::string name;
   FilterOptions filter;
   bool sees_truth = false;  ///< `oracle: [stream]`
-  /// If the sensor is cameras: the method by which pictures become skeletons; nullopt = the defaults of task capture.
+  /// If cameras are the sensor: the method by which pictures become skeletons; nullopt = the defaults of task capture.
   std::optional<CaptureMethod> capture = {};
   RecogniserOptions recogniser;
   std::optional<double> threshold;  ///< nullopt = the recogniser's default
@@ -94,7 +94,7 @@ struct DetectionMethod {
 Result<SkeletonSensorOptions> SensorOf(const TaskInput& input);
 /// Adds an error for each key that belongs to another sensor than the condition's.
 void CheckSensorKeys(Fields& condition, DetectionOptions& options);
-/// Prepares the cameras for every method if the condition's sensor is cameras. Otherwise fails if a method sets
+/// Prepares the cameras for every method if the condition uses cameras as its sensor. Otherwise fails if a method sets
 /// `capture`. `methods` are in the order of the input's methods; `sight` returns a method's DetectionMethod.
 template <typename Methods, typename Sight>
 Result<void> PrepareCameras(const TaskInput& input, const Methods& methods, Sight sight, DetectionOptions& options) {

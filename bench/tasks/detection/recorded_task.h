@@ -19,8 +19,8 @@ namespace etude {
 /// Makes the world of one person: their recordings, one after another, with their labels. Clips are sensed by the
 /// condition's sensor; recordings of a sensor are used unchanged. The window of a performance ends half a second after
 /// the performance, or at the beginning of the next one if that is earlier; this also holds for labels that overlap. If
-/// the condition names faults, each recording is followed by one copy with each fault. In the copies, TruthOfFault
-/// decides about right performances, and performances that were already wrong are grey.
+/// the condition names faults, each recording is followed by one copy with each fault. In a copy, a performance that
+/// was right has the truth that TruthOfFault returns; one that was already wrong is grey, so it is not scored.
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key);
 

@@ -67,8 +67,8 @@ struct ActionPoint {
 struct DetectionWorld {
   BodyMotion motion;  ///< the motion as performed or, if the truth of a recording is unknown, as sensed
   std::vector<DetectionEvent> events;
-  /// The output of a skeleton sensor. If the sensor is cameras, it has no bodies, because skeletons depend on the
-  /// method.
+  /// The output of a skeleton sensor. If cameras are used instead, the stream has no bodies, because each method makes
+  /// its own skeletons from the pictures.
   SkeletonStream stream;
   std::string person = {};  ///< the person's name, for recordings
   std::vector<ActionPoint> points = {};      ///< labelled action points, for recordings
@@ -80,7 +80,7 @@ struct DetectionWorld {
   bool IsRecorded() const { return !person.empty(); }
 };
 
-/// Makes the world of `key`. If the sensor is cameras, `options` must outlive the world.
+/// Makes the world of `key`. If cameras are the sensor, `options` must outlive the world.
 DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key);
 
 /// Returns a session's event in the frames of `stream`.

@@ -27,7 +27,7 @@ enum class IkStart {
 /// The difficulty of the trials of a condition.
 struct IkTrialOptions {
   LimitSet limit_set = LimitSet::kAdult;
-  double pose_range = 0.5;  ///< the true pose is uniform in this share of every range, around its middle
+  double pose_range = 0.5;  ///< true angles are drawn uniformly from this share of their ranges, around the middle
   IkStart start = IkStart::kDisturbed;
   double joint_noise_deg = 15;  ///< size of the disturbance of the start
   NoiseKind noise = NoiseKind::kGaussian;

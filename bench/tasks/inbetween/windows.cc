@@ -60,7 +60,7 @@ int FirstFrameOf(const std::string& window) {
 
 Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> methods,
                                const std::map<std::string, std::string>& /*texts*/) {
-  // Read the keys. The task will check them all later.
+  // Read this task's keys. Unknown keys are reported later, when the task is made.
   InbetweenOptions options;
   Fields fields(condition, "a scenario of task inbetween");
   InbetweenConditionFields().Read(fields, options);

@@ -20,7 +20,7 @@ struct StageRules {
   bool asks_for_acts = false;  ///< true: the coach's acts are requested while other clips play, if there are both
 };
 
-/// A library of clips prepared for transitions. All clips are performed by one body (`JudgedProportions`) and tagged.
+/// A library of clips prepared for transitions. All clips are transferred to one body (`JudgedProportions`) and tagged.
 /// The natural jumps of each clip are measured, because transitions are compared with them.
 struct Stage {
   MotionLibrary library;                ///< the clips, with the names that rows and videos show

@@ -32,10 +32,11 @@ struct BridgeOptions {
   double threshold = 0.4;
 };
 
-/// Clips prepared for transitions: performed by the body of the first clip, and tagged.
+/// Clips prepared for transitions: transferred to the body of the first clip, and tagged.
 class ETUDE_API Bridges {
  public:
-  /// Throws BadInput for no clips, a clip without frames or with another rate than the first, or options out of range.
+  /// Throws BadInput for no clips, a clip without frames or with a rate other than the first clip's, or options
+  /// out of range.
   explicit Bridges(std::span<const BodyMotion> clips, const BridgeOptions& options = {});
   Bridges(Bridges&&) noexcept;
   Bridges& operator=(Bridges&&) noexcept;

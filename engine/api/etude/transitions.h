@@ -48,12 +48,12 @@ struct BodyProportions {
   double hip_height = 0;
 };
 
-/// Clips prepared for transitions: performed by one body, tagged, and connected by in-betweens.
+/// Clips prepared for transitions: transferred to one body, tagged, and connected by in-betweens.
 class ETUDE_API TransitionLibrary {
  public:
-  /// All clips are performed by a body of the given proportions (scenarios use sim::ScenarioProportions), by default
-  /// those of the first clip's first frame. Throws BadInput for no clips, a clip with fewer than two frames or another
-  /// rate than 30 Hz, positions that are not finite, a body without legs, and hips that are not 0.1 to 10 m high.
+  /// Transfers all clips to one body. It has the given proportions (scenarios use sim::ScenarioProportions), by default
+  /// those of the first clip's first frame. Throws BadInput for no clips, a clip with fewer than two frames or with a
+  /// rate other than 30 Hz, positions that are not finite, a body without legs, and hips that are not 0.1 to 10 m high.
   explicit TransitionLibrary(std::span<const BodyMotion> clips, const std::optional<BodyProportions>& proportions = {});
   TransitionLibrary(TransitionLibrary&&) noexcept;
   TransitionLibrary& operator=(TransitionLibrary&&) noexcept;

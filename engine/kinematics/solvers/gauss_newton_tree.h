@@ -61,7 +61,7 @@ struct LimbPacks {
     alignas(kAlignment) double p_PJ[3][kWidth] = {};
     alignas(kAlignment) double has_hinge[3][kWidth] = {};  ///< 1 if the limb has this hinge, else 0
     bool turns_axes = false;                               ///< true if `R_PJ` of any limb is not the identity
-    int hinge_count = 0;                                   ///< the maximum over its four joints
+    int hinge_count = 0;                                   ///< the largest number of hinges of one of its joints
     /// Slot of the first hinge; slot s holds the angle indices 4 s … 4 s + 3.
     int first_slot = 0;
     int ends = -1;  ///< index in `ends` of its effectors, −1 if it has none

@@ -20,7 +20,7 @@ struct GaussNewtonRules {
   double squared_distance_met = 0, squared_distance_missed = 0;
   double squared_chord_met = 0, squared_chord_missed = 0;
   int extra_passes = 0;
-  double max_turn = 0;  ///< `kMaxTurn`
+  double max_turn = 0;  ///< maximum change of an angle in one step, radians (`kMaxTurn`)
 
   /// Returns true if a pose meets the goals; calls `measure()` if the squares do not decide this.
   template <class Measure>

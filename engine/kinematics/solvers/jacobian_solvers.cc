@@ -221,9 +221,10 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
 
 namespace {
 
-// Range of Nielsen's factor on the damping. A smaller factor would not keep steps short if the residual stays large.
+// Range of the factor that multiplies the damping (Nielsen's rule). A smaller factor would not keep steps short if the
+// residual stays large.
 constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9;
-// After the first rejected step, the factor on the damping grows by this.
+// After the first rejected step, this factor is multiplied by kFirstGrowth.
 constexpr double kFirstGrowth = 2;
 // Minimum damping: JJᵀ of limbs at their limits is singular.
 constexpr double kMinMu = 1e-9;

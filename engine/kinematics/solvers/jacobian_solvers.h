@@ -59,7 +59,7 @@ class DampedInverse {
 };
 
 struct JacobianTransposeOptions {
-  /// A factor on the step length that is optimal to first order. With every factor between 0 and 2 the error falls, to
+  /// Multiplies the step length that is optimal to first order. With every factor between 0 and 2 the error falls, to
   /// first order. The default 1 is the usual method. Its steps zigzag like those of steepest descent with exact line
   /// search; shorter steps avoid that (Raydan and Svaiter 2002). Set it to 0.5 to see the method at its best (README.md
   /// has the figures).

@@ -150,7 +150,7 @@ TransitionRecord ThroughInBetween(const MotionLibrary& library, const Transition
   const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
   const std::vector<int> exit_frames = BridgeFramesWithin(playing, window);
   const KeyPoint exit = exits.Find(exit_frames, FramesWithin(window));
-  // Frames rise, so those of the front half come first.
+  // Bridge frames are in ascending order, so those of the clip's front half come first.
   const std::vector<int> entrance_frames = BridgeFramesWithin(next, EntryWindow(next));
   const KeyPoint entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
 

@@ -16,7 +16,7 @@ struct ClipCoverage {
   double frame_share = 0;   ///< share of all frames that match a frame of the other clip
   double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame of the other clip
   /// The longest wait from any frame to the next matching bridge frame, in seconds, in a clip that is repeated at its
-  /// end; empty without a matching bridge frame.
+  /// end; empty if no bridge frame matches.
   std::optional<double> worst_wait_s;
   /// The share of frames after which no matching bridge frame follows within the budget and before the clip's end. A
   /// transition from such a frame goes through an in-between.

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// The speed limits of a tween. They are ours, because paper A does not specify the speed of its in-between.
+/// The speed limits of a tween. Paper A does not specify the speed of its in-between, so these limits are ours.
 struct TweenRules {
   /// The maximum angular velocity of any limb (reached half-way), radians per second, > 0.
   double turn_speed = Radians(360);
@@ -58,7 +58,7 @@ std::vector<BodyPose> SampleTween(const Tween& tween, double rate_hz, const Twee
 /// Appends a tween from the last of `frames` (at least one) to the aligned `to`.
 void AppendTween(const BodyPose& to, double rate_hz, const TweenRules& rules, std::vector<BodyPose>& frames);
 
-/// The rules that choose the keys of in-betweens. They are ours, because paper A draws its in-between by hand.
+/// The rules that choose the keys of in-betweens. Paper A draws its in-between by hand, so these rules are ours.
 struct InBetweenRules {
   FeatureWeights weights = PaperWeights();
   double threshold = kPaperThreshold;  ///< every bridge frame is nearer than this to some key

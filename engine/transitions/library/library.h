@@ -39,8 +39,8 @@ struct Stance {
 };
 Stance StanceOf(const BodyPose& pose, double standing_hip_height);
 
-/// Returns true if a join would have to raise or lower a body without support: at least one stance is down, and the hip
-/// heights differ by more than 0.2 m. Only a recorded clip can show such a motion.
+/// Returns true if at least one of the two stances is down and their hip heights differ by more than 0.2 m. A join
+/// would then raise or lower a body that nothing supports; only a recorded clip can show such a motion.
 bool NeedsClip(const Stance& a, const Stance& b);
 
 /// Returns, for every frame of a clip, the distance of the zero-moment point from the joints that bear the body by

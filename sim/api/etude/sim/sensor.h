@@ -12,7 +12,7 @@ namespace etude::sim {
 /// A Kinect-like sensor and its position. The same options and motion give the same reports on every machine.
 struct SensorOptions {
   std::string sensor = "v2";  ///< "v1", "v2", or the text of a sensor file, as `etude sensor fit` writes it
-  /// A factor on every error and probability, 0 to 10. At 0, hidden joints are inferred correctly.
+  /// Multiplies every error and probability, 0 to 10. At 0, hidden joints are inferred correctly.
   double strength = 1;
   double distance_m = 2.75;  ///< along the floor from the middle of the body's motion; 0.5 to 10
   double turn = 0;           ///< radians about that middle; 0 is on its +Z side, π/2 on its +X side
