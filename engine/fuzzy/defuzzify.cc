@@ -23,7 +23,7 @@ struct Moment {
 
 double ClippedAt(const ActivatedTerm& term, double x) { return std::min(term.grade, GradeOf(term.shape, x)); }
 
-/// Returns the part of a cut that lies in the universe; low > high if it is empty.
+/// Returns the intersection of a cut and the universe; low > high if they do not overlap.
 Cut Within(const Universe& universe, const Cut& cut) {
   return {std::max(cut.low, universe.low), std::min(cut.high, universe.high)};
 }
@@ -62,7 +62,7 @@ void AddCorners(const ActivatedTerm& term, const Universe& universe, std::vector
   }
   if (const auto* gaussian = std::get_if<Gaussian>(&term.shape)) {
     constexpr int kSteps = 128;
-    constexpr double kReach = 8;  // standard deviations; beyond, the grade is below 1e-13
+    constexpr double kReach = 8;  // in standard deviations from the mean; farther away, the grade is below 1e-13
     for (int i = 0; i <= kSteps; ++i) {
       corners.push_back(gaussian->mean + gaussian->sigma * kReach * (2.0 * i / kSteps - 1));
     }

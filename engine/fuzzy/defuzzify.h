@@ -28,13 +28,13 @@ struct ActivatedTerm {
   double grade = 0;  ///< in [0, 1]
 };
 
-/// Returns the crisp input that the activated terms represent, within `universe`; nothing if no term is activated, or
-/// none within the universe. It is exact for straight-sided shapes; areas of Gaussians are summed in small steps (error
-/// below 1e-4 of the universe). Singletons have no area, so centroid and area use them, weighted by their grades, only
-/// if no term has an area.
+/// Returns the crisp input that the activated terms represent, within `universe`. Returns nullopt if no term is
+/// activated within the universe. The result is exact for straight-sided shapes; areas of Gaussians are summed in small
+/// steps (error below 1e-4 of the universe). Singletons have no area, so kCentroid and kArea ignore them unless only
+/// singletons are activated; then the result is the mean of the singletons, weighted by their grades.
 std::optional<double> Defuzzify(std::span<const ActivatedTerm> terms, const Universe& universe, Defuzzification method);
 
-/// Returns the crisp input of a feature that has these grades, like `Defuzzify`.
+/// Returns the crisp input of a feature whose terms are activated to `grades` (see `Defuzzify`).
 std::optional<double> DefuzzifyFeature(const Grades& grades, Feature feature, const Memberships& memberships,
                                        Defuzzification method);
 

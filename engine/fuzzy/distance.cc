@@ -36,8 +36,8 @@ FuzzyDistance ComputeDistance(const Grades& a, const Grades& b, const FeatureWei
 }
 
 bool IsCloser(const Grades& a, const Grades& b, const FeatureWeights& weights, double threshold) {
-  // Compare squares, and take a root only where it matters. Rounding is monotonic: if the sum exceeds the rounded
-  // square of the threshold, the rounded root of the sum is not below the threshold.
+  // Compare squares to avoid the root for most pairs. Rounding is monotonic: if the sum exceeds the rounded square of
+  // the threshold, the rounded root of the sum is not below the threshold.
   const double square = threshold * threshold;
   double sum = 0;
   for (std::size_t k = 0; k < kFeatureCount; ++k) {

@@ -61,7 +61,7 @@ class Band {
   }
 
  private:
-  double rows_, columns_;  ///< number of rows minus one, and of columns minus one
+  double rows_, columns_;  ///< the number of rows minus one; the number of columns minus one
   double slack_;           ///< upper limit of |row · columns_ − column · rows_|
 };
 
@@ -73,11 +73,12 @@ std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::sp
   const std::vector<Grades> rows = Scaled(a, options.weights), columns = Scaled(b, options.weights);
   const Band band(rows.size(), columns.size(), options.band);
   const double steps = static_cast<double>(rows.size() + columns.size());
-  // The similarity is below `at_least` if the sum of distances exceeds this; the margin covers rounding.
+  // The similarity is below `at_least` exactly if the sum of distances along the path exceeds `max_cost`, apart from a
+  // margin for rounding.
   const double max_cost =
       options.at_least > 0 ? steps * options.half_at * (1 / options.at_least - 1) * (1 + 1e-12) + 1e-12 : kUnreached;
 
-  // Warp row by row within the band; a diagonal step counts twice.
+  // Dynamic time warping, row by row within the band. A diagonal step has twice the weight of the other steps.
   std::vector<double> above(columns.size(), kUnreached), row(columns.size(), kUnreached);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::ranges::fill(row, kUnreached);

@@ -27,8 +27,8 @@ FuzzyMotion FuzzifyMotion(const BodyMotion& motion, double standing_hip_height, 
 
 struct MotionSimilarityOptions {
   FeatureWeights weights = PaperWeights();
-  /// The largest deviation of the warping path from the straight line, as a share of the motions' lengths, in [0, 1].
-  /// At 0.1, a beat may be one second early or late in ten seconds; 1 means no limit.
+  /// The half-width of the Sakoe–Chiba band: the largest deviation of the warping path from the diagonal, as a share of
+  /// the motions' lengths, in [0, 1]. At 0.1, a beat may be one second early or late in ten seconds; 1 means no limit.
   double band = 0.1;
   /// The mean distance at which the similarity is 0.5; > 0.
   double half_at = kPaperThreshold;
@@ -37,13 +37,14 @@ struct MotionSimilarityOptions {
 };
 
 /// Computes a fuzzy similarity of two whole motions, which paper A leaves as future work 3: s = 1 / (1 + D / half_at),
-/// in (0, 1]. It is 1 for a motion and itself, symmetric, and (except for the band) independent of tempo.
+/// in (0, 1]. It is symmetric, it is 1 between a motion and itself, and it does not depend on tempo as long as the path
+/// stays within the band.
 ///
 /// D is the mean of equation 1's distance along the best warping path (dynamic time warping, Sakoe and Chiba 1978: the
 /// symmetric form without slope constraint, divided by the sum of both lengths). The conversion of a distance to a
 /// similarity is Kóczy's, s = 1 / (1 + d), in units of the threshold.
 ///
-/// Returns nothing if the similarity is below `at_least` or a motion has no frame. It takes O(n · m · band) time and
+/// Returns nullopt if the similarity is below `at_least` or a motion has no frame. It takes O(n · m · band) time and
 /// O(m) memory.
 std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::span<const Grades> b,
                                               const MotionSimilarityOptions& options = {});

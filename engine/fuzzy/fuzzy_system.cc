@@ -72,7 +72,7 @@ class FeaturesReader {
       if (seen) return Fail(entry.place, "the feature {} appears twice here", FeatureName(feature));
       seen = true;
     }
-    // Read the settings under them.
+    // Read the universe, the terms and the weight that these features share.
     Fields fields(entry.value, "the feature " + entry.key);
     ASSIGN_OR_RETURN(const auto universe, ReadUniverse(fields));
     const std::optional<double> weight = fields.OptionalNumber("weight", {0, 1e6});
@@ -81,7 +81,7 @@ class FeaturesReader {
     if (terms == nullptr) fields.Complain(entry.place, fmt::format("{} needs 'terms'", entry.key));
     RETURN_IF_ERROR(fields.Finish());
     ASSIGN_OR_RETURN(const auto shapes, ReadTerms(entry.key, group.front(), *terms, universe));
-    // Assign them to every feature of the group.
+    // Give these settings to every feature of the group.
     for (Feature feature : group) {
       const std::size_t k = static_cast<std::size_t>(feature);
       memberships_.universes[k] = universe;
@@ -117,7 +117,7 @@ class FeaturesReader {
     std::vector<Shape> shapes;
     for (const std::string& term : TermNames(feature)) {
       const Node* shape_node = fields.Raw(term);
-      if (shape_node == nullptr) continue;  // an unknown key is the more likely cause, and is reported first
+      if (shape_node == nullptr) continue;  // Finish() reports unknown keys first: a misspelt term is the likely cause
       ASSIGN_OR_RETURN(const auto shape, ReadShape(*shape_node, universe));
       shapes.push_back(shape);
     }
@@ -146,8 +146,8 @@ std::string Written(Feature feature, const FeatureSettings& settings) {
   return text;
 }
 
-/// Reads the mapping under `features`: all ten features of table 1 with all their terms and no others; "RH, LH" may be
-/// one key.
+/// Reads the mapping under `features`: all ten features of table 1 with all their terms and no others. Features with
+/// equal settings may share a key, for example "RH, LH".
 Result<FeatureSettings> ReadFeatures(const Node& node) {
   if (node.kind != Node::Kind::kMapping) {
     return Fail(node.place, "'features' must map features to their terms (RH, LH: …), found {}", Describe(node));
@@ -293,8 +293,7 @@ Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& fi
   RETURN_IF_ERROR(fields.Finish());
   ASSIGN_OR_RETURN(const auto features, ReadFeatures(*features_node));
   ASSIGN_OR_RETURN(const auto rules, rules_node != nullptr ? ReadRules(*rules_node) : RuleBase{});
-  // Set every member explicitly: the members' defaults read the paper's system, which may be the system that is being
-  // read.
+  // Set every member explicitly: a default would call PaperSystem(), which may be loading this very system.
   return FuzzySystem{.name = name, .memberships = features.memberships, .weights = features.weights, .rules = rules};
 }
 

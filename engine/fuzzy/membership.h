@@ -37,8 +37,8 @@ struct Cut {
   double low = 0, high = 0;  ///< closed interval
 };
 
-/// Returns the α-cut, which is the set of inputs with at least this grade, in (0, 1]. It is one interval, because every
-/// shape is convex. Grade 0 gives the support of a straight-sided shape.
+/// Returns the α-cut for a grade in (0, 1]: the set of inputs whose grade is at least `grade`. It is one interval,
+/// because every shape is convex. For grade 0, it returns the support of a straight-sided shape.
 Cut CutOf(const Shape& shape, double grade);
 
 /// A linguistic term of a feature (table 1 of paper A), for example "down", "true" or "stand".

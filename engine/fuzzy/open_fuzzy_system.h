@@ -15,8 +15,8 @@ constexpr std::string_view kBuiltinFuzzySystem = "builtin:";
 /// Reads the text of a file.
 using FuzzyTextOf = std::function<Result<std::string>(const std::string& file)>;
 
-/// Opens the fuzzy system of a reference: `builtin:NAME`, or a file, whose text `text_of` reads. `asked_at` is the
-/// position of the reference, for complaints.
+/// Opens the fuzzy system that `reference` names: `builtin:NAME`, or a file, whose text `text_of` reads. `asked_at` is
+/// the position of the reference, for error messages.
 Result<FuzzySystem> OpenFuzzySystem(const std::string& reference, const Place& asked_at, const FuzzyTextOf& text_of);
 
 }  // namespace etude

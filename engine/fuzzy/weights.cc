@@ -12,8 +12,7 @@ namespace {
 constexpr int kUnknowns = static_cast<int>(kFeatureCount) + 1;  // the last one is the bias
 using Vector = Eigen::Matrix<double, kUnknowns, 1>;
 using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-/// A pair as a row of the regression. It is a plain array, because the innermost loop must be fast in debug builds,
-/// too.
+/// A pair as a row of the regression. It is a plain array, so that the innermost loop is fast even in debug builds.
 using Row = std::array<double, kUnknowns>;
 
 Row ToRow(const LabelledPair& pair) {
@@ -91,7 +90,7 @@ double Largest(const Row& beta) {
 
 WeightFit FitWeights(std::span<const LabelledPair> pairs, const WeightFitOptions& options) {
   WeightFit fit;
-  // Count the classes; without both there is nothing to learn.
+  // Count the pairs of each class. Logistic regression needs pairs of both classes.
   fit.pairs = static_cast<int>(pairs.size());
   fit.close_pairs = static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [](auto& pair) { return pair.close; }));
   if (fit.close_pairs == 0 || fit.close_pairs == fit.pairs) return fit;

@@ -9,11 +9,12 @@ namespace etude {
 /// One training example: two frames of different clips, and whether their poses are practically the same.
 struct LabelledPair {
   PerFeature squared_gaps{};  ///< Δ_k² of the two frames
-  bool close = false;         ///< the distance of the worst joint is less than the chosen pose gap
+  bool close = false;         ///< true if the largest distance of a joint is below the chosen pose gap
 };
 
 struct WeightFitOptions {
-  /// The L2 penalty, in units of one pair; it keeps the fit finite if the pairs are separable.
+  /// The weight of the L2 penalty (ridge), relative to the loss of one pair. It keeps the coefficients finite if a
+  /// threshold separates the two classes perfectly.
   double ridge = 1e-2;
   int max_iterations = 40;
   /// Newton's method has converged if no coefficient changes by more than this, relative to the largest.
