@@ -9,8 +9,8 @@
 namespace etude {
 namespace {
 
-/// Distances between the hand tips at which hands count as together and as apart, metres (ours): a Kinect's hands have
-/// errors of about 5 cm while moving, and palms are thick.
+/// The hands count as together below the first distance of their tips and as apart above the second, metres (ours): a
+/// Kinect's hands have errors of about 5 cm while moving, and palms are thick.
 constexpr double kTogether = 0.15, kApart = 0.4;
 constexpr int kTogetherFrames = 2, kSwingFrames = 15;
 
@@ -130,13 +130,13 @@ void Coach::PlanAhead() const {
         transitions_.Find(clip, frame + late, library.ClipEntering(whole));
       }
     }
-    // Plan from the act into every slow demonstration.
+    // Plan the transitions from the end of this act into every slow demonstration.
     for (int move = 0; move < static_cast<int>(dance().moves.size()); ++move) {
       transitions_.Find(whole, std::max(last_of(whole) - kBeforeEndFrames, 0),
                         library.ClipEntering(library.ClipOfSlow(move)));
     }
   }
-  // Plan from the demonstrations back into the dance, and from the song's end.
+  // Plan the transitions from each demonstration back into the dance, and from the song's end into the last acts.
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     const int slow = library.ClipOfSlow(dance().repetitions[repetition].move);
     transitions_.Find(slow, std::max(last_of(slow) - kBeforeEndFrames, 0), library.ClipReturning(repetition));

@@ -22,7 +22,7 @@ namespace etude {
 /// The state that SeeClap keeps between two frames.
 struct ClapState {
   int since_apart = kLongAgo;  ///< frames since the hands were last apart
-  int together = 0;            ///< number of consecutive frames in which they have been together
+  int together = 0;            ///< number of consecutive frames in which the hands have been together
   static constexpr int kLongAgo = 1000;
 };
 
@@ -34,9 +34,9 @@ bool SeeClap(const SensedFrame& frame, ClapState& state);
 struct StillnessState {
   std::array<glm::dvec3, kRoleCount> rest{};  ///< recent position of each joint, low-pass filtered
   bool started = false;
-  int seen = 0;    ///< frames with a body since the counts began
-  int moving = 0;  ///< of these, frames with motion
-  int frames = 0;  ///< all frames since the counts began
+  int seen = 0;    ///< frames since ResetCounts in which a body was seen
+  int moving = 0;  ///< frames since ResetCounts in which the body moved
+  int frames = 0;  ///< all frames since ResetCounts
 };
 
 /// Takes one frame at 30 Hz. Returns true if the body is seen and moves.
@@ -52,7 +52,7 @@ struct CoachOptions {
   /// The delay of windows after the coach's repetition, because learners follow with a lag.
   double reaction_s = 0.3;
   /// True if the player dances as in a mirror: the player's left side follows the coach's right side. The caller must
-  /// then mirror the input before it is judged (CoachSession does so); here it only affects the words.
+  /// then mirror the input (CoachSession does so); in the coach, this option only changes what it says.
   bool player_mirrors = false;
   /// After this number of consecutive mistakes the coach acts puzzled instead of shaking its head.
   int puzzled_after = 3;
@@ -67,7 +67,7 @@ struct CoachOptions {
   double idle_s = 30;
   /// After this time in the attract act, the coach dozes.
   double doze_s = 30;
-  /// The limits of the tempo that tags may set, in frames of the dance per frame.
+  /// The limits of the tempo that music tags may set, in frames of the dance per shown frame.
   double slowest = 0.8, fastest = 1.25;
   bool follows_tags = true;  ///< false: the dance keeps its own tempo, regardless of the music
   /// The sensor's position in the world, and the limits of the player's distance from it on the floor, in metres.
@@ -78,13 +78,13 @@ struct CoachOptions {
 /// The input of one frame.
 struct CoachInput {
   SeenFrame seen;  ///< the player; mirrored if players mirror the coach
-  /// The evidence from the follower that was asked for the move of the open window.
+  /// The evidence of the MoveFollower, which follows the move of the open window.
   Evidence evidence = {};
-  std::optional<double> other_side = {};  ///< Evidence::asked for the mirror image, if it is computed
-  std::optional<double> music_s = {};     ///< position of the music heard now, seconds of the song; empty: no music
+  std::optional<double> other_side = {};  ///< Evidence::asked of the mirror image; nullopt if it is not computed
+  std::optional<double> music_s = {};     ///< position in the song that is heard now, in seconds; nullopt without music
   /// For policy `oracle`: true if the requested performance was right. It is read in the last frame of the performance.
   std::optional<bool> told_right = {};
-  bool moment = false;  ///< for policy `yoked`: correct now, or as soon as the dance can be interrupted
+  bool moment = false;  ///< for policy `yoked`: if true, correct as soon as the dance can be interrupted
 };
 
 /// The whole state of a session. It holds plain values and can be copied.
@@ -100,24 +100,24 @@ struct CoachState {
   StillnessState stillness;
   std::int64_t idle_since = 0;  ///< the last frame in which somebody took part
   PlayerHint stand = PlayerHint::kNone;
-  int stand_frames = 0;  ///< number of frames for which a hint other than the current one has been due
+  int stand_frames = 0;  ///< number of consecutive frames in which the position calls for another hint than `stand`
 
   // The dance.
   bool music_plays = false;
-  double rate = 1;  ///< frames of the dance per frame
+  double rate = 1;  ///< frames of the dance per shown frame
   int next_tag = 0;
   int next_window = 0;  ///< the repetition whose window opens next
   std::optional<OpenWindow> open;
   bool decided = false;       ///< true if the open window was judged before its end
   int correcting = -1;        ///< the repetition that was corrected last
-  int corrections_here = 0;   ///< number of its corrections in a row
-  bool moment_waits = false;  ///< a moment came while the dance could not be interrupted
+  int corrections_here = 0;   ///< number of consecutive corrections of that repetition
+  bool moment_waits = false;  ///< CoachInput::moment was set while the dance could not be interrupted
   std::string_view say;
   std::int64_t say_until = 0;  ///< frame at which `say` ends
 
   // The coach's memory of this song.
   std::vector<MoveMemory> moves;  ///< one per move of the dance
-  MoveMemory song;                ///< all moves together
+  MoveMemory song;                ///< sums over all moves
 };
 
 /// The next state and the output.
@@ -150,8 +150,9 @@ class Coach {
   /// Returns a state in the dance's first frame, as after a clap.
   CoachState BeginDancing() const;
 
-  /// Plans the most likely transitions in advance, so that no frame of a live session waits for their planning: from
-  /// every window's end into every corrective act, and onwards from there. This does not change any result.
+  /// Plans the most likely transitions in advance, so that no frame of a live session waits for a plan: from every
+  /// window's end into every corrective act, from the acts into the demonstrations, and back into the dance. This does
+  /// not change any result.
   void PlanAhead() const;
 
   /// Processes one frame. This is a pure function: the same inputs give the same outputs.

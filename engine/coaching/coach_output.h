@@ -24,7 +24,7 @@ enum class CoachEvent {
   kShows,       ///< a slow demonstration begins
   kReturns,     ///< the coach returns to the dance at the repetition
   kGoesOn,      ///< the dance continues after too many corrections of one repetition
-  kPraises,     ///< words after a corrected mistake, or the act at the song's end
+  kPraises,     ///< praise: in words after a corrected mistake, or as an act at the song's end
   kTag,         ///< a music-time tag was reached
   kTransition,  ///< a transition between clips begins
   kSongEnds,
@@ -47,14 +47,14 @@ std::string_view MistakeName(Mistake mistake);
 struct CoachRecord {
   CoachEvent event = CoachEvent::kWoken;
   std::int64_t frame = 0;  ///< counted from the session's beginning
-  int repetition = -1;     ///< of the dance; −1 if the record is about none
-  int move = -1;           ///< of the dance; −1 if the record is about none
-  int tag = -1;            ///< of the dance, with kTag
+  int repetition = -1;     ///< index in Dance::repetitions; −1 if the record concerns no repetition
+  int move = -1;           ///< index in Dance::moves; −1 if the record concerns no move
+  int tag = -1;            ///< index in Dance::tags; set for the event kTag
   Mistake mistake = Mistake::kNone;
-  double evidence = 0;      ///< with kRight, kWrong and kUnjudged
-  double beat_error_s = 0;  ///< with kTag: how late the dance is relative to the music; negative if it is early
-  double rate = 1;          ///< with kTag: speed of the dance from now on, frames of the dance per shown frame
-  std::shared_ptr<const TransitionRecord> transition;  ///< with kTransition
+  double evidence = 0;      ///< set for the events kRight, kWrong and kUnjudged
+  double beat_error_s = 0;  ///< set for kTag: the delay of the dance behind the music; negative if the dance is early
+  double rate = 1;          ///< set for kTag: the new speed of the dance, in frames of the dance per shown frame
+  std::shared_ptr<const TransitionRecord> transition;  ///< set for kTransition
   std::string why;                                     ///< one sentence with numbers
 };
 
@@ -81,12 +81,12 @@ std::string_view HintText(PlayerHint hint);
 struct MusicCommand {
   enum class Kind { kNone, kPlayFrom, kPause };
   Kind kind = Kind::kNone;
-  double music_s = 0;  ///< with kPlayFrom: the position to play in this frame and to continue from
+  double music_s = 0;  ///< for kPlayFrom: position in the song, in seconds, at which to start playing now
 };
 
-/// The performance that the player is asked for while its window is open.
+/// The performance that the player should give while its window is open.
 struct OpenWindow {
-  int repetition = 0;  ///< of the dance
+  int repetition = 0;  ///< index in Dance::repetitions
   int move = 0;
   friend bool operator==(const OpenWindow&, const OpenWindow&) = default;
 };
@@ -96,17 +96,18 @@ struct CoachOutput {
   CoachMode mode = CoachMode::kStandby;
   BodyPose body;               ///< the coach's pose
   std::string_view clip;       ///< "dance", an act's name, or "slow_" and a move's name; in a transition, the next clip
-  double clip_frame = 0;       ///< index in that clip
-  bool in_transition = false;  ///< true between two clips, until the next one is entered
-  int repetition = -1;         ///< the repetition that the coach dances; −1 if none
+  double clip_frame = 0;       ///< frame index in `clip`, may be fractional
+  bool in_transition = false;  ///< true from leaving one clip until the next clip is entered
+  int repetition = -1;         ///< the last repetition that has begun; −1 before the first and while no dance is shown
   std::optional<OpenWindow> open;     ///< the window that is open in the next frame
   bool asks = false;                  ///< true if `open` has changed: call MoveFollower::Ask before the next frame
   std::string_view say;               ///< a line of text for the player; "" if there is none
-  std::string_view hint;              ///< the key pose asked for or shown, in words; valid as long as the dance
-  const BodyPose* picture = nullptr;  ///< the same key pose as a picture; valid as long as the dance
+  std::string_view hint;              ///< key pose of the requested or demonstrated move, in words; lives with the Dance
+  const BodyPose* picture = nullptr;  ///< the key pose of `hint` as a picture; lives with the Dance
   PlayerHint stand = PlayerHint::kNone;
   MusicCommand music;
-  /// The lag of the dance behind the music in seconds, if it follows music; negative if it is early.
+  /// The delay of the dance behind the music, in seconds; negative if the dance is early, nullopt if it follows no
+  /// music.
   std::optional<double> beat_error_s;
   std::vector<CoachRecord> records;  ///< the decisions of this frame, in order
 };

@@ -19,9 +19,9 @@ struct MusicTag {
 
 /// A move of the dance.
 struct DanceMove {
-  std::string name;   ///< the name under which the recogniser was taught it
+  std::string name;   ///< the name of this move in the recogniser
   std::string hint;   ///< the key pose in words, for example "both arms up"
-  BodyPose key_pose;  ///< the same pose as a picture
+  BodyPose key_pose;  ///< the pose that `hint` describes
   BodyMotion slow;    ///< slow demonstration at 30 Hz, at least two frames
 };
 

@@ -38,8 +38,8 @@ class DanceLibrary {
   /// return to the dance through this clip.
   int ClipReturning(int repetition) const;
 
-  /// Returns the clip that continues after `clip` was entered: if `clip` is the beginning of an act or slow
-  /// demonstration, that whole clip; else `clip` itself.
+  /// Returns the clip that plays on after a transition has entered `clip`: if `clip` is only the beginning of an act or
+  /// slow demonstration, the whole clip; else `clip` itself.
   int WholeOf(int clip) const;
   /// Returns the last repetition that has begun at a frame of the dance; −1 before the first.
   int RepetitionAt(double dance_frame) const;
@@ -52,7 +52,7 @@ class DanceLibrary {
  private:
   Dance dance_;
   MotionLibrary library_;
-  std::vector<std::size_t> dance_frames_;  // of the leaving clips, then of the returning clips
+  std::vector<std::size_t> dance_frames_;  // dance frame at which each leaving clip, then each returning clip, begins
 };
 
 }  // namespace etude

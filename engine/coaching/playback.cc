@@ -70,25 +70,25 @@ std::shared_ptr<const ShownPath> DanceTransitions::FindHome(int from, int frame,
 std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, const FloorMove* home_from,
                                                           int to) const {
   const std::vector<BodyMotion>& motions = library_.library().motions;
-  // A join needs only one frame before the requested frame.
+  // Drop the frames of the playing clip that lie more than one frame before the request; the join does not need them.
   const int skipped = std::max(frame - 1, 0);
   std::vector<BodyMotion> clips(2);
   clips[0].rate_hz = motions[from].rate_hz;
   clips[0].poses.assign(motions[from].poses.begin() + skipped, motions[from].poses.end());
   clips[1] = motions[to];
-  // If the wanted clip is shown where it was authored, move the playing clip to the place where it is shown now.
+  // If the wanted clip keeps its authored place on the floor, move the playing clip to where it is shown now.
   if (home_from != nullptr) {
     for (BodyPose& pose : clips[0].poses) pose = home_from->Apply(pose);
   }
 
   auto path = std::make_shared<ShownPath>();
-  // Plan the transition; without one, cut.
+  // Plan the transition. If the method finds none, cut to the wanted clip.
   const auto record = Plan(from, frame, to);
   const bool arrives = !record->segments.empty() && record->segments.back().clip == to;
   if (!arrives) {
     *path = CutTo(clips[0].poses[frame - skipped], clips[1], home_from != nullptr);
   } else {
-    // Join the clips and keep the frames after the request.
+    // Join the clips and keep the frames after the requested frame.
     std::vector<Segment> segments = Renumbered(*record, skipped, motions, clips);
     segments.back().in_place = home_from != nullptr;
     const etude::Splice splice = SpliceSegments(clips, segments, *way_.join, way_.join_settings);
@@ -125,7 +125,7 @@ BodyPose DancePose(const Dance& dance, double frame) {
   return PoseBetween(poses[before], poses[std::min(before + 1, poses.size() - 1)], at - std::floor(at));
 }
 
-/// Returns a frame of a path; after the end of the path, a frame of its clip. A loop is repeated; any other clip keeps
+/// Returns a frame of a path. After the path's last frame, its clip continues: a loop is repeated; any other clip keeps
 /// its last pose.
 BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::size_t frame) {
   const ShownPath& path = *playback.path;
@@ -195,7 +195,7 @@ BodyPose ShownPose(const Playback& playback, const DanceLibrary& library) {
 
 bool IsOver(const Playback& playback, const DanceLibrary& library, double before) {
   if (!playback.path) {
-    constexpr double kRounding = 1e-6;  // accumulated rounding of the rates
+    constexpr double kRounding = 1e-6;  // tolerance for rounding errors that accumulate in `dance_frame`
     return playback.dance_frame + before + kRounding >= static_cast<double>(library.dance().motion.poses.size() - 1);
   }
   if (library.IsLoop(playback.path->clip)) return false;
@@ -205,7 +205,7 @@ bool IsOver(const Playback& playback, const DanceLibrary& library, double before
 }
 
 bool IsSettled(const Playback& playback) {
-  constexpr double kMaxJoinFrames = 30;  // frames
+  constexpr double kMaxJoinFrames = 30;  // the longest join
   if (!playback.path || playback.path->frames.empty()) return true;
   return playback.path_frame >= static_cast<double>(playback.path->entered) + kMaxJoinFrames;
 }
@@ -225,8 +225,8 @@ void Advance(Playback& playback, const DanceLibrary& library, double rate) {
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions) {
   const Leaving leaving = LeavingOf(playback, transitions.library());
   playback.path = transitions.Find(leaving.clip, leaving.frame, clip);
-  // The path's first frame follows the whole frame that was left. Advance will add 1 to `path_frame` before it is
-  // shown.
+  // Frame 0 of the path is shown one frame after the last whole frame of the old clip. Subtract 1, because
+  // Advance adds 1 before the next frame is shown.
   playback.path_frame = leaving.beyond - 1;
   playback.place = leaving.place;
 }

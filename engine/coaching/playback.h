@@ -10,14 +10,14 @@
 
 namespace etude {
 
-/// The frames of a transition after the request, until only the wanted clip plays.
+/// The frames of a transition: those shown after the request, until only the wanted clip plays.
 struct ShownPath {
   int clip = 0;                                    ///< the wanted clip, as an index in the library
   std::vector<BodyPose> frames;                    ///< in the coordinates of the clip that was left
   std::size_t entered = 0;                         ///< index in `frames` from which the wanted clip plays
   int clip_frame = 0;                              ///< the wanted clip's frame at that index
-  FloorMove place;                                 ///< the wanted clip's floor move
-  std::shared_ptr<const TransitionRecord> record;  ///< null if no clip was left
+  FloorMove place;                                 ///< the wanted clip's floor move, in the coordinates of `frames`
+  std::shared_ptr<const TransitionRecord> record;  ///< null if the path does not begin with a transition
 };
 
 /// Plans the transitions within a dance by one method. Each transition is planned on its first use and cached, so a
@@ -51,10 +51,10 @@ class DanceTransitions {
 
 /// The current state of playing: the dance itself, or a path (a transition and the clip it leads into).
 struct Playback {
-  std::shared_ptr<const ShownPath> path;  ///< null while the dance plays
-  double path_frame = 0;                  ///< index in the path and then in its clip; may be between two frames
+  std::shared_ptr<const ShownPath> path;  ///< null while the dance itself plays
+  double path_frame = 0;                  ///< index in the path's frames and, after them, in its clip; may be fractional
   FloorMove place;                        ///< floor move of the path
-  double dance_frame = 0;                 ///< used without a path
+  double dance_frame = 0;                 ///< index of the shown frame of the dance; used only if `path` is null
 };
 
 /// The playing clip and the frame in it; in a transition, the first frame of the wanted clip.
@@ -66,7 +66,7 @@ struct PlayedClip {
 
 /// Returns the clip that a path plays and its frame. `playback.path` must not be null.
 PlayedClip PlayedOf(const Playback& playback, const DanceLibrary& library);
-/// Returns the shown frame of the dance; −1 if the dance is not shown.
+/// Returns the shown frame of the dance; −1 if something else is shown.
 double DanceFrame(const Playback& playback, const DanceLibrary& library);
 /// Returns the pose that is shown.
 BodyPose ShownPose(const Playback& playback, const DanceLibrary& library);
@@ -76,11 +76,11 @@ bool IsOver(const Playback& playback, const DanceLibrary& library, double before
 /// Returns true if the playing clip may be left: no join is in progress, and the frames of the clip itself are shown.
 bool IsSettled(const Playback& playback);
 
-/// Advances by one frame; while the dance plays, by `rate` frames of the dance. After a path back to the dance, the
-/// dance plays.
+/// Advances by one frame, or by `rate` frames of the dance while the dance plays. When a path back into the dance has
+/// ended, the dance continues from there.
 void Advance(Playback& playback, const DanceLibrary& library, double rate);
-/// Starts the transition from the playing dance or clip, which must be settled, to the clip `clip`, from the next frame
-/// on.
+/// Starts a transition from the playing dance or clip to the clip `clip`, beginning with the next frame. The playback
+/// must be settled.
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions);
 /// Starts a transition like LeaveFor, to a clip that is shown at the place where it was authored.
 void LeaveForHome(int clip, Playback& playback, const DanceTransitions& transitions);

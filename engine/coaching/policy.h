@@ -19,8 +19,8 @@ enum class WindowVerdict {
 /// The coach's memory of one move, or of all moves.
 struct MoveMemory {
   int judged = 0;           ///< windows with a verdict of right or wrong
-  int mistakes = 0;         ///< of these, wrong ones
-  int mistakes_in_row = 0;  ///< since the last right window
+  int mistakes = 0;         ///< judged windows with the verdict wrong
+  int mistakes_in_row = 0;  ///< consecutive wrong windows since the last right one
   int corrections = 0;      ///< number of corrections given
 };
 
@@ -29,7 +29,7 @@ struct PolicyInput {
   WindowVerdict verdict = WindowVerdict::kUnknown;
   double evidence = 0;    ///< Evidence::asked at the window's end
   double right_from = 0;  ///< the evidence at which a performance counts as right, > 0
-  MoveMemory move;        ///< of the move asked for, including this window
+  MoveMemory move;        ///< the memory of the requested move, including this window
 };
 
 struct PolicyDecision {
@@ -42,7 +42,7 @@ struct Policy {
   std::string name;
   std::string description;     ///< one line for users
   bool asks_truth = false;     ///< true if the verdict comes from CoachInput::told_right instead of the recogniser
-  bool takes_moments = false;  ///< true if it corrects only at CoachInput::moment
+  bool takes_moments = false;  ///< true if the policy corrects only when CoachInput::moment is set
   std::vector<NumberSetting> settings = {};
   /// Decides after a window has closed. `values` holds one value per setting, in order; empty means the defaults.
   PolicyDecision (*decide)(const PolicyInput& input, std::span<const double> values) = nullptr;

@@ -212,7 +212,8 @@ void Stepping::Interrupt(int repetition, std::string why) {
   state_.correcting = repetition;
   ++state_.moves[MoveOf(repetition)].corrections;
   ++state_.song.corrections;
-  // Shake the head first, then wave for attention; after many mistakes in a row act puzzled instead of saying no.
+  // Shake the head at the first correction of a repetition; wave for attention at the next; after many consecutive
+  // mistakes, act puzzled.
   const std::string_view act = is_puzzled ? "puzzled" : state_.corrections_here > 1 ? "wave" : "head_shake";
   if (is_puzzled) why += fmt::format("; {} in a row: puzzled", state_.song.mistakes_in_row);
   StopMusic();
@@ -280,12 +281,12 @@ void Stepping::FollowMusic(double dance_frame) {
     state_.next_tag = NextTag(dance_, dance_frame);
     return;
   }
-  // Hold the last frame until the music reaches it.
+  // There is nothing to follow without music or after the last frame of the dance.
   if (!input_.music_s || IsOver(state_.playback, library_)) return;
   const double error_s = *input_.music_s - MusicAt(dance_, dance_frame);
   out_.beat_error_s = error_s;
   const int count = static_cast<int>(dance_.tags.size());
-  // At each tag that is reached, set the rate for the way to the next tag.
+  // At each tag that the dance reaches, set the rate so that the next tag is reached on time.
   while (state_.next_tag < count && dance_frame >= static_cast<double>(dance_.tags[state_.next_tag].frame)) {
     const int tag = state_.next_tag++;
     if (options_.follows_tags) {

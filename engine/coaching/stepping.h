@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Transitions leave an act this many frames before its end: the act then rests in the ready stance, and a join still
-/// has frames to use.
+/// Transitions leave an act this many frames before its end: the body already stands in the ready stance, and enough
+/// frames remain for a join.
 constexpr int kBeforeEndFrames = 15;
 
 /// One call of Coach::Step: takes the player's input, advances the playback, shows it, and decides what comes next.
@@ -30,7 +30,7 @@ class Stepping {
   void Show();
   void Picture();
 
-  // The state machine, by mode.
+  // The state machine: one function per mode.
   void Decide();
   void Wait();
   void DanceOn();

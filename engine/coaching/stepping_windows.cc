@@ -30,8 +30,8 @@ void Stepping::OpenWindowAt(double dance_frame) {
   const double opens = static_cast<double>(repetition.first) + options_.reaction_s * kJudgedRateHz;
   if (dance_frame < opens) return;
   ++state_.next_window;
-  // If the coach enters a repetition later than this, in frames, the player did not see all of it and is not asked for
-  // it.
+  // If the coach enters a repetition more than this number of frames late, the player has not seen all of it, so no
+  // window opens.
   constexpr double kLateFrames = 3;
   if (dance_frame > opens + kLateFrames) return;
   state_.open = {.repetition = index, .move = repetition.move};
@@ -122,7 +122,7 @@ void Stepping::AnswerMistake(Mistake mistake) {
   record.move = window.move;
   record.mistake = mistake;
   record.evidence = evidence;
-  // Ask the policy; a repetition is corrected only a limited number of times.
+  // Let the policy decide, but do not exceed the maximum number of corrections of one repetition.
   const PolicyInput asked{.verdict = WindowVerdict::kWrong,
                           .evidence = evidence,
                           .right_from = options_.right_from,
