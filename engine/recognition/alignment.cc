@@ -8,7 +8,7 @@ namespace etude {
 namespace {
 
 constexpr double kUnreachable = std::numeric_limits<double>::infinity();
-constexpr std::uint8_t kBegins = 3;  // marks the first step of a path, instead of an advance
+constexpr std::uint8_t kBegins = 3;  // a value of `advances_`: the path begins at this step
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void SubsequenceAligner::Update(const PoseVector& seen) {
       advance = kBegins;
       start = now;
     }
-    // Drop a path that has become too long, and store the result.
+    // Give a path that has become too long an infinite cost.
     const bool is_too_long = now - start >= longest_;
     costs_[j] = is_too_long ? kUnreachable : best + distances_[j];
     starts_[j] = start;

@@ -23,7 +23,7 @@ class SubsequenceAligner {
   /// seen steps is dropped; worse paths that it had replaced are not restored.
   SubsequenceAligner(std::span<const PoseVector> pattern, int longest);
 
-  /// Forgets all steps seen.
+  /// Forgets all steps seen so far.
   void Reset();
   /// Takes the next seen step.
   void Update(const PoseVector& seen);

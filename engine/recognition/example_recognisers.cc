@@ -52,7 +52,7 @@ class DtwFollower final : public StepFollower {
 
   const std::vector<Examples>& moves_;
   const DtwOptions& options_;
-  std::vector<std::vector<SubsequenceAligner>> always_;  // per move
+  std::vector<std::vector<SubsequenceAligner>> always_;  // per move, one aligner per example; never reset
   std::vector<SubsequenceAligner> in_window_;
 };
 
@@ -79,9 +79,9 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// If no known other motion is nearer, an unknown one is assumed at this distance, metres. In 19 of 20 cases, another
-/// person's performance of a move is nearer to the move's examples (tests/sim/performer; the medians of two recorded
-/// sets are 10 and 16–28 cm).
+/// The distance, in metres, at which an unknown motion is assumed as the alternative if no known motion is nearer. In
+/// 19 of 20 cases, another person's performance of a move is nearer to the move's examples than this
+/// (tests/sim/performer; the medians of two recorded sets are 10 and 16–28 cm).
 constexpr double kUnknownMotionDistance = 0.21;
 
 /// An example of a move and the wrong patterns that it is compared with. All have the same number of steps.
@@ -125,7 +125,8 @@ PoseVector Halved(const PoseVector& pose) {
 }
 
 /// Returns the root mean squared distance between the last steps of `seen` and `pattern`. Returns kFar if `seen` is
-/// shorter than the pattern, or if the distance exceeds `farthest`, which stops most comparisons after a few steps.
+/// shorter than the pattern, or if the distance exceeds `farthest`; because of this limit, most comparisons stop after
+/// a few steps.
 double Distance(std::span<const PoseVector> seen, const Pattern& pattern, double farthest = kFar) {
   if (seen.size() < pattern.size()) return kFar;
   const auto end = seen.last(pattern.size());
@@ -214,7 +215,8 @@ class NearestFollower final : public StepFollower {
       for (const Pattern& pattern : example.wrong) wrong = std::min(wrong, Distance(seen_, pattern, wrong));
       fits_in_window |= asked() == example.move && example.right.size() <= since_open_;
     }
-    // If the move was not requested, an unknown motion or a person who holds still also competes with it.
+    // If the move was not requested, two more alternatives compete with it: an unknown motion, and a person who holds
+    // still.
     for (std::size_t move = 0; move < spotted.size(); ++move) {
       spotted[move] = EvidenceAgainst(std::min(held_still_[move], kUnknownMotionDistance), move);
     }

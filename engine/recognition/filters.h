@@ -56,7 +56,7 @@ struct OneEuroOptions {
   /// The increase of the cutoff frequency per m/s, ≥ 0 (ours: the paper's value is per pixel). Raise it for dances that
   /// are faster than ours.
   double beta_per_m = 5.0;
-  double derivative_cutoff_hz = 1.0;  ///< > 0, as in the paper, whose authors found no need to change it
+  double derivative_cutoff_hz = 1.0;  ///< > 0, as in the paper, which finds that it rarely needs changing
 
   bool operator==(const OneEuroOptions&) const = default;
 };
@@ -81,12 +81,12 @@ class OneEuroFilter {
 enum class FilterKind { kNone, kHolt, kOneEuro };
 
 struct FilterOptions {
-  /// The default is no filter, which adds no lag; key poses must be held over several frames anyway. Use Holt, which
-  /// Kinect applications usually turn on, for slightly more detections with fewer false alarms
-  /// (`scenarios/quick/detection.yaml`). Use 1€ if joints must be calm at rest and also move quickly.
+  /// The default is no filter, which adds no lag; single noisy frames matter little, because key poses must be held
+  /// over several frames. Use Holt, which Kinect applications usually turn on, for slightly more detections with fewer
+  /// false alarms (`scenarios/quick/detection.yaml`). Use 1€ if joints must be calm at rest and also move quickly.
   FilterKind kind = FilterKind::kNone;
-  HoltOptions holt{};         ///< used with kHolt only
-  OneEuroOptions one_euro{};  ///< used with kOneEuro only
+  HoltOptions holt{};         ///< used only if `kind` is kHolt
+  OneEuroOptions one_euro{};  ///< used only if `kind` is kOneEuro
 
   bool operator==(const FilterOptions&) const = default;
 };
@@ -108,8 +108,8 @@ class StreamFilter {
 
  private:
   FilterKind kind_;
-  std::vector<HoltFilter> holt_;         // one per joint if this kind was chosen; else empty
-  std::vector<OneEuroFilter> one_euro_;  // likewise
+  std::vector<HoltFilter> holt_;         // one per joint if the kind is kHolt, else empty
+  std::vector<OneEuroFilter> one_euro_;  // one per joint if the kind is kOneEuro, else empty
 };
 
 /// Filters a whole stream with a StreamFilter.

@@ -127,7 +127,7 @@ double PoseSequence::BestPassageEndingIn(std::span<const double> held) const {
 double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                const KeyPoseOptions& options) {
   struct Angle {
-    double error;  // in units of its tolerance
+    double error;  // the angle's error divided by its tolerance
     double weight;
   };
   std::array<Angle, kFeatureCount> angles;

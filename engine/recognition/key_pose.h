@@ -46,15 +46,15 @@ class PoseSequence {
   std::size_t seen_ = 0, seen_since_open_ = 0;
   std::vector<std::vector<double>> recent_;  // per pose, the last `hold_frames` matches, as a ring
   std::vector<double> asked_;                // per pose, the score of the best passage that has reached it
-  std::deque<Held> within_span_;             // earlier frames
+  std::deque<Held> within_span_;             // scores of the earlier frames from which a passage may still begin
   double spotted_ = 0;
 };
 
 /// The rules that decide when a key pose counts as reached. `scenarios/quick/detection.yaml` shows their effect on a
 /// stream with a sensor's errors.
 struct KeyPoseOptions {
-  /// Multiplies every tolerance. Raise it above 1 for a noisy sensor or untrained people: at 1.2, fixed weights
-  /// detect about as much as adaptive ones.
+  /// Multiplies every tolerance. Raise it above 1 for a noisy sensor or untrained people: at 1.2, fixed weights detect
+  /// about as many performances as adaptive weights.
   double tolerance_scale = 1.0;
   /// The weighted share of a pose's angles that must be within their tolerances, in (0, 1]. At 0.8 (ours), fixed
   /// weights demand every angle of a pose with up to four angles, as paper A does; adaptive weights demand every angle
@@ -98,8 +98,8 @@ double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const Tra
 std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                      const FuzzyRulesOptions& options);
 
-/// Returns for each key pose of a move the index of the first of `frames` in which this pose and all poses before it
-/// have been reached in order by A's crisp rule; empty if that never happened.
+/// Returns for each key pose of a move the index of the first frame in which this pose and all poses before it have
+/// been reached in order by A's crisp rule; nullopt for a pose that is never reached.
 std::vector<std::optional<int>> WhenReached(std::span<const TaughtPose> poses, std::span<const FeatureFrame> frames,
                                             const TrackingWeights& weights, const KeyPoseOptions& options);
 

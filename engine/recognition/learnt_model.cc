@@ -16,7 +16,7 @@ namespace {
 double Sigmoid(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 constexpr std::size_t kBins = 64;
-constexpr std::size_t kRows = 3;  // depth of a tree: questions from the root to a leaf
+constexpr std::size_t kRows = 3;  // depth of a tree: comparisons from the root to a leaf
 
 /// The performances of one boosting round, with their measures as histogram bins.
 struct Sample {
@@ -70,7 +70,7 @@ struct Slope {
 };
 
 struct Split {
-  std::size_t measure = 0, bin = kBins - 1;  // the default puts everything to the left
+  std::size_t measure = 0, bin = kBins - 1;  // by default, every performance goes to the left child
   double gain = 0;
 };
 
@@ -122,7 +122,7 @@ DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const Boost
     for (const auto& members : row) {
       const Split split = splits[node] = BestSplit(sample, slopes, members, options, turn);
       tree.measures[node] = static_cast<int>(split.measure);
-      constexpr double kAll = 1e9;  // without a gain the limit is so high that every value is below it
+      constexpr double kAll = 1e9;  // a limit above every value: without a useful split, all go left
       tree.limits[node] = split.gain > 0 ? sample.cuts[split.measure][split.bin] : kAll;
       ++node;
       next.resize(next.size() + 2);
@@ -230,13 +230,13 @@ Result<DecisionTree> ReadTree(const Node& node) {
     return Fail(node.place, "a tree is a list of {} numbers, found {} of {}", kNumbersPerTree, Describe(node),
                 node.items.size());
   }
-  // Read all numbers of the list.
+  // A tree is stored as a flat list of numbers.
   std::array<double, kNumbersPerTree> numbers{};
   for (std::size_t i = 0; i < kNumbersPerTree; ++i) {
     ASSIGN_OR_RETURN(numbers[i], AsNumber(node.items[i]));
     if (!(std::abs(numbers[i]) <= kMaxNumber)) return Fail(node.items[i].place, "a number of a tree is {}", numbers[i]);
   }
-  // Assign them: a measure and a limit per node, then the leaves.
+  // The list contains a measure and a limit per node, then the values of the leaves.
   DecisionTree tree;
   for (std::size_t n = 0; n < DecisionTree::kNodes; ++n) {
     const double measure = numbers[2 * n];
@@ -273,7 +273,7 @@ Result<BoostedTrees> ReadTrees(Fields& file, const std::string& key) {
 Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const Node node, ParseYaml(text, file));
   Fields fields(node, "a recogniser's model");
-  constexpr int kUnsaid = 1;  // files of version 1 do not state their version
+  constexpr int kUnsaid = 1;  // the version of a file that states none
   const auto version = static_cast<int>(fields.OptionalWhole("measures", {1, 1e6}).value_or(kUnsaid));
   if (version != kMeasuresVersion) {
     return Fail(fields.Raw("measures")->place,
@@ -298,7 +298,7 @@ LearntModel ReadBuiltin(std::string_view name) {
   const EmbeddedText* file = FindByName(BuiltinLearntModelFiles(), name, StemOf);
   assert(file != nullptr);
   auto read = ReadLearntModel(file->text, std::string(file->name));
-  assert(read);  // a test reads it
+  assert(read);  // a test proves that the built-in files can be read
   return *std::move(read);
 }
 

@@ -25,7 +25,7 @@ struct DecisionTree {
   std::array<double, kNodes> limits{};
   std::array<double, kLeaves> leaves{};
 
-  /// Returns the value of the leaf that the performance reaches, log-odds.
+  /// Returns the value of the leaf that the performance reaches, in log-odds.
   double Value(const PerformanceMeasures& of) const;
 };
 
@@ -47,7 +47,7 @@ struct LabelledBag {
 struct BoostingOptions {
   int trees = 100;
   double rate = 0.12;  ///< shrinkage: each tree's values are multiplied by this
-  double ridge = 3;    ///< regularisation that shrinks leaves towards 0, in units of four performances at even odds
+  double ridge = 3;    ///< L2 penalty that shrinks leaf values towards 0; one performance at even odds counts ¼
   int min_per_leaf = 12;  ///< minimum number of performances
   /// If true, trees take turns: each is fitted to three fifths of the performances and a third of the measures, so that
   /// they differ (stochastic boosting, Friedman 2002, but with a fixed rotation instead of random numbers).
@@ -59,8 +59,8 @@ struct BoostingOptions {
 };
 
 /// Fits trees by Newton boosting of the logistic loss, with measures cut at 63 quantiles. The right and the wrong bags
-/// have the same total weight. No random numbers are used. If there is no right or no wrong bag, returns no trees,
-/// which means even odds.
+/// have the same total weight. No random numbers are used. If all bags are right or all are wrong, returns a model
+/// without trees, whose probability is always ½.
 BoostedTrees FitBoostedTrees(std::span<const LabelledBag> bags, const BoostingOptions& options = {});
 
 /// A model trained on right and faulty performances of any moves. It is stored in a file, so that users need not train
@@ -84,7 +84,7 @@ const LearntModel& BuiltinCoachedModel();
 
 /// Makes our learnt recogniser. It aligns performances with the taught examples, measures them, and judges the measures
 /// by a model trained on simulated people. A motion that is farther from every example than nearly all of the training
-/// data is not spotted as a move. The moves are the taught ones; the model itself knows no moves.
+/// data is not spotted as a move. The model does not depend on which moves are taught.
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                  const LearntModel& model);
 

@@ -46,7 +46,7 @@ class RecentCosts {
     double& known = costs_[step_ % kKept * moves_ + move];
     known = std::min(known, cost);
   }
-  /// Returns the lowest cost of the moves other than this one.
+  /// Returns the lowest cost of all moves other than `move`.
   double LowestOther(std::size_t move) const {
     double lowest = kUnaligned;
     for (std::size_t i = 0; i < costs_.size(); ++i) {
@@ -111,7 +111,7 @@ class MeasuringFollower final : public StepFollower {
         nearest = i;
       }
     }
-    // Judge the nearest move as spotted.
+    // Judge the move of lowest cost as a performance that nobody asked for.
     if (lowest < kUnaligned) {
       const TaughtExample& example = examples_[nearest];
       spotted[example.move] =

@@ -12,7 +12,7 @@ namespace etude {
 
 /// The origin of a measured performance.
 enum class PerformanceOrigin {
-  kAsked,    ///< it may be the performance asked for, and began when the window opened
+  kAsked,    ///< it may be the performance asked for; it began after the window opened
   kSpotted,  ///< nobody asked for it, and it may have begun at any time
 };
 
@@ -20,10 +20,10 @@ enum class PerformanceOrigin {
 using PerformanceJudge = std::function<double(PerformanceOrigin origin, std::size_t move, const PerformanceMeasures& measures)>;
 
 /// Makes a recogniser that aligns the stream with every example (limb directions, SubsequenceAligner) and lets `judge`
-/// score the measures of the alignments. In every step, the recogniser judges the asked move as asked and the nearest
-/// move as spotted. The timing of the asked move is also compared with its window (ClockComparison). The recogniser
-/// learns the person's usual measures from the best alignments of asked performances. It ignores examples that show no
-/// body.
+/// score the measures of the alignments. In every step, the recogniser judges the asked move with origin kAsked and the
+/// nearest move with origin kSpotted. The timing of the asked move is also compared with its window (ClockComparison).
+/// The recogniser learns the person's usual measures from the best alignments of asked performances. It ignores
+/// examples that show no body.
 std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                     PerformanceJudge judge);
 

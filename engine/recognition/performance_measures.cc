@@ -29,8 +29,8 @@ ClockComparison::ShiftSum ClockComparison::SumOf(Part part, int shift) const {
 }
 
 ClockComparison::Fit ClockComparison::FitOf(Part part, double usual_s) const {
-  constexpr double kMinShare = 0.6;     // of the part; a fit needs at least this share of steps in common
-  constexpr double kPerSecond2 = 0.02;  // if two shifts fit equally well, take the one nearer to the usual shift
+  constexpr double kMinShare = 0.6;     // a shift needs at least this share of the part's steps in common
+  constexpr double kPerSecond2 = 0.02;  // penalty on the squared distance from the usual shift, to break ties
   const double usual = std::clamp(usual_s * kStepsPerSecond, -1.0 * kMaxSteps, 1.0 * kMaxSteps);
   const double length = static_cast<double>(pattern_.size()) * (part == Part::kWhole ? 1 : 0.5);
   Fit fit{.shift_s = usual / kStepsPerSecond};
@@ -223,7 +223,7 @@ int RigidComparison::TaughtAt(int seen, std::size_t pace, int lag) {
 
 void RigidComparison::Update(const PoseVector& seen) {
   const int now = static_cast<int>(seen_.size()), size = static_cast<int>(pattern_.size());
-  // The pattern ends before this step even at the slowest pace and the largest lag.
+  // Ignore steps after the end of the pattern, even at the slowest pace and the largest lag.
   if (TaughtAt(now, kPaces.size() - 1, kLatest) >= size) return;
   seen_.push_back(seen);
   for (std::size_t j = 0; j < pattern_.size(); ++j) distances_[j] = SquaredDistance(seen, pattern_[j]);
@@ -239,8 +239,8 @@ void RigidComparison::Update(const PoseVector& seen) {
 }
 
 std::array<double, kRigidMeasures> RigidComparison::Measure(double usual_s) const {
-  constexpr double kMinShare = 0.6;  // of the example; a fit needs at least this share of steps in common
-  // If two fits are equally good, prefer the usual lag and the taught pace.
+  constexpr double kMinShare = 0.6;  // a fit needs at least this share of the example's steps in common
+  // Small penalties break ties in favour of the usual lag and the taught pace.
   constexpr double kPerSecond2 = 0.01, kPerLog2 = 0.1;
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const int size = static_cast<int>(pattern_.size());
@@ -302,8 +302,8 @@ void PersonBaseline::Relate(PerformanceMeasures& performance) const {
 }
 
 double PersonBaseline::Shift() const {
-  // Seconds, for a person without performances (ours). A window opens one reaction time after the coach begins; people
-  // usually begin slightly before it opens.
+  // The usual shift of a person without earlier performances, in seconds (ours). A window opens one reaction time after
+  // the coach begins, and people usually begin slightly before it opens.
   constexpr double kUnknown = -0.1;
   return latest_.empty() ? kUnknown : usual_[kClockSlice.first];
 }

@@ -38,7 +38,7 @@ class ClockComparison {
   ClockMeasures Measure(double usual_s) const;
 
  private:
-  static constexpr int kMaxSteps = 24;  ///< 1.6 s: a beat of a slow move
+  static constexpr int kMaxSteps = 24;  ///< the largest shift: 1.6 s, about a beat of a slow move
   struct ShiftSum {
     double distance = 0;
     int count = 0;
@@ -53,7 +53,7 @@ class ClockComparison {
 
   std::span<const PoseVector> pattern_;
   int count_ = 0;                                                     ///< steps seen
-  std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< of the example, by shift
+  std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< one sum per half of the example and per shift
 };
 
 /// The measures of the limbs, as for a warped path (36 numbers), then five more: the lag in seconds, the logarithm of
@@ -75,9 +75,9 @@ class RigidComparison {
   std::array<double, kRigidMeasures> Measure(double usual_s) const;
 
  private:
-  static constexpr std::array<double, 5> kPaces = {0.75, 0.87, 1, 1.15, 1.32};  ///< times the example's length
+  static constexpr std::array<double, 5> kPaces = {0.75, 0.87, 1, 1.15, 1.32};  ///< durations relative to the example's
   static constexpr std::size_t kTaughtPace = 2;
-  static constexpr int kEarliest = -6, kLatest = 24;  ///< steps
+  static constexpr int kEarliest = -6, kLatest = 24;  ///< the range of lags, in steps
   struct Sum {
     double distance = 0;
     int count = 0;
@@ -86,8 +86,8 @@ class RigidComparison {
   static int TaughtAt(int seen, std::size_t pace, int lag);
 
   std::span<const PoseVector> pattern_;
-  std::vector<double> distances_;  ///< of the step seen last
-  std::vector<PoseVector> seen_;   ///< as many as can matter
+  std::vector<double> distances_;  ///< from the last seen step to each step of the pattern
+  std::vector<PoseVector> seen_;   ///< up to the last step that can match the pattern
   std::array<std::array<Sum, kLatest - kEarliest + 1>, kPaces.size()> sums_{};
 };
 
@@ -127,15 +127,15 @@ using PerformanceMeasures = std::array<double, kMeasureCount>;
 /// A performance that was aligned with an example.
 struct AlignedPerformance {
   std::span<const StepPair> path;              ///< at least one pair
-  std::function<const PoseVector&(int)> seen;  ///< by StepPair::seen; limbs
-  std::span<const PoseVector> pattern;         ///< limbs
-  double cost = 0;                             ///< of the path (SubsequenceAligner::Cost)
-  /// The cost of the nearest other move in the last second; infinite if there is none.
+  std::function<const PoseVector&(int)> seen;  ///< returns the pose with index StepPair::seen, in parts of kLimbs
+  std::span<const PoseVector> pattern;         ///< the example, in parts of kLimbs
+  double cost = 0;                             ///< the path's cost (SubsequenceAligner::Cost)
+  /// The lowest cost of another move in the last second; infinite if no other move has a path.
   double other_cost = 0;
 };
 
-/// Measures a performance. Leaves the differences from the person's usual measures (PersonBaseline fills them in) and
-/// the timing measures at 0.
+/// Measures a performance. Leaves two kinds of measures at 0: the differences from the person's usual measures
+/// (PersonBaseline fills them in), and the comparisons with the window (kClockSlice, kRigidSlice).
 PerformanceMeasures Measure(const AlignedPerformance& performance);
 
 /// Keeps the usual measures of a person: the medians over their performances so far. People differ in amplitude and

@@ -43,7 +43,7 @@ const std::array<Part, kWays>& WaysOf(PoseParts parts) {
 }
 
 constexpr double kTrunk = 0.5;    // metres; the trunk length to which bodies are scaled
-constexpr double kHips = 0.9;     // metres; the standing hip height of such a body
+constexpr double kHips = 0.9;     // metres; the standing hip height of a body with that trunk
 constexpr double kStanding = 80;  // the value of the feature Posture when standing
 constexpr double kSmoothing = 1;  // seconds; the time constant of heading and trunk length
 
@@ -121,7 +121,7 @@ PoseVector StepDescriber::Describe(const SeenFrame& frame) {
 }
 
 int StepDescriber::Update(const SeenFrame& frame) {
-  // Sum up the frames of this step.
+  // Add this frame to the sum of the current step.
   if (frame.features.body_seen) {
     const PoseVector pose = Describe(frame);
     for (std::size_t i = 0; i < kPosePartCount; ++i) {

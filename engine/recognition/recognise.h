@@ -93,8 +93,8 @@ struct Detection {
   int frame = 0;
 };
 
-/// Returns all detections in the stream, asked for or not, sorted by move and then by time. Detections outside
-/// performances of their move are false alarms; only the ground truth tells them apart.
+/// Returns all detections of all moves in the stream, sorted by move and then by time. A detection outside of a
+/// performance of its move is a false alarm; finding these needs the ground truth.
 std::vector<Detection> FindMoves(const EvidenceTrace& trace, double rate_hz, const DecisionOptions& options);
 
 }  // namespace etude

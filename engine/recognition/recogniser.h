@@ -57,12 +57,13 @@ class MoveFollower {
  public:
   virtual ~MoveFollower() = default;
   /// Opens a window for the taught move with index `move`, beginning with the next frame; earlier frames do not count.
-  /// Without a value, closes the window.
+  /// A call without a value closes the window.
   virtual void Ask(std::optional<std::size_t> move) = 0;
   /// Takes the next frame and returns its evidence.
   virtual Evidence Update(const SeenFrame& frame) = 0;
   /// Returns the taught move that is most similar to the whole stream so far, which is compared as one performance. Use
-  /// it if you know where performances begin and end. Empty if this follower can only judge passages.
+  /// it if you know where performances begin and end. Returns nullopt if this follower can only judge passages within a
+  /// stream.
   virtual std::optional<std::size_t> Whole() const { return std::nullopt; }
 };
 

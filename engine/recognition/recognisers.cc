@@ -115,7 +115,7 @@ std::span<const RecogniserKind> AllRecognisers() {
        .description =
            "ours: `learnt` for moves asked for in time with the music; its model is learnt from people with a coach",
        .needs_examples = true,
-       .threshold = 0.25,  // 32 simulated adults: 0.2 right performances a minute have less evidence
+       .threshold = 0.25,  // of 32 simulated adults, 0.2 right performances per minute have less evidence
        .teach =
            [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
              return MakeLearntRecogniser(taught, options.weights, BuiltinCoachedModel());

@@ -36,8 +36,8 @@ std::vector<std::string> RecogniserNames();
 const RecogniserKind* FindRecogniser(std::string_view name);
 
 /// Returns the recogniser recommended for these moves (docs/detection.md): `learnt` if every move has an example that
-/// shows a body, otherwise `key-pose`. A coach asks for moves in time with music: with `by_a_coach`, `coached` replaces
-/// `learnt`.
+/// shows a body, otherwise `key-pose`. If `by_a_coach` is true, `coached` replaces `learnt`, because a coach asks for
+/// moves in time with music.
 const RecogniserKind& RecommendedRecogniser(std::span<const TaughtMove> taught, bool by_a_coach = false);
 
 struct RecogniserOptions {
@@ -46,8 +46,8 @@ struct RecogniserOptions {
   std::vector<double> settings = {};  ///< one value per setting of the kind, in order; empty means the defaults
 };
 
-/// Makes a recogniser for these moves, which it identifies by their index. Returns an error if a move lacks what this
-/// kind needs, if two moves have the same name, or if a key pose or span is out of range.
+/// Makes a recogniser for these moves. It identifies a move by its index in `taught`. Returns an error if a move lacks
+/// what this kind needs, if two moves have the same name, or if a key pose or span is out of range.
 ///
 ///     ASSIGN_OR_RETURN(const auto recogniser, MakeRecogniser({.kind = FindRecogniser("dtw")}, taught));
 ///     const auto follower = recogniser->Follow(stream.rate_hz);

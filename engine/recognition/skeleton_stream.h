@@ -43,7 +43,7 @@ BodyMotion MotionOf(const SkeletonStream& stream);
 /// Returns the stream of a sensor without errors: every joint is tracked at its true position.
 SkeletonStream StreamOf(const BodyMotion& motion);
 
-/// Paper A's ten features of one frame, and how well each was seen.
+/// Paper A's ten features of one frame, each with the tracking state of its joints.
 struct FeatureFrame {
   PoseFeatures features;
   std::array<TrackingState, kFeatureCount> states{};  ///< the worst state among the feature's joints

@@ -267,7 +267,8 @@ class WholeBodyFollower final : public MoveFollower {
   }
 
   void Spot() {
-    // In 1 of 20 cases, another person's performance is farther than 3.4 (six people in front of an OpenNI sensor).
+    // In 1 of 20 cases, another person's performance is farther than 3.4 squared units (six people in front of an
+    // OpenNI sensor).
     constexpr double kMaxOtherDistance = 4;
     for (std::size_t move = 0; move < always_.size(); ++move) {
       double other = kMaxOtherDistance;
@@ -280,7 +281,7 @@ class WholeBodyFollower final : public MoveFollower {
   }
 
   /// Returns true if three quarters of the shortest example have passed since the window opened. Earlier, a move and
-  /// its mirror image look alike, so the judge's evidence is held back.
+  /// its mirror image look alike, so the evidence stays 0.
   bool MayShowItsSide() const {
     constexpr double kShowsItsSide = 0.75;
     return in_window_.empty() || std::ranges::any_of(in_window_, [](const ExampleDistance& example) {
@@ -301,7 +302,7 @@ class WholeBodyFollower final : public MoveFollower {
   StepDescriber joints_, limbs_;
   std::vector<std::vector<ExampleDistance>> always_;  // per move
   std::vector<LatelyLowest> lately_;                  // per move
-  std::vector<ExampleDistance> in_window_, images_;   // of the asked move, if it has sides
+  std::vector<ExampleDistance> in_window_, images_;   // the asked move: its examples, their mirror images
   double right_ = kInfinity, image_ = kInfinity;      // distances of the nearest passages in the window
   double best_ = 0;                                   // evidence of the performance asked for
   std::vector<double> spotted_;
