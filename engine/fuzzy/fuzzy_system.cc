@@ -101,7 +101,7 @@ class FeaturesReader {
     double sum = 0;
     for (double weight : weights_) sum += weight;
     if (sum == 0) return Fail(place, "all weights are 0; at least one must be positive");
-    constexpr double kRounding = 1e-12;  // weights that were written by WriteFuzzySystem must not change
+    constexpr double kRounding = 1e-12;  // a smaller deviation from 8 is kept: written weights must not change
     if (std::abs(sum - kWeightSum) > kRounding) {
       for (double& weight : weights_) weight *= kWeightSum / sum;
     }

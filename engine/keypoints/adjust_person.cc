@@ -99,6 +99,7 @@ class Adjuster {
   }
 
   /// Returns the mean square, per axis, of a joint's second differences over `lag` frames, without the largest 5 %.
+  /// Returns nullopt for fewer than ten differences.
   std::optional<double> SquareOver(Role role, std::size_t lag) const {
     std::vector<double> squares;
     for (std::size_t k = lag; k + lag < joints_.size(); ++k) {
@@ -115,10 +116,10 @@ class Adjuster {
     return std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
   }
 
-  /// Estimates the acceleration scale of a joint. Second differences at lag 1 and at a longer lag contain the same
-  /// noise, while the contribution of the acceleration grows with the fourth power of the lag.
+  /// Estimates the acceleration scale of a joint. The noise in second differences is the same at lag 1 and at a longer
+  /// lag, while the contribution of the acceleration grows with the fourth power of the lag.
   double AccelerationOf(Role role) const {
-    constexpr double kSeconds = 0.1, kBursts = 1.5;  // 1.5: accelerations come in bursts
+    constexpr double kSeconds = 0.1, kBursts = 1.5;  // kBursts: accelerations exceed their root mean square in bursts
     const double lag = std::max(2.0, std::round(kSeconds * options_.rate_hz));
     const auto one = SquareOver(role, 1), several = SquareOver(role, static_cast<std::size_t>(lag));
     if (!one || !several) return options_.acceleration;
@@ -126,8 +127,8 @@ class Adjuster {
     return std::max(options_.acceleration, kBursts * std::sqrt(square) * options_.rate_hz * options_.rate_hz);
   }
 
-  /// Makes the body with its adjustable lengths. Every bone has its own length, except beside joints that no landmark
-  /// shows: the two bones of the trunk share one length, as do both hips and both shoulders.
+  /// Makes the body with its adjustable bone lengths. Each bone has a length of its own, with three exceptions where no
+  /// landmark shows a joint: the two bones of the trunk, both hips, and both shoulders share one length each.
   bool MakeBody() {
     const KinematicTree& tree = person_.body.tree;
     measurable_.tree = tree;
@@ -138,7 +139,7 @@ class Adjuster {
       points_[Index(role)] = static_cast<int>(measurable_.points.size());
       measurable_.points.push_back({person_.body.roles[Index(role)].joint, person_.body.roles[Index(role)].p_LQ});
     }
-    // Lengthen one bone by a metre; the changes of all offsets are their derivatives with respect to the bone's length.
+    // Lengthen each bone in turn by a metre: the change of every offset is its derivative with respect to that length.
     for (const Bone& bone : AllBones()) {
       using enum Role;
       if (bone.child == kShoulderCentre || bone.child == kRightShoulder || bone.child == kRightHip) continue;
@@ -164,7 +165,7 @@ class Adjuster {
   }
 
   /// Adds the derivatives of all offsets with respect to one length. Offsets are linear in the lengths, so a derivative
-  /// is the change of the offset when that bone is a metre longer.
+  /// equals the change of the offset when the bone grows by a metre.
   void AddShares(const CaptureBody& longer) {
     const int length = static_cast<int>(bones_.size());
     for (std::size_t j = 0; j < measurable_.tree.joints.size(); ++j) {
@@ -188,7 +189,8 @@ class Adjuster {
     }
   }
 
-  // Adds a mark for each keypoint, and holds the joints that fewer than two cameras see.
+  // Adds a mark for each keypoint. Adds marks that keep joints which fewer than two cameras see near their start
+  // positions.
   void AddMarks() {
     const double error = KeypointErrorPx(cameras_, seen_, options_.min_confidence, person_.outlier_px);
     std::vector<std::array<int, kRoleCount>> views(person_.states.size());
@@ -214,9 +216,9 @@ class Adjuster {
     if (options_.outlines != nullptr) AddOutlines(error);
   }
 
-  /// Adds marks for the joints of the motion from silhouettes, in every camera. Their standard deviation is the median
-  /// distance to the motion from keypoints, times the square root of the frame rate: errors of neighbouring frames are
-  /// correlated, so the marks of one second count as one.
+  /// Adds the motion from silhouettes: in every camera and frame, a mark at the projection of each joint. Its standard
+  /// deviation is the joint's median distance between this motion and the motion from keypoints, times the square root
+  /// of the frame rate: errors of neighbouring frames are correlated, so the marks of one second count as one.
   void AddOutlines(double min_px) {
     const auto alike = std::sqrt(std::max(1.0, options_.rate_hz));
     const std::size_t frames = std::min(person_.states.size(), options_.outlines->poses.size());
@@ -244,8 +246,9 @@ class Adjuster {
                       glm::dmat2(1 / (sigma_px * sigma_px))});
   }
 
-  /// Adds marks that hold a joint seen by fewer than two cameras near its position in the single-frame fit: the
-  /// standard deviation is a tenth of the height, or twice `error_px` if that is given.
+  /// Adds marks for a joint that fewer than two cameras see: they keep it near its position in the single-frame fit.
+  /// Their standard deviation is a tenth of the person's height in the picture, or, if `error_px` is given, twice
+  /// `error_px`.
   void HoldUnseen(std::size_t frame, Role role, const std::optional<double>& error_px) {
     constexpr double kShareOfHeight = 0.1, kComposed = 2;
     const BodyPose& pose = person_.motion.poses[frame];
@@ -276,7 +279,7 @@ class Adjuster {
   RecoveredPerson& person_;
   MeasurableBody measurable_;
   std::array<int, kRoleCount> points_{};
-  std::vector<Role> bones_;          ///< the bone of each length
+  std::vector<Role> bones_;          ///< for each adjustable length, the child role of its bone
   std::vector<RoleVectors> joints_;  ///< the joints that landmarks show in each frame
   std::vector<BundleMark> marks_;
 };
@@ -285,7 +288,7 @@ class Adjuster {
 
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px) {
-  std::vector<double> squares;  // each element is an estimate of the variance whose median is unbiased
+  std::vector<double> squares;  // one estimate of the variance per point; their median is unbiased
   for (const auto& [frame, landmark, by, point] :
        TriangulateLandmarks(cameras, seen, {.min_confidence = min_confidence, .robust = {outlier_px}})) {
     squares.push_back(KeypointVarianceOf(point));

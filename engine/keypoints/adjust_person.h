@@ -11,8 +11,8 @@ struct AdjustPersonOptions {
   double rate_hz = 30;
   double min_confidence = 0.1;  ///< keypoints of lower confidence are ignored
   double acceleration = 8;        ///< lower bound of a joint's acceleration scale along each axis, m/s²
-  /// The motion recovered from silhouettes in the same frames; null: none. A joint has less weight if it is usually far
-  /// from its position in the motion from keypoints alone.
+  /// The motion recovered from silhouettes in the same frames; null if there is none. The farther a joint usually is
+  /// from its position in the motion from keypoints alone, the less weight it has.
   const BodyMotion* outlines = nullptr;
 };
 
@@ -26,10 +26,10 @@ double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedP
 /// all frames that together explain the keypoints of all pictures. A keypoint's standard deviation follows from its
 /// confidence and `KeypointErrorPx`; the loss is robust. The motion is smooth: each joint has its own acceleration
 /// scale, estimated over a tenth of a second and corrected for noise. If fewer than two cameras see a landmark, its
-/// joint is kept near its position in the single-frame fit, within a tenth of the person's height; a joint that is
-/// always composed of other landmarks is kept within twice the keypoint error. The trunk has one length; the spine does
+/// joint is kept near its position in the single-frame fit, within a tenth of the person's height; a joint that no
+/// landmark ever shows is kept within twice the keypoint error. The trunk has one length; the spine does
 /// not bend forward or sideways. Returns true if the problem was solved; otherwise `person` is unchanged.
-/// @param cameras of the rig without distortion, in the world of `person`; the pixels are undistorted, too
+/// @param cameras of the rig, without lens distortion, in the world of `person`; all pixels must be undistorted
 /// @param seen the keypoints from which `person` was recovered
 bool AdjustPerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen,
                   const AdjustPersonOptions& options, RecoveredPerson& person);

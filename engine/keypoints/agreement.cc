@@ -20,8 +20,8 @@ MarkerAgreement Summed(std::string name, std::vector<double> distances_mm) {
   return {.name = std::move(name), .median_mm = at(0.5), .p95_mm = at(0.95), .frames = distances_mm.size()};
 }
 
-/// Returns the distances between a marker of the reference and the marker of the same name in `motion`, millimetres,
-/// over the frames that have both; empty if there is no such marker.
+/// Returns the distances between a marker of the reference and the marker of the same name in `motion`, millimetres, in
+/// all frames that contain both. Returns an empty list if `motion` has no marker of this name.
 std::vector<double> Distances(const MarkerMotion& motion, const MarkerMotion& reference, std::size_t marker) {
   std::vector<double> distances;
   const auto found = std::ranges::find(motion.names, reference.names[marker]);
@@ -132,7 +132,7 @@ std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const Mar
     const double stretch = turn / middle;
     return ReferenceClock{.at = shift - turn, .stretch = stretch};
   };
-  // Returns the mean loss of a clock over at most 200 frames; nullopt if too few markers are shared.
+  // Returns the mean loss of a clock over at most 200 frames; nullopt if the recordings have too few markers in common.
   const auto loss_of = [&](const ReferenceClock& clock) -> std::optional<double> {
     constexpr std::size_t kMaxFrames = 200;  // more frames hardly change the loss
     constexpr double kFar = 0.03;

@@ -43,7 +43,7 @@ struct ReferenceClock {
 
 /// Estimates the clock from the markers that both recordings contain, to 1/500 of a frame. A grid search over offsets
 /// of up to two frames, and over drifts of up to three frames over half of the motion, is followed by a local search.
-/// Returns nullopt if both have too few markers in common.
+/// Returns nullopt if the recordings have too few markers in common.
 std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const MarkerMotion& reference);
 
 /// Returns `frames` frames of the reference at the times of the motion's frames, interpolated as by `AtRate`.
@@ -54,7 +54,7 @@ struct MarkerAgreement {
   std::string name;
   double median_mm = 0;
   double p95_mm = 0;
-  std::size_t frames = 0;  ///< number of frames in which both have the marker
+  std::size_t frames = 0;  ///< number of frames in which both recordings contain the marker
 };
 
 /// Compares the markers that both recordings contain, in the reference's order, over the frames of the shorter

@@ -52,7 +52,7 @@ class Sum {
     tangent_ = glm::dmat2x3(side, glm::cross(up, side));
   }
 
-  /// Adds a residual and its derivative with respect to the direction, counted `share` times.
+  /// Adds a residual, its derivative with respect to the direction, and its weight `share`.
   void Add(Cue cue, double residual, const glm::dvec3& derivative, double share = 1) {
     const glm::dvec2 j = glm::transpose(tangent_) * derivative;
     const double weight = share * Weight(residual);
@@ -92,8 +92,8 @@ std::optional<glm::dvec3> Middle(const LandmarkPositions& at, Landmark a, Landma
   return p && q ? std::optional(0.5 * (*p + *q)) : std::nullopt;
 }
 
-/// Returns the mean direction from ankles to shoulders over the frames in which the person is straight; nullopt if
-/// there are none.
+/// Returns the mean direction from ankles to shoulders over the frames in which the person is straight; nullopt if the
+/// person is never straight.
 std::optional<glm::dvec3> StraightPerson(std::span<const LandmarkPositions> points) {
   constexpr double kStraight = 0.97;
   glm::dvec3 sum(0);
@@ -116,7 +116,8 @@ std::optional<glm::dvec3> StraightPerson(std::span<const LandmarkPositions> poin
   return frames > 0 ? std::optional(sum / frames) : std::nullopt;
 }
 
-/// Returns the body's centre of mass from the shares of its parts (Winter 2009, table 4.1); nullopt if one is missing.
+/// Returns the body's centre of mass from the shares of its parts (Winter 2009, table 4.1); nullopt if a landmark is
+/// missing.
 std::optional<glm::dvec3> CentreOfMass(const LandmarkPositions& at) {
   struct Part {
     std::array<Landmark, 2> from, to;
@@ -211,8 +212,8 @@ class Cues {
     return sum;
   }
 
-  /// Lists start directions: the upper edges of the pictures in every quarter turn, the directions of the person, and
-  /// the coordinate axes.
+  /// Lists start directions for the descent: the upper edges of the pictures in every quarter turn, the directions from
+  /// the straight person and from flights, and the coordinate axes.
   std::vector<glm::dvec3> Beginnings() const {
     std::vector<glm::dvec3> beginnings;
     constexpr std::size_t kMaxCameras = 4;
@@ -261,7 +262,7 @@ class Cues {
   void AddFeet(const glm::dvec3& up, Sum& sum) const {
     if (stays_.empty()) return;
     constexpr double kSameHeight = 0.008, kFlatFoot = 0.015, kShare = 0.5, kMaxCost = 2, kUnder = 3;
-    // Compare the height of each landmark with a robust mean height of the landmarks of its kind.
+    // per kind: mean position of its stays, height above the sole
     std::vector<std::pair<glm::dvec3, double>> kinds;  // middle of a kind's stays; its height above the sole
     for (std::size_t kind = 0; kind < kFootKinds; ++kind) {
       std::vector<double> heights;
@@ -348,8 +349,8 @@ std::string NameCues(const Sum& sum) {
 FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPositions> points, double rate_hz,
                double stature, double metre) {
   const Cues cues(cameras, points, rate_hz, stature, metre);
-  // Descend from every beginning.
-  std::vector<std::pair<double, glm::dvec3>> found;  // each with its cost
+  // Minimise the cost by Gauss–Newton steps from every start direction.
+  std::vector<std::pair<double, glm::dvec3>> found;  // the cost and direction of each minimum
   for (const glm::dvec3& beginning : cues.Beginnings()) {
     glm::dvec3 up = beginning;
     constexpr int kSteps = 20;
@@ -362,7 +363,7 @@ FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPos
   constexpr double kSolvedFor = 2;
   const double spread = std::max(1.0, sum.squares / std::max(1.0, sum.count - kSolvedFor));
   FoundUp best{up, std::sqrt(spread) * sum.Deviation(), 0, NameCues(sum)};
-  constexpr double kNinetyFive = 2.45, kNearly = 3, kOther = Radians(10);  // 2.45 σ hold 95 % in the plane
+  constexpr double kNinetyFive = 2.45, kNearly = 3, kOther = Radians(10);  // in the plane, 2.45 σ contain 95 %
   best.within = std::min(kPi, kNinetyFive * best.deviation);
   for (const auto& [rival_cost, rival] : found) {
     const double apart = AngleBetween(up, rival);

@@ -163,7 +163,7 @@ class Guesser {
     }
   }
 
-  // Corrects the film with the largest gain; returns false if there is none.
+  // Corrects the film with the largest gain. Returns false if no correction helps enough.
   bool TurnWorst() {
     constexpr double kOff = 0.003, kBetter = 0.5, kNearly = 1.5, kPercent = 100;
     struct Change {
@@ -193,7 +193,7 @@ class Guesser {
       }
     }
     if (!best) return false;
-    // Apply the best one and explain it.
+    // Apply the best hypothesis, and describe it for the user.
     guesses_[best->camera] = best->guess;
     const auto words = [](const Guess& guess) {
       std::string text = guess.is_mirrored ? "mirrored" : "";

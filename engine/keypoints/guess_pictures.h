@@ -14,7 +14,7 @@ namespace etude {
 /// One film's keypoints as they are in the file, and the declared relation between its pictures and the rig's.
 struct PictureOfFilm {
   Camera camera;
-  PixelFit fit;           ///< as declared
+  PixelFit fit;           ///< the fit that the caller declares
   glm::dvec2 film_px{0};  ///< the size of the film's pictures
   SeenPeople people;      ///< in the file's pixels
   bool is_sized = false;  ///< true if the file states the size of the film's pictures, so its pixels are the film's

@@ -79,7 +79,7 @@ std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatri
       if (!point.agrees[k]) rejected[by[k]] += 1;
     }
   }
-  // Summarise over all points.
+  // Report the share of outliers of each camera, the median residual, and the share of points found.
   if (report != nullptr) {
     report->rejected.clear();
     for (std::size_t c = 0; c < cameras.size(); ++c)

@@ -25,13 +25,14 @@ struct TriangulateOptions {
 struct TriangulationReport {
   std::vector<double> rejected;  ///< for each camera, the share of its keypoints that were outliers
   double residual_px = 0;        ///< median over all points
-  double found = 0;              ///< triangulated share of frames × landmarks; a landmark counts if it is ever seen
+  double found = 0;              ///< share of frames × landmarks that were triangulated; landmarks that are never seen
+                                 ///< do not count
 };
 
 /// A landmark in one frame.
 struct TriangulatedLandmark {
   std::size_t frame = 0, landmark = 0;
-  std::vector<std::size_t> cameras;  ///< those that see it with enough confidence
+  std::vector<std::size_t> cameras;  ///< indices of the cameras that see it with enough confidence
   RobustPoint point;
 };
 
@@ -41,7 +42,7 @@ std::vector<TriangulatedLandmark> TriangulateLandmarks(std::span<const Projectio
                                                        const MatchedPerson& person, const TriangulateOptions& options);
 
 /// Triangulates the person's landmarks in every frame, each from the cameras that agree on it, weighted by confidence.
-/// @param cameras of the rig without distortion; the pixels are undistorted, too
+/// @param cameras of the rig, without lens distortion; all pixels must be undistorted
 std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
                                               const TriangulateOptions& options, TriangulationReport* report = nullptr);
 

@@ -6,8 +6,8 @@
 
 namespace etude {
 
-/// Searches the plane for the point with the smallest loss: keeps the best of all points tried, beginning with the
-/// origin. A loss may be unknown.
+/// Searches the plane for the point with the smallest loss. Keeps the best of all points tried, beginning with the
+/// origin. A point whose loss is nullopt is never taken.
 class LeastLoss2 {
  public:
   using Loss = std::function<std::optional<double>(double x, double y)>;
@@ -28,7 +28,7 @@ class LeastLoss2 {
     return true;
   }
 
-  /// Searches locally along both axes; the step shrinks from 0.5 to 0.002.
+  /// Pattern search: steps along both axes as long as this lowers the loss, and halves the step from 0.5 down to 0.002.
   void Refine() {
     constexpr double kFirstStep = 0.5, kLastStep = 0.002;
     for (double step = kFirstStep; step > kLastStep;) {

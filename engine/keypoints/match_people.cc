@@ -15,7 +15,7 @@ namespace etude {
 namespace {
 
 /// Returns the median distance of the keypoints of two detections in one camera, as a share of the person's height;
-/// infinity if they share fewer than three.
+/// infinity if both detections contain fewer than three of the same keypoints.
 double StepBetween(const SeenPerson& a, const SeenPerson& b, double min_confidence) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
@@ -43,7 +43,7 @@ class Follower {
         tracks[track].entries[frame] = person;
         taken[person] = extended[track] = true;
       }
-      // All others begin a new track.
+      // Every person whom no track has taken begins a new track.
       for (std::size_t person = 0; person < taken.size(); ++person) {
         if (!taken[person]) tracks.push_back({{{frame, person}}});
       }
@@ -139,8 +139,8 @@ class PersonMatcher {
   }
 
  private:
-  /// Returns the error of two tracks in different cameras: the median over frames and keypoints, infinite if they share
-  /// too few.
+  /// Returns the error of two tracks in different cameras: the median over frames and keypoints, infinite if the tracks
+  /// have too few keypoints in common.
   double ErrorOf(std::size_t a, std::size_t b) const {
     const Track &one = tracks_[a], &other = tracks_[b];
     if (one.camera == other.camera) return std::numeric_limits<double>::infinity();
@@ -168,7 +168,7 @@ class PersonMatcher {
       return errors.size() < kMinCount ? std::numeric_limits<double>::infinity() : UpperMedian(std::move(errors));
     };
     const double error = error_of(false);
-    // If the labelling as detected does not match, try exchanged sides, too.
+    // If the labels as detected do not match, also compare with left and right exchanged.
     if (!options_.may_be_swapped || !(error >= options_.max_error)) return error;
     return std::min(error, error_of(true));
   }

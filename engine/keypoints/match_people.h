@@ -57,7 +57,7 @@ struct MatchedPerson {
 /// ascending order of the distance between their rays; two tracks of one camera that overlap in time are never one
 /// person. The result is deterministic: ties go to the track that began first. Persons are ordered by `sightings`,
 /// descending.
-/// @param cameras of the rig without distortion; the pixels are undistorted, too
+/// @param cameras of the rig, without lens distortion; all pixels must be undistorted
 /// @param people of each camera, all with the same number of frames
 std::vector<MatchedPerson> MatchPeople(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                        const MatchOptions& options = {});

@@ -89,7 +89,7 @@ class Mender {
   }
 
   /// Returns the median epipolar distance of a person in camera `c` to the person in camera `o`, as a share of the
-  /// height, for the better labelling of sides. Returns nullopt if they share too few keypoints.
+  /// height, for the better labelling of sides. Returns nullopt if the two detections have too few keypoints in common.
   std::optional<double> MisfitOf(std::size_t c, const SeenPerson& one, std::size_t o, const SeenPerson& other) const {
     std::optional<double> least;
     for (const bool is_swapped : {false, true}) {
@@ -122,7 +122,7 @@ class Mender {
     constexpr double kOff = 0.05, kBetter = 1.0 / 3;
     for (std::size_t frame = 0; frame < frames_; ++frame) {
       for (std::size_t round = 0; round < cameras_.size(); ++round) {
-        // Take the worst camera first, because its wrong keypoints also raise the misfit of the others.
+        // Take the worst camera first: its wrong keypoints also raise the misfit of the other cameras.
         std::optional<std::size_t> worst;
         double most = kOff;
         std::size_t seeing = 0;
@@ -142,7 +142,7 @@ class Mender {
             least = *other;
             best = &candidate;
           }
-          // Prefer a camera whose picture shows a better person over a camera whose picture shows none.
+          // Prefer a camera whose picture shows a better-fitting person over a camera whose picture shows none.
           if (has_better ? best == nullptr || *misfit <= most : best == nullptr && *misfit <= most) continue;
           worst = c;
           most = *misfit;
@@ -254,7 +254,7 @@ class Mender {
     flips_[group][c][frame] = !flips_[group][c][frame];
   }
 
-  // Swaps the sides of the camera with the largest gain, and repeats.
+  // Swaps the sides in the camera with the largest gain, and repeats this until no gain is large enough.
   void SwapBack(std::size_t group) {
     constexpr double kMinGain = 1.5;
     for (std::size_t round = 0; round < 3 * cameras_.size(); ++round) {
@@ -292,8 +292,8 @@ class Mender {
     return p && q ? std::optional(0.5 * (*p + *q)) : std::nullopt;
   }
 
-  /// Returns the facing direction from landmarks without a side, or from midpoints of both sides; nullopt if they are
-  /// not seen.
+  /// Returns the facing direction from landmarks without a side, or from midpoints of both sides; nullopt if these
+  /// landmarks are not seen.
   std::optional<glm::dvec3> ForwardOf(std::size_t frame) const {
     auto from = MiddleOf(frame, kLeftHeel, kRightHeel), to = MiddleOf(frame, kLeftBigToe, kRightBigToe);
     if (!from) from = MiddleOf(frame, kLeftAnkle, kRightAnkle);
@@ -305,7 +305,7 @@ class Mender {
   }
 
   /// Returns a value above 0 if the left landmarks are on the body's left side, below 0 if they are on its right side;
-  /// nullopt if that is not seen or ambiguous.
+  /// nullopt if landmarks are missing or the side is ambiguous.
   std::optional<double> Chirality(std::size_t group, std::size_t frame) const {
     const auto hips = MiddleOf(frame, kLeftHip, kRightHip), shoulders = MiddleOf(frame, kLeftShoulder, kRightShoulder);
     const auto left = PositionOf(frame, group == 0 ? kLeftShoulder : kLeftHip);
@@ -322,12 +322,12 @@ class Mender {
     return std::ranges::any_of(flips_[group], [&](const std::vector<bool>& camera) { return camera[frame]; });
   }
 
-  /// Decides which camera was wrong where sides were swapped: if the body then faces backwards, the swap is reversed in
-  /// all cameras.
+  /// Corrects swaps that were made in the wrong camera: if the body faces backwards where sides were swapped, left and
+  /// right are swapped there in all cameras.
   void ResolveFacing(std::size_t group) {
     std::vector<std::optional<double>> sides;
     for (std::size_t frame = 0; frame < frames_; ++frame) sides.push_back(Chirality(group, frame));
-    // Returns true if left and right are exchanged in at least `share` of the frames that have a facing direction.
+    // Returns true if left and right are exchanged in at least `share` of the frames that show a facing direction.
     const auto is_wrong = [&](std::size_t first, std::size_t last, double share) {
       std::size_t wrong = 0, told = 0;
       for (std::size_t frame = first; frame < last; ++frame) {
@@ -357,7 +357,7 @@ class Mender {
     }
   }
 
-  // Reports the swapped frames by camera: both groups, arms only, legs only.
+  // Reports the swapped frames of each camera: those with arms and legs swapped, only arms, only legs.
   void ReportSwaps() {
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       Mend both{Mend::Kind::kSwappedSides, c, {}}, arms{Mend::Kind::kSwappedArms, c, {}},

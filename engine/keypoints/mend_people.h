@@ -29,9 +29,9 @@ struct Mend {
 };
 
 /// Corrects the keypoints of a person seen by two cameras or more *(ours)*. First the identity: if a camera's keypoints
-/// are more than 5 % of the height off the other cameras' epipolar lines, and those of another person in that picture
-/// are off by less than a third of that, the other person's keypoints are taken. If nobody fits and at least three
-/// cameras see the person, the frame is left out. Then the sides: for each camera, separately for arms and legs, both
+/// are more than 5 % of the height off the other cameras' epipolar lines, and another person in that picture is less
+/// than a third of this distance off, the other person's keypoints are taken. If nobody fits and at least three cameras
+/// see the person, the frame is left out. Then the sides: for each camera, separately for arms and legs, both
 /// labellings are compared with the other cameras' keypoints (Geman–McClure's loss of the epipolar distance, with a
 /// scale of twice the residuals' standard deviation), and the cheapest sequence of labellings is taken (Viterbi; a
 /// change costs 1.5). The camera with the largest gain comes first. With two cameras, only the facing direction shows

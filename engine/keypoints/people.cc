@@ -39,7 +39,7 @@ std::optional<Landmark> FindLandmark(std::string_view name) {
 std::span<const KeypointLayout> KeypointLayouts() {
   constexpr std::size_t kFaceAndHands = 68 + 42;
   static const std::vector<KeypointLayout> layouts = {
-      // The landmark at each place of an estimator's list; "-" is a point that is not used.
+      // Each list names the landmark at each index of an estimator's output; "-" is a point that is not used.
       {"coco",
        Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
               "RAnkle")},

@@ -37,7 +37,7 @@ enum class Landmark {
   kLeftAnkle,
   kRightAnkle,
   kNeck,
-  kHead,  ///< its top
+  kHead,  ///< the top of the head
   kLeftBigToe,
   kLeftSmallToe,
   kLeftHeel,
@@ -54,7 +54,7 @@ constexpr std::size_t kLandmarkCount = 28;
 
 constexpr std::size_t Index(Landmark landmark) { return static_cast<std::size_t>(landmark); }
 
-/// The joints that are landmarks; shoulder centre, hip centre, spine and head are composed of others.
+/// The joints that are landmarks; shoulder centre, hip centre, spine and head are computed from several landmarks.
 inline constexpr std::array<std::pair<Landmark, Role>, 16> kJointLandmarks = {
     {{Landmark::kLeftShoulder, Role::kLeftShoulder},
      {Landmark::kRightShoulder, Role::kRightShoulder},

@@ -22,7 +22,7 @@ using enum Landmark;
 struct LengthUnit {
   std::string_view name;
   double metres;
-  double min_stature_m;  ///< lower limit of a plausible stature; a rare unit must give an adult
+  double min_stature_m;  ///< lower limit of a plausible stature; higher for rare units, which must give an adult
 };
 constexpr double kMinStature = 0.5, kMaxStature = 2.2, kAdult = 1.2;
 constexpr std::array kUnits = {LengthUnit{"m", 1, kMinStature}, LengthUnit{"cm", 0.01, kMinStature},
@@ -108,8 +108,7 @@ std::optional<glm::dvec3> PersonsUp(std::span<const LandmarkPositions> points) {
   return sum / length;
 }
 
-/// Returns the unit that gives an adult's stature, or else a unit that gives a plausible stature; null if there is
-/// none.
+/// Returns the unit that gives an adult's stature, or else a unit that gives a plausible stature; null if no unit does.
 const LengthUnit* LikelyUnit(double file_units) {
   for (const LengthUnit& unit : kUnits) {
     const double stature = unit.metres * file_units;
@@ -148,7 +147,7 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
     told = fmt::format("lengths in {} (by the legs, a person of about {:.2f} m)", UnitText(rig.unit_m), usual);
     return rig.unit_m;
   }
-  // Otherwise look for another unit.
+  // Otherwise look for a unit that gives a plausible stature.
   const LengthUnit* likely = LikelyUnit(file_units);
   if (likely == nullptr) {
     return Fail({},

@@ -77,7 +77,7 @@ Result<PoseErrorForecast> PoseErrorForecast::Of(const BodyPose& pose) {
   ASSIGN_OR_RETURN(const CaptureBody body, BodyOfBones(lengths));
   const auto fit = PoseFitter(body).Fit(TargetsAt(pose));
   if (!fit) return Fail({}, "the pose is not finite");
-  // Compute an orthonormal basis of the displacements of all joints that the body allows.
+  // Compute an orthonormal basis of the joint displacements that the body allows (QR with column pivoting).
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> basis(JointDerivatives(body, fit->state));
   const Eigen::MatrixXd reachable =
       basis.householderQ() * Eigen::MatrixXd::Identity(kNumbers, static_cast<Eigen::Index>(basis.rank()));

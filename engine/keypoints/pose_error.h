@@ -34,8 +34,8 @@ class PoseErrorForecast {
   static Result<PoseErrorForecast> Of(const BodyPose& pose);
 
   /// Returns the errors of all joints if the pose is moved by `shift`, metres; nullopt if some joint cannot be
-  /// triangulated there. The preconditions are those of ExpectedPointError.
-  /// @param noise_px the deviation of each role's keypoints; empty: `errors.noise_px` for all
+  /// triangulated there. The preconditions are those of ExpectedPointError. @param noise_px the deviation of each
+  /// role's keypoints; if empty, `errors.noise_px` applies to all roles
   std::optional<std::array<JointErrors, kRoleCount>> At(std::span<const Camera> cameras, const glm::dvec3& shift,
                                                         SightingErrors errors,
                                                         std::span<const double> noise_px = {}) const;

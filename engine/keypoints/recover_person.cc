@@ -151,7 +151,7 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people) {
 }
 
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px) {
-  constexpr double kOutlierShare = 0.03, kMaxAbsence_s = 0.5;  // seconds
+  constexpr double kOutlierShare = 0.03, kMaxAbsence_s = 0.5;  // share of the picture's longer side; seconds
   RecoverPersonOptions options{.rate_hz = rate_hz, .match = {}, .triangulate = {}};
   options.match.follow.max_absence = std::max(1, static_cast<int>(std::lround(kMaxAbsence_s * rate_hz)));
   options.triangulate.robust.outlier_px = kOutlierShare * longer_side_px;

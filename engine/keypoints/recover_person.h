@@ -37,10 +37,10 @@ struct RecoverPersonOptions {
   double rate_hz = 30;
   MatchOptions match;
   TriangulateOptions triangulate;
-  std::size_t person = 0;      ///< index among those found, in descending order of `sightings`
+  std::size_t person = 0;      ///< index among all people found, in descending order of `sightings`
   double max_gap_s = 0.5;  ///< longer gaps are not filled
-  double cutoff_hz = 0;        ///< cutoff of the smoothing of positions; 0: none
-  bool mends = false;  ///< use MendPerson, with `triangulate.robust.outlier_px` as the upper limit of OutlierLimit
+  double cutoff_hz = 0;        ///< cutoff of the low-pass filter of positions; 0 turns it off
+  bool mends = false;  ///< run MendPerson; `triangulate.robust.outlier_px` is then the upper limit of OutlierLimit
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
 
@@ -67,7 +67,7 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people);
 
 /// Finds all people and triangulates the requested one: MatchPeople, optionally MendPerson, TriangulatePerson. Fails if
 /// nobody is seen by two cameras, or if there are fewer people than the requested index.
-/// @param cameras at least two, without distortion; the pixels are undistorted, too (`UndistortPeople`)
+/// @param cameras at least two, without lens distortion; all pixels must be undistorted (`UndistortPeople`)
 /// @param people of each camera, all with the same number of frames, taken at the same times (otherwise use
 /// `EstimateOffsets`, `PeopleInTime` first)
 Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,

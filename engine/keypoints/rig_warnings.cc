@@ -144,7 +144,7 @@ class RigChecker {
     Costs whole{};
     std::array<Costs, kLandmarkCount> by_landmark{};
     std::array<Costs, kTimes> by_time{};
-    // At every gain, sum the loss: in total, by landmark, and by tenth of the time.
+    // At every gain, sum the Geman–McClure loss: in total, by landmark, and by tenth of the time.
     const double far = 9 * usual_px * usual_px;
     for (int i = 0; i < kGains; ++i) {
       ForEachDistance(Gains(film, GainAt(i)), AsDeclared, [&](std::size_t k, std::size_t landmark, double d) {
@@ -161,7 +161,7 @@ class RigChecker {
   }
 
   std::optional<std::string> CheckFocalLengths() const {
-    // Standard deviation / median of |x| for a normal distribution.
+    // kNormal: the ratio of the standard deviation to the median of |x| for a normal distribution.
     constexpr double kNormal = 1.4826, kMinUsualPx = 0.05;
     const double miss = MedianMiss(Gains({}, 1), AsDeclared), usual_px = std::max(kMinUsualPx, kNormal * miss);
     // Take the film, or all films, whose best gain has the lowest cost.
@@ -221,7 +221,7 @@ class RigChecker {
   std::optional<std::string> CheckReading() const {
     const Intrinsics& in = cameras_.front().intrinsics;
     constexpr double kUsual = 0.42, kClearly = 1.17, kSomewhat = 1.1, kClearlyLess = 0.9;
-    // Compute the factor by which the ratio differs from the usual one.
+    // Compute the factor by which shoulder width / leg length differs from its usual value.
     const double said = ShouldersOfLegs(AsDeclared);
     const auto strange = [&](double share) { return share > kUsual ? share / kUsual : kUsual / share; };
     if (in.width == in.height || said == 0 || strange(said) < kSomewhat) return std::nullopt;
@@ -229,7 +229,7 @@ class RigChecker {
     const double miss = MedianMiss(as_they_are, AsDeclared);
     double least = (strange(said) < kClearly ? kClearlyLess : 1) * miss;
     std::optional<std::string> told;
-    // Try the other readings; keep the one with the smallest distances.
+    // Try the other interpretations of the coordinates; keep the one with the smallest distances.
     for (const SquareReading& square : kSquares) {
       const Read read = [&](std::size_t film, const glm::dvec2& p) {
         const Intrinsics& own = cameras_[film].intrinsics;
@@ -238,7 +238,7 @@ class RigChecker {
         return p * side / size - square.padded * (side - size);
       };
       const double share = ShouldersOfLegs(read);
-      // This reading stretches one axis and thereby the distances, so scale the distances back.
+      // Reading coordinates relative to a square stretches one axis and thereby the distances; undo this scaling.
       const auto [shorter, longer] = std::minmax(in.width, in.height);
       const double miss_read =
           MedianMiss(as_they_are, read) * static_cast<double>(shorter) / static_cast<double>(longer);

@@ -47,7 +47,7 @@ class MovingPerson {
   const PersonTrack& track_;
 };
 
-/// The tracked people of one camera, and its offset, known or sought.
+/// The tracked people of one camera, and the offset of its clock, given or estimated.
 struct OffsetFilm {
   std::vector<MovingPerson> people;
   ClockOffset offset;
@@ -120,7 +120,7 @@ std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> camer
     OffsetFilm& added = offset_films.emplace_back();
     for (const PersonTrack& track : tracks[camera]) added.people.emplace_back(people[camera], track);
   }
-  // Estimate each offset against the cameras before it, then once more against all.
+  // Estimate each offset against the cameras before it, then once more against all cameras.
   offset_films.front().offset.is_told = true;
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
@@ -182,7 +182,7 @@ class ClockFinder {
 
  private:
   /// Returns the mean loss over keypoints: each person is compared with the best-fitting person in each of the first
-  /// `others` cameras. Returns nullopt if too few keypoints are shared.
+  /// `others` cameras. Returns nullopt if there are too few pairs of keypoints.
   std::optional<double> LossOf(std::size_t c, const FilmClock& clock, std::size_t others) const {
     constexpr std::size_t kMaxFrames = 60;
     const std::size_t stride = std::max<std::size_t>(1, frames_ / kMaxFrames);
@@ -196,7 +196,7 @@ class ClockFinder {
         if (o == c || !geometry_(o, c)) continue;
         const std::vector<SeenPerson> there = PeopleAt(films_[o], films_[o].clock, time);
         for (const SeenPerson& person : here) {
-          // In the other camera, the person with the lowest mean loss counts.
+          // Compare with the person in the other camera who has the lowest mean loss.
           std::pair<double, std::size_t> best{0, 0};
           for (const SeenPerson& somebody : there) {
             const auto pair = PairLoss(*geometry_(o, c), somebody, person);

@@ -19,7 +19,7 @@ struct PeopleSyncOptions {
 /// first camera is compared with all people of the other camera, and the person with the lowest mean squared epipolar
 /// distance (`EpipolarGeometry`) counts. A camera whose offset cannot be determined gets 0; the offset of the first
 /// camera is 0 by definition.
-/// @param cameras of the rig without distortion; the pixels are undistorted, too
+/// @param cameras of the rig, without lens distortion; all pixels must be undistorted
 /// @param people of each camera, each with its own number of frames
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                          const PeopleSyncOptions& options = {});
@@ -35,8 +35,8 @@ struct FilmClock {
 
 struct FoundClock {
   FilmClock clock;
-  double before = 0, after = 0;  ///< the loss of the given clock, and of the one that was found
-  bool is_mended = false;        ///< false: `clock` is the given one
+  double before = 0, after = 0;  ///< set if `is_mended`: the loss of the given clock; the loss of `clock`
+  bool is_mended = false;        ///< false if `clock` is still the given clock
   FilmClock nearest;             ///< the clock of minimal loss, even if it was not accepted
 };
 
