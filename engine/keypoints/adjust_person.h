@@ -26,9 +26,10 @@ double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedP
 /// all frames that together explain the keypoints of all pictures. A keypoint's standard deviation follows from its
 /// confidence and `KeypointErrorPx`; the loss is robust. The motion is smooth: each joint has its own acceleration
 /// scale, estimated over a tenth of a second and corrected for noise. If fewer than two cameras see a landmark, its
-/// joint is kept near its position in the single-frame fit, within a tenth of the person's height; a joint that no
-/// landmark ever shows is kept within twice the keypoint error. The trunk has one length; the spine does
-/// not bend forward or sideways. Returns true if the problem was solved; otherwise `person` is unchanged.
+/// joint is kept near its position in the single-frame fit, with a standard deviation of a tenth of the person's
+/// height; if no camera ever sees the landmark, the standard deviation is twice the keypoint error. The trunk has one
+/// length; the spine does not bend forward or sideways. Returns true if the problem was solved; otherwise `person` is
+/// unchanged.
 /// @param cameras of the rig, without lens distortion, in the world of `person`; all pixels must be undistorted
 /// @param seen the keypoints from which `person` was recovered
 bool AdjustPerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen,

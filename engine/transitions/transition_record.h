@@ -57,7 +57,7 @@ struct PreferredJoin {
   bool carried = false;
 };
 
-/// A run of frames to show; they belong to a clip or were made by the method.
+/// A run of frames to show. The frames belong to a clip or were made by the method.
 ///
 /// In the first segment, `first` is the frame shown at the request. In every later segment, frame `first` is aligned
 /// (yaw, x, z) with the last shown frame and replaces it; the next frame to be shown is `first` + 1.
@@ -86,7 +86,7 @@ struct Candidate {
   int from_frame = 0;  ///< in the clip that is left, or in the in-between
   int to_frame = 0;    ///< in the clip that is entered, or in the in-between
   FuzzyDistance distance;
-  std::optional<double> cost;  ///< the cost by which the choice ranks pairs; empty if it ranks them by `distance`
+  std::optional<double> cost;  ///< the cost by which the choice ranks pairs; nullopt if it ranks them by `distance`
   CandidateOutcome outcome = CandidateOutcome::kTooFar;
   int point = 0;  ///< index of the record's transition point to which it belongs
 };
@@ -95,7 +95,7 @@ struct Candidate {
 struct TransitionRecord {
   Branch branch = Branch::kNone;
   int request_frame = 0;
-  std::vector<Segment> segments;         ///< none: no transition was found; two: direct; three: with an in-between
+  std::vector<Segment> segments;         ///< empty: no transition was found; two: direct; three: through an in-between
   std::vector<FuzzyDistance> distances;  ///< one per transition point: segments.size() − 1 entries
   /// The taken pair and the best others, at most kMaxCandidates, in order of frames.
   std::vector<Candidate> candidates;

@@ -65,8 +65,8 @@ std::string WhyNone(const MotionLibrary& library, const TransitionRequest& reque
 
 /// Plans paper A's transition (section 3.5). Compares each bridge frame of the playing clip within the budget with
 /// those of the wanted clip, the front half before the rear half, and takes the first pair that matches. With
-/// Pick::kSmallest it takes the nearest matching pair of the front half, or of the rear half if the front half has no
-/// match. Without any match the transition goes through an in-between.
+/// Pick::kSmallest it takes the nearest matching pair of the front half, or of the rear half if no pair of the front
+/// half matches. If no pair matches at all, the transition goes through an in-between.
 TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
@@ -107,9 +107,9 @@ TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRe
   return record;
 }
 
-/// Plans the reference of unbroken motion, which ignores the wanted clip: the playing clip continues, and every join
-/// leaves it unchanged. The record has one transition point, from the request's frame to the same frame. Measures
-/// therefore evaluate unbroken motion at the frames at which other choices change clips.
+/// Plans unbroken motion, as a reference for measures: the playing clip continues, every join leaves it unchanged, and
+/// the wanted clip is ignored. The record has one transition point, from the request's frame to the same frame.
+/// Measures therefore evaluate unbroken motion at the frames at which other choices change clips.
 ///
 /// If the request comes at the clip's last frame, the clip cannot continue, and the record has no segments.
 TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {

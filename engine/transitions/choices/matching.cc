@@ -66,7 +66,7 @@ RankedPairs RankPairs(const AllowedFrames& allowed, FuzzyGate* gate, PairRows& c
   return survey;
 }
 
-/// Takes the allowed pair with the lowest cost; of equal costs, the earlier pair.
+/// Takes the allowed pair with the lowest cost, the earlier one on a tie.
 TransitionRecord PlanRanked(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const Ranking& ranking, PairRows& costs) {
   const std::int64_t pairs = ranking.allowed.Pairs();
@@ -82,7 +82,7 @@ TransitionRecord PlanRanked(const MotionLibrary& library, const TransitionReques
   const RankedPair taken = *best;
   survey.best.erase(best);
 
-  // Record the taken pair and the best of the others.
+  // Record the taken pair and the best of the other pairs.
   TransitionRecord record = DirectTransition(library, request, taken.from, taken.to, rules);
   record.pairs_seen = pairs;
   record.pairs_matched = survey.matching;
@@ -130,7 +130,7 @@ TransitionRecord PlanByPointCloud(const MotionLibrary& library, const Transition
   return PlanRanked(library, request, rules, ranking, costs);
 }
 
-/// Returns the description of `least_play_s`, the setting that all of these choices have.
+/// Returns the description of the setting `least_play_s`, which all choices of this file have.
 template <typename Options>
 typename SettingTable<Options>::Row LeastPlay() {
   return {"least_play_s", &Options::least_play_s, 0, 60,

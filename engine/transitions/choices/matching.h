@@ -40,16 +40,16 @@ TransitionRecord PlanMotionMatching(const MotionLibrary& library, const Transiti
                                     const MatchRules& rules, const MotionMatchingOptions& options = {});
 
 struct FuzzyWindowOptions {
-  /// Distances are averaged over this time before the frame and after it, in seconds each. The default (ours) makes the
-  /// window twice as long as that of point clouds.
+  /// Distances are averaged over this time before the frame and over the same time after it, in seconds. The default
+  /// (ours) makes the window twice as long as that of point clouds.
   double reach_s = 1.0 / 3;
   double least_play_s = 1;  ///< as in PointCloudOptions
 };
 const SettingTable<FuzzyWindowOptions>& FuzzyWindowSettings();
 
 /// Plans by a fuzzy similarity between motions, which paper A leaves as future work. The fuzzy gate may pass any frame.
-/// The passing pairs are ranked by the mean fuzzy distance over `reach_s` before and after. If no pair passes, the plan
-/// goes through an in-between.
+/// The passing pairs are ranked by the mean fuzzy distance over the frames up to `reach_s` before and after the pair.
+/// If no pair passes, the plan goes through an in-between.
 TransitionRecord PlanFuzzyWindow(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules, const FuzzyWindowOptions& options = {});
 

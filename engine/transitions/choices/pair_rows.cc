@@ -47,8 +47,8 @@ void FuzzyWindowRows::Compute(int leave_frame, std::span<const int> enter_frames
 
 namespace {
 
-/// Returns the floor point below the hips. It becomes a clip's origin, which keeps the precision of sums of squares.
-/// Heights are not shifted, because they are compared.
+/// Returns the floor point below the hips. Positions are stored relative to this point of one frame, so that sums of
+/// squares keep their precision. Heights are not shifted, because they are compared.
 glm::dvec3 OnFloor(const BodyPose& pose) { return {pose[Role::kHipCentre].x, 0, pose[Role::kHipCentre].z}; }
 
 int HalfWindow(double window_s, double rate_hz) { return static_cast<int>(std::lround(0.5 * window_s * rate_hz)); }
@@ -91,7 +91,7 @@ void PointCloudRows::AddFrame(int frame) {
   for (glm::dvec3& joint : pose.joints) joint -= playing_origin_;
   playing_sums_.push_back(Plus(playing_sums_.back(), pose));
   const std::span<glm::dvec3> row = products_.OpenRow();
-  // Multiply the frame's joints with those of eight frames of the wanted clip at a time.
+  // Sum the products of this frame's joints with the joints of eight frames of the wanted clip at a time.
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     std::array<double, kLanes> along{}, across{}, up{};
     for (std::size_t j = 0; j < kRoleCount; ++j) {

@@ -15,7 +15,7 @@
 namespace etude {
 
 /// Computes one kind of cost for pairs of frames, row by row; a row holds all pairs with one frame that may be left.
-/// Rows must be requested in rising order.
+/// Rows must be requested in ascending order of that frame.
 class PairRows {
  public:
   virtual ~PairRows() = default;
@@ -24,8 +24,8 @@ class PairRows {
 };
 
 /// Keeps running sums along the diagonals of a table whose rows are frames of one clip and whose columns are frames of
-/// another. Rows arrive one by one. A diagonal pairs frames of two motions that run side by side, and the sum over any
-/// part of it takes two look-ups. `Value` is a number or a vector of numbers.
+/// another. A diagonal pairs the frames of two clips that play at the same time. The sum over any stretch of a diagonal
+/// takes two look-ups. Rows are added one by one. `Value` is a number or a vector of numbers.
 template <class Value>
 class DiagonalSums {
  public:
@@ -50,7 +50,7 @@ class DiagonalSums {
   int NextRow() const { return next_row_; }
 
   /// Returns the sum of the `count` values on the diagonal that ends at (row, column), which must lie in the table. Row
-  /// − `count` must be a kept row or lie before the first row.
+  /// `row` − `count` must still be kept, or lie before the first row.
   Value SumEndingAt(int row, int column, int count) const { return At(row, column) - At(row - count, column - count); }
 
  private:

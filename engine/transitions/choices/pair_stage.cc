@@ -185,12 +185,12 @@ const BodyPose& PairStage::LimbsAt(std::size_t length, int frames, JoinStyle way
 }
 
 Burden PairStage::Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const {
-  // Put the join between its clips.
+  // Compose the motion: the playing clip, the join, then the wanted clip.
   std::vector<BodyPose> shown(playing_.begin(), playing_.begin() + before_);
   shown.insert(shown.end(), played.begin(), played.end());
   for (std::size_t f = played.size(); f < wanted_.size(); ++f) Shift(shift, shown.emplace_back(wanted_[f]));
   const int end = static_cast<int>(shown.size()) - 1, last = std::min(before_ + window_.Frames(), end);
-  // Compute the mass centres in the frames from which accelerations in the join are computed.
+  // Compute the centres of mass from which the accelerations in the join are computed.
   constexpr int kReach = 3;
   std::vector<glm::dvec3> centres(shown.size());
   for (int f = std::max(before_ - kReach, 0); f <= std::min(last + kReach, end); ++f) centres[f] = MassCentre(shown[f]);

@@ -46,10 +46,10 @@ class CostMeter {
 /// and is 0 from 2.5 cm on (Zhang, Starke, Komura and Saito 2018).
 double SlideOf(std::span<const BodyPose> played);
 
-/// How much of a join the ground could not support.
+/// The penalties for what the ground cannot support in a join.
 struct Burden {
   int unsupported = 0;  ///< the longest run of frames in which FindSupport finds no support
-  double beside = 0;    ///< zero-moment point's distance from the supports above 10 cm and the clips' own, m·s
+  double beside = 0;    ///< zero-moment point's distance beyond 10 cm and beyond the clips' own, integrated, m·s
   double glide = 0;     ///< how far the slowest support glides, beyond the same joint of a clip, metres
 };
 
@@ -62,7 +62,7 @@ class PairStage {
   PairStage(const PairStage&) = delete;
   PairStage& operator=(const PairStage&) = delete;
 
-  /// Returns the shift of the wanted clip in a join of `frames` frames that places it by momentum (CarriedShift).
+  /// Returns the shift by which CarriedShift places the wanted clip in a join of `frames` frames.
   glm::dvec3 ShiftFor(int frames) const;
   /// Returns the window of a join of `frames` frames; the wanted clip is moved by `shift`.
   JoinWindow WindowFor(int frames, const glm::dvec3& shift) const;

@@ -50,12 +50,12 @@ TransitionRecord DirectTransition(const MotionLibrary& library, const Transition
 std::vector<Candidate> ListCandidates(const MotionLibrary& library, const TransitionRequest& request,
                                       const MatchRules& rules, const RankedPair& taken, std::vector<RankedPair> others,
                                       CandidateOutcome passed_over) {
-  // Keep the best of the other pairs.
+  // Keep the best of the pairs that were not taken.
   std::sort(others.begin(), others.end(), [](const RankedPair& a, const RankedPair& b) {
     return std::tuple(!a.matches, a.rank, a.from, a.to) < std::tuple(!b.matches, b.rank, b.from, b.to);
   });
   others.resize(std::min(others.size(), kMaxCandidates - 1));
-  // List the taken pair and the others, in order of their frames.
+  // List the taken pair and these others, in order of their frames.
   std::vector<Candidate> candidates;
   const auto add = [&](const RankedPair& pair, CandidateOutcome outcome) {
     const Grades &from = library.tagged[request.from].grades[pair.from],

@@ -14,8 +14,8 @@
 
 namespace etude {
 
-/// The frames that a choice may take; both lists rise. Every frame of `leave` may be paired with every frame of
-/// `enter`.
+/// The frames that a choice may take; both lists are in ascending order. Every frame of `leave` may be paired with
+/// every frame of `enter`.
 struct AllowedFrames {
   std::vector<int> leave;  ///< frames of the playing clip
   std::vector<int> enter;  ///< frames of the wanted clip
@@ -47,7 +47,7 @@ struct RankedPair {
   int from = 0, to = 0;
   bool matches = false;        ///< the pair may be a transition point
   double rank = 0;             ///< lower is better; compared among matching pairs, or among pairs that do not match
-  std::optional<double> cost;  ///< the cost in the record
+  std::optional<double> cost;  ///< the cost that the record states for this pair
 };
 
 /// Returns the taken pair and the best of `others` (which must not contain the taken pair), at most kMaxCandidates in

@@ -20,15 +20,15 @@ namespace {
 /// wanted clip.
 struct ThroughClip {
   int clip = 0;            ///< index in the library
-  std::vector<int> enter;  ///< its frames that may be entered, rising; all are before those of `leave`
-  std::vector<int> leave;  ///< its frames from which the wanted clip may be entered, rising
+  std::vector<int> enter;  ///< its frames that may be entered, ascending; all are before those of `leave`
+  std::vector<int> leave;  ///< its frames from which the wanted clip may be entered, ascending
 };
 
 constexpr double kRunUp_s = 2.5;     // a clip may be entered at most this long before it changes its stance
-constexpr double kRunOut_s = 2.5;    // it may be left at most this long after the change
-constexpr double kMinShown_s = 0.3;  // minimum time that it is shown: the shortest join
+constexpr double kRunOut_s = 2.5;    // a clip may be left at most this long after the change
+constexpr double kMinShown_s = 0.3;  // minimum time that a clip is shown: the shortest join
 
-/// Finds the frames of a library clip that can be joined to a request's allowed frames, before or after.
+/// Finds the frames of a library clip that can be joined to the allowed frames of a request, before or after the clip.
 class Ends {
  public:
   Ends(const MotionLibrary& library, const TransitionRequest& request, const AllowedFrames& allowed)
@@ -65,9 +65,9 @@ class Ends {
   const AllowedFrames& allowed_;
 };
 
-/// Collects the frames of a clip around a change of stance. Frames up to `before` may be entered, and frames from
-/// `after` on may be left, each as far as an unbroken stretch can be joined. At most `most_s` seconds of the clip are
-/// shown.
+/// Collects the frames of a clip around a change of stance. The clip may be entered in an unbroken run of frames that
+/// ends at `before`, and left in one that begins at `after`; every frame of a run can be joined. At most `most_s`
+/// seconds of the clip are shown.
 ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, int before, int after, double most_s) {
   const TaggedClip& tagged = library.tagged[clip];
   const auto frames = [&](double seconds) { return static_cast<int>(std::lround(seconds * tagged.rate_hz)); };
@@ -84,16 +84,16 @@ ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, 
   return way;
 }
 
-/// Finds a clip that changes the stance, and of several the clip whose frames at both ends are most similar, by
-/// MotionFeatures, to the allowed frames. NeedsClip must be true of all pairs of `allowed`. The playing clip is also
-/// searched. Returns nullopt if no clip of the library changes the stance within `most_s` seconds.
+/// Searches all clips, including the playing one, for a change of stance. Returns the clip whose frames on both sides
+/// of the change are most similar to the allowed frames, by MotionFeatures. NeedsClip must be true for all pairs of
+/// `allowed`. Returns nullopt if no clip of the library changes the stance within `most_s` seconds.
 std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const TransitionRequest& request,
                                            const AllowedFrames& allowed, double most_s) {
   const Ends ends(library, request, allowed);
   std::optional<ThroughClip> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (int clip = 0; clip < static_cast<int>(library.motions.size()); ++clip) {
-    int before = -1;  // the last frame that may be entered; −1 after a frame that may be left
+    int before = -1;  // the last frame that may be entered; −1 if it has been paired with a frame that may be left
     for (int f = 0; f < library.tagged[clip].FrameCount(); ++f) {
       if (before >= 0 && ends.MayLeave(clip, f)) {
         ThroughClip way = WayAround(library, ends, clip, std::exchange(before, -1), f, most_s);
@@ -115,9 +115,9 @@ constexpr int kFloatingFrames = 4;  // a join with this many consecutive unsuppo
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part
 constexpr std::size_t kMaxCompared = 20'000;  // maximal number of pairs of frames whose features are compared
 
-/// Divides the wait into parts, and finds in each part the nearest pair that can be joined without a clip between
-/// (NeedsClip), if there is one. In a long clip only every `stride`-th frame is compared. Pairs close to those in
-/// `tried` are skipped.
+/// Divides the wait into parts, and finds in each part the nearest pair that can be joined without an intermediate clip
+/// (NeedsClip), if there is such a pair. In a long clip only every `stride`-th frame is compared. Pairs close to those
+/// in `tried` are skipped.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                     const AllowedFrames& allowed, std::span<const FramePair> tried = {}) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];
@@ -154,8 +154,8 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
   return pairs;
 }
 
-/// Plays transitions at the nearest pairs and, while the best result floats, at further pairs. Returns the played
-/// joins, the best first; empty if no pair can be joined.
+/// Plays the joins of the nearest pairs and, while the best of them floats, those of further pairs. Returns the played
+/// joins, the best first; an empty list if no pair can be joined.
 std::vector<PlayedJoin> PlayNearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                         const PlayedRates& rates, const AllowedFrames& allowed, int last) {
   std::vector<PlayedJoin> ways;

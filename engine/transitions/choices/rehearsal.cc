@@ -87,7 +87,7 @@ class Rehearsal {
 
   std::vector<PlayedJoin> Play() {
     std::vector<PlayedJoin> ways;
-    // Continue the cheapest open join until the cheapest join is complete.
+    // Best-first search: continue the cheapest open join until the cheapest join is complete.
     while (true) {
       std::ranges::pop_heap(open_, IsLater);
       OpenWay& open = open_.back();

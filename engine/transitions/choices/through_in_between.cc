@@ -16,7 +16,7 @@ using Key = InBetweenNet::Key;
 /// A transition point between a clip and a key pose of the in-between.
 struct KeyPoint {
   int frame = 0;  ///< index in the clip
-  int key = -1;   ///< index in the net; −1 if there is none
+  int key = -1;   ///< index in the net; −1 if the net has no keys
   FuzzyDistance distance;
   bool matches = false;
 };
@@ -150,7 +150,7 @@ TransitionRecord ThroughInBetween(const MotionLibrary& library, const Transition
   const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
   const std::vector<int> exit_frames = BridgeFramesWithin(playing, window);
   const KeyPoint exit = exits.Find(exit_frames, FramesWithin(window));
-  // Bridge frames are in ascending order, so those of the clip's front half come first.
+  // The search takes the first match. Bridge frames are in ascending order, so the clip's front half is searched first.
   const std::vector<int> entrance_frames = BridgeFramesWithin(next, EntryWindow(next));
   const KeyPoint entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
 

@@ -14,8 +14,8 @@ namespace {
 
 glm::dvec3 MeanVelocity(const Ends& ends) { return (ends.end - ends.start) / ends.seconds; }
 
-/// Fills each channel by itself. Channels are the root's position, and each joint's rotation vector relative to the
-/// joint's last past rotation. In these vectors, slerp is a straight line.
+/// Fills each channel independently. Channels are the root's position, and each joint's rotation vector relative to the
+/// joint's last past rotation. A straight line in these vectors is a slerp.
 template <typename RootLaw, typename Law>
 std::vector<TreePose> FillEach(const Gap& gap, const RootLaw& root_law, const Law& law) {
   const TreePose &before = gap.past[gap.past.size() - 2], &last = gap.past.back(), &next = gap.future.front();

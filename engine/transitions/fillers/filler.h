@@ -22,7 +22,7 @@ struct Gap {
   std::size_t frames = 0;            ///< number of missing frames, at least one
   double rate_hz = 30;
   const GapLibrary* library = nullptr;                       ///< for fillers that need a library
-  std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1: none
+  std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1 if the tree has none
 
   /// Returns the time from the last past frame to the first future frame.
   double Seconds() const { return static_cast<double>(frames + 1) / rate_hz; }
@@ -34,8 +34,8 @@ struct Filler {
   std::string description;  ///< one line for users
   std::vector<NumberSetting> settings = {};
   bool uses_library = false;
-  /// Returns the missing frames. Returns no frames if the filler needs a library that has no gap of this length on this
-  /// tree. `values` holds one value per setting, in order; empty means the defaults.
+  /// Returns the missing frames. Returns no frames if the filler needs a library and the library has no gap of this
+  /// length on this tree. `values` holds one value per setting, in order; empty means the defaults.
   std::vector<TreePose> (*fill)(const Gap& gap, std::span<const double> values) = nullptr;
 };
 
@@ -46,7 +46,7 @@ std::span<const Filler> AllFillers();
 /// second. The functions below return the channel's value `seconds` after the start.
 struct Ends {
   glm::dvec3 start{0}, start_velocity{0}, end{0};
-  std::optional<glm::dvec3> end_velocity = {};  ///< absent if there is only one future frame
+  std::optional<glm::dvec3> end_velocity = {};  ///< nullopt if there is only one future frame
   double seconds = 1;                           ///< from start to end
 };
 

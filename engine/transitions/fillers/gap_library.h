@@ -20,10 +20,9 @@ class GapLibrary {
   /// Adds a motion, which takes about 100 bytes of memory per joint and frame.
   void Add(TreeMotion motion);
 
-  /// Fills a gap with `fill` and corrects the result by an error (truth minus filled) that is known: the error that
-  /// `fill` makes in the nearest gap of the library. In each frame, the root's displacement, relative to the heading,
-  /// and the rotation of each joint are corrected. Of equally near gaps the first added is taken. Returns no frames if
-  /// no gap can be compared.
+  /// Fills a gap with `fill` and corrects the result by the error (truth minus filled) that `fill` makes in the nearest
+  /// gap of the library. In each frame, the root's displacement, relative to the heading, and the rotation of each
+  /// joint are corrected. On a tie, the gap that was added first is taken. Returns no frames if no gap can be compared.
   std::vector<TreePose> FillLikeNearest(const Gap& gap, Fill fill) const;
 
   /// Fills a gap with `fill` and corrects the result by a weighted mean of errors (truth minus filled): those that

@@ -49,7 +49,7 @@ struct Footfalls {
   Frames stands;
 };
 
-/// The data of one foot from which its steps are planned.
+/// One foot: the data from which its steps are planned.
 struct FootView {
   const glm::dvec3& End(std::size_t end) const { return end == 0 ? path.front() : path.back(); }
   /// Returns the tip's position at an end of the gap, lowered to the surface on which the foot stands.
@@ -59,14 +59,14 @@ struct FootView {
   std::vector<glm::dvec3> path;    ///< its tip's filled positions, from the frame before the gap to the frame after it
   std::vector<glm::dvec3> hips;    ///< its hip joint's positions in the same frames
   glm::dvec3 velocity{0};          ///< its tip's velocity before the gap, metres per second
-  std::array<bool, 2> stands{};    ///< whether it stands before and after the gap
+  std::array<bool, 2> stands{};    ///< true if the foot stands before the gap, after the gap
   double length = 0;               ///< length of the stretched leg from hip to tip, metres
   std::array<double, 2> raised{};  ///< height of a standing tip above the lowest one around the gap, metres
 };
 
 constexpr double kLowest_m = 0.1, kRest_mps = 0.4, kLanded_m = 0.06, kPassing_m = 0.02, kTravels_mps = 0.5;
 
-/// Finds the legs and their paths; nullopt if the tree lacks roles.
+/// Finds the legs and their paths. Returns nullopt if the tree lacks a role of the legs.
 std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const Globals> frames) {
   using enum Role;
   std::array<FootView, 2> feet;
@@ -89,8 +89,8 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
                   glm::distance(first[leg.ankle], first[leg.tip]);
     foot.velocity = gap.rate_hz * (first[leg.tip] - before[leg.tip]);
   }
-  // Find the floor: the lowest position of both tips around the gap. A standing tip 2 to 12 cm above it belongs to a
-  // raised foot; a higher tip stands on another surface.
+  // Find the floor: the lowest position of both tips around the gap. A standing tip that is 2 to 12 cm above the floor
+  // belongs to a raised foot; a higher tip stands on another surface.
   double floor = std::numeric_limits<double>::infinity();
   const auto look = [&](const TreePose& pose) {
     const Globals frame(gap.tree, pose);
@@ -110,8 +110,8 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
     // A foot stands at an end of the gap if its tip is slow and near the height of the lowest joint there.
     const glm::dvec3 &first = frames.front()[tip], &last = frames.back()[tip];
     foot.stands[0] = first.y <= frames.front().Lowest() + kLowest_m && glm::length(foot.velocity) <= kRest_mps;
-    // With one future frame, the velocity is unknown and only the height decides. A body that travels raises a foot
-    // only a little.
+    // With one future frame, the velocity is unknown and only the height decides. The limit is lower if the body
+    // travels, because a walking person lifts the foot only a little.
     const glm::dvec3 after = knows_velocity ? Globals(gap.tree, gap.future[1])[tip] : last;
     const double highest = knows_velocity ? kLowest_m : speed > kTravels_mps ? kPassing_m : kLanded_m;
     foot.stands[1] = last.y <= frames.back().Lowest() + kLowest_m && last.y <= landed + highest &&
@@ -120,8 +120,8 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
   return feet;
 }
 
-/// Returns, for each end, the height of the foot's tip if the foot stands there, otherwise of the other foot's tip.
-/// Returns nullopt if no foot stands.
+/// Returns, for each end of the gap, the height of the foot's tip if the foot stands there; else that of the other
+/// foot's tip; else the height at the other end. Returns nullopt if no foot stands at any end.
 std::optional<std::array<double, 2>> Floors(const FootView& foot, const FootView& other) {
   std::array<std::optional<double>, 2> known;
   for (std::size_t end = 0; end < 2; ++end) {
@@ -166,10 +166,10 @@ class FootPlanner {
     constexpr double kMinStance_s = 0.15;
     static constexpr std::array kStep_s = {0.27, 0.4, 0.53};
     Stance& stance = stances.back();
-    // First way: the foot stays to the end of the gap.
+    // First possibility: the foot stays to the end of the gap.
     if (stance.bears && foot_.stands[1] && stances.size() == 1) End(stances, stance.from);
     if (stances.size() > kMaxSteps) return;
-    // Other ways: the foot steps, at once if it is in the air, otherwise after a stance of any length.
+    // Other possibilities: the foot steps, at once if it is in the air, otherwise after a stance of any length.
     const int grid = std::max(last_ / 15, 1);
     const int earliest = stance.bears ? stance.from + (stances.size() > 1 ? Of(kMinStance_s) : 0) : stance.from;
     for (int begin = earliest; begin < last_; begin += grid) {
@@ -198,7 +198,7 @@ class FootPlanner {
     }
   }
 
-  /// Ends the footfalls at the end of the gap with a stance that begins at `from`, and keeps them.
+  /// Ends a sequence of footfalls at the end of the gap with a stance that begins at `from`, and stores it.
   void End(std::vector<Stance> stances, int from) {
     stances.back() = {.from = from, .to = last_, .bears = true, .tip = foot_.Lowered(1)};
     if (stances.size() == 1) stances.front().tip = foot_.Lowered(0);
@@ -212,7 +212,7 @@ class FootPlanner {
     return mean;
   }
 
-  /// Computes the cost of these footfalls and keeps them.
+  /// Computes the cost of a sequence of footfalls and stores it.
   void Keep(const std::vector<Stance>& stances) {
     constexpr double kPerStep = 0.02, kPerDrift = 30, kPerHaste = 0.01, kHaste_mps = 4, kPerStretch = 4, kPerLate = 0.2,
                      kLong_s = 0.55;
@@ -296,14 +296,14 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
     const Stance& stance = falls.stances[i];
     for (int f = stance.from; f <= stance.to; ++f) poses[static_cast<std::size_t>(f)] = {stance.tip, turn_of(stance)};
     if (i == 0) continue;
-    // Compute the step from the previous stance: minimum jerk, with a free end velocity if it ends in the air.
+    // Compute the step from the previous stance: minimum jerk, with a free end velocity if the step ends in the air.
     const Stance& before = falls.stances[i - 1];
     const int frames = stance.from - before.to;
     const glm::dvec3 way = stance.tip - before.tip;
     Ends ends{.start = before.tip, .end = stance.tip, .seconds = frames / rate_hz};
     if (!before.bears) ends.start_velocity = foot.velocity * glm::dvec3(1, 0.5, 1);  // the swing soon stops rising
     if (stance.bears) ends.end_velocity = glm::dvec3(0);
-    const double share = before.bears ? 1 : stance.bears ? 0.5 : 0;  // a foot in the air is already lifted
+    const double share = before.bears ? 1 : stance.bears ? 0.5 : 0;  // a foot in the air is already partly lifted
     const double lift = share * LiftFor(std::hypot(way.x, way.z));
     for (int f = before.to + 1; f < stance.from; ++f) {
       const double s = static_cast<double>(f - before.to) / frames, rest = s * (1 - s);
@@ -349,7 +349,7 @@ void SetLeg(const JointTree& tree, const TreeLeg& leg, const FootPose& foot, dou
   const glm::dvec3 limb = glm::conjugate(world.turns[at(leg.ankle)]) * (world[leg.tip] - ankle);
   const glm::dquat turn = RaisedHeel(foot, hip, limb, reach);
   const glm::dvec3 target = foot.tip - turn * limb;
-  constexpr double kForwards = 1e-3;  // a straight leg does not show where its knee points
+  constexpr double kForwards = 1e-3;  // bends a straight leg's knee forwards, since it has no direction
   const glm::dvec3 pole = CarriedOffset(KneeOffset(hip, knee, ankle), ankle - hip, target - hip) +
                           kForwards * UnitOr(turn * limb, glm::dvec3(0));
   const Leg solved = SolveLeg(hip, target, glm::distance(hip, knee), glm::distance(knee, ankle), pole);

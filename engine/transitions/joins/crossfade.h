@@ -19,7 +19,7 @@ BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share);
 
 struct CrossfadeOptions {
   /// The time until only the new motion is shown, in seconds (default ours). A longer time hides larger differences,
-  /// but longer shows poses that neither clip has; 0 is a cut.
+  /// but shows poses that neither clip has for longer; 0 is a cut.
   double blend_s = 0.33;
 };
 const SettingTable<CrossfadeOptions>& CrossfadeSettings();

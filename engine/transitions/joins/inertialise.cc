@@ -101,8 +101,8 @@ const SettingTable<DeadOptions>& DeadSettings() {
 }
 
 Blend DeadBlending(const JoinInput& input, const DeadOptions& options) {
-  // Continue the last shown frame with the old motion's velocities: for a target that stands still in that frame, the
-  // offset is zero and the offset's velocity is the old motion's.
+  // Dead blending's continuation is an inertialisation towards a target at rest in the last shown frame: the offset is
+  // zero, and its velocity is the old motion's velocity.
   const DecayLaw law = [options](const Offset& offset, double seconds) {
     return DecayingWay(offset.velocity, seconds, options.half_life_s);
   };

@@ -36,7 +36,7 @@ struct JoinInput {
 /// Returns the pose to show `frames` ≥ 1 after the transition point; `target` is the new motion's frame at that time.
 using Blend = std::function<BodyPose(const BodyPose& target, int frames)>;
 
-/// Joins are aligned over this length of motion after the point, in seconds.
+/// The length of motion after the point over which `JoinKind::align` aligns the clips, in seconds.
 constexpr double kAlignedSeconds = 0.5;
 
 /// A kind of join, which connects two clips at a transition point. Scenario files use its name. Every join keeps the

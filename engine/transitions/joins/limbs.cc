@@ -117,7 +117,7 @@ std::vector<double> SmoothlyAbove(const std::vector<double>& needed) {
   const int count = static_cast<int>(needed.size());
   constexpr int kBlur = 2, kPasses = 2;
   const auto at = [&](const std::vector<double>& v, int i) { return v[std::clamp(i, 0, count - 1)]; };
-  // Take the running maximum, which keeps the blurred curve above `needed`.
+  // Take the running maximum first, so that the blurred curve stays above `needed`.
   std::vector<double> curve(needed.size());
   for (int i = 0; i < count; ++i) {
     for (int k = -kBlur * kPasses; k <= kBlur * kPasses; ++k) curve[i] = std::max(curve[i], at(needed, i + k));

@@ -29,7 +29,7 @@ struct Leg {
 };
 
 /// Solves two-bone inverse kinematics for a leg from `hip` to `ankle` whose limbs have the lengths `thigh` and `shin`.
-/// If the leg cannot reach, the ankle is placed as near as possible on the line from hip to ankle. The knee points
+/// If the leg is too short, the ankle is placed as near as possible on the line from hip to ankle. The knee points
 /// towards `pole` (of any length; only its component perpendicular to the leg counts).
 Leg SolveLeg(const glm::dvec3& hip, const glm::dvec3& ankle, double thigh, double shin, const glm::dvec3& pole);
 

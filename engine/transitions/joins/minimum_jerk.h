@@ -15,8 +15,8 @@ struct MinimumJerkOptions {
   /// The time until only the new motion is shown, in seconds, unless the choice of frames sets it (default ours).
   /// Accelerations fall with the square of this time, but poses that neither clip has are shown for longer.
   double blend_s = 0.5;
-  int fades = 0;   ///< 1: use JoinStyle::kFades, unless the choice of frames decides
-  int direct = 0;  ///< 1: use JoinStyle::kDirect, unless the choice of frames decides
+  int fades = 0;   ///< if 1, use JoinStyle::kFades, unless the choice of frames prefers a style
+  int direct = 0;  ///< if 1, use JoinStyle::kDirect, unless the choice of frames prefers a style
 };
 const SettingTable<MinimumJerkOptions>& MinimumJerkSettings();
 
@@ -35,7 +35,7 @@ struct JoinWindow {
   PosePair shown;                       ///< the last two frames shown
   BodyPose target_before;               ///< the new motion's frame before the point
   std::vector<BodyPose> old, next;      ///< frames of both motions from the point on; same size, at least one
-  int old_frames = 0, next_frames = 0;  ///< number of real frames after the point; later frames repeat the last
+  int old_frames = 0, next_frames = 0;  ///< number of real frames after the point; later frames repeat the last one
   double rate_hz = kJudgedRateHz;
 
   int Frames() const { return static_cast<int>(next.size()) - 1; }
@@ -82,14 +82,15 @@ class MinimumJerkPlay {
   std::optional<Inertialiser> decay_;
   /// Movements relative to their ends: each limb's rotation vector, indexed by the limb's child joint, and the root's
   /// position.
-  std::optional<std::array<Movement, kRoleCount>> movements_;  ///< empty for a fade and a decay
+  std::optional<std::array<Movement, kRoleCount>> movements_;  ///< nullopt for a fade and a decay
 };
 
 /// Returns all frames of the window as MinimumJerkPlay computes them.
 std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinStyle way);
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options);
-/// Returns the choice's preferred join, or without one the join of the options. WindowOfJoin returns its window.
+/// Returns the join that the choice of frames prefers; if it prefers none, the join that `options` describe.
+/// WindowOfJoin returns the window of that join.
 PreferredJoin PreferredJoinOf(const JoinInput& input, const MinimumJerkOptions& options);
 JoinWindow WindowOfJoin(const JoinInput& input, const PreferredJoin& preferred);
 /// Returns a blend that shows the frames `played` of a window, then the new motion.

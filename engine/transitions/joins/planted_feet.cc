@@ -121,14 +121,14 @@ int FirstFrom(Frames frames, int frame) {
   return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
 }
 
-/// A foot may keep the position of an earlier frame until `frame`. Returns that frame: the first of its current stance,
-/// otherwise the last of the stance before; −1 without a stance.
+/// Returns the frame whose position the foot can keep until `frame`: the first frame of the stance at `frame`, or, in
+/// the air, the last frame of the previous stance; −1 if there is no such stance.
 int StaysFrom(Frames stands, int frame) {
   const int stood = LastUpTo(stands, frame);
   return stood == frame ? LastUpTo(~stands, frame) + 1 : stood;
 }
-/// A foot may take the position of a later frame from `frame` on. Returns that frame: the last of its current stance
-/// (at most `last`), otherwise the first of the next stance; kNoFrame without a stance.
+/// Returns the frame whose position the foot can take from `frame` on: the last frame of the stance at `frame` (at most
+/// `last`), or, in the air, the first frame of the next stance; kNoFrame if there is no such stance.
 int WaitsUntil(Frames stands, int frame, int last) {
   const int lands = FirstFrom(stands, frame);
   return lands == frame ? std::min(FirstFrom(~stands, frame) - 1, last) : lands;
@@ -171,7 +171,8 @@ struct LegPath {
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {
   const BodyPose& old = window.old[std::min({frame, step.begin, step.stays_from})];
-  // Before the step, show the old motion's leg or its kept stance; after the step, the new motion's.
+  // Before the step, show the old motion's leg, or its stance if the foot keeps one; after the step, the new motion's
+  // leg.
   const BodyPose& next = window.next[std::max(frame, step.waits_until)];
   const glm::dvec3 from = old[leg.foot] - old[leg.ankle], to = next[leg.foot] - next[leg.ankle];
   if (frame <= step.begin) return {old[leg.ankle], from};
@@ -285,7 +286,7 @@ int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
     }
   }
   constexpr double kRounding = 1e-9;
-  if (farthest < kRounding) return unplanted_frames;  // the plan changes no foot
+  if (farthest < kRounding) return unplanted_frames;  // the plan moves no foot
   // Lower the body and solve each leg for its path.
   drop = SmoothlyAbove(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {

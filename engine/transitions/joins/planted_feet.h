@@ -24,7 +24,7 @@ constexpr std::array<LegRoles, 2> kLegs = {
 /// takes the position of its next stance there.
 struct FootStep {
   bool keeps = false;  ///< true if the foot stands in neither motion; its path is not changed
-  int begin = 0;       ///< frames after the point
+  int begin = 0;       ///< frame of the join at which the step begins
   int end = 1;
   double lift = 0;            ///< height in the middle of the step, metres
   int stays_from = kNoFrame;  ///< from this frame until the step, the foot keeps its position in the old motion

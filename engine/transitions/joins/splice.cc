@@ -91,7 +91,7 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
   std::vector<BodyPose>& shown = splice.motion.poses;
   shown.assign(start.poses.begin(), start.poses.begin() + segments.front().last + 1);
 
-  // Append the other segments, each aligned with the one before.
+  // Append the other segments, each aligned with the segment before it.
   const Blend as_it_is = [](const BodyPose& target, int /*frames*/) { return target; };
   PlacedSegment old{.frames = FramesOf(segments.front(), clips), .floor_move = {}, .blend = as_it_is};
   for (std::size_t i = 1; i < segments.size(); ++i) {

@@ -117,7 +117,7 @@ BodyPose StandingPose(const BodyProportions& proportions) {
 void PerformBy(const BodyProportions& proportions, std::span<BodyMotion> motions) {
   const std::vector<std::vector<std::size_t>> people = ByPerson(motions);
   for (BodyMotion& motion : motions) Rescale(proportions, motion);
-  // Put the clips of each person on the floor together.
+  // Shift all clips of one person together, so that the person stands on the floor.
   for (const std::vector<std::size_t>& clips : people) {
     std::vector<double> heights;
     for (std::size_t clip : clips) std::ranges::copy(FootHeights(motions[clip]), std::back_inserter(heights));

@@ -22,7 +22,7 @@ glm::dvec3 NeckInTrunk(const BodyPose& pose) {
   return {glm::dot(neck, left), glm::dot(neck, up), glm::dot(neck, glm::cross(left, up))};
 }
 
-/// Keeps, in each class, the frames with the smallest differences; of equal ones, the earlier.
+/// Keeps, in each class, the frames with the smallest differences, the earlier ones on a tie.
 std::vector<int> KeepMostAlike(const std::vector<int>& frames, const TaggedClip& clip,
                                const std::vector<FrameRating>& ratings, int most_per_class) {
   std::map<Tags, std::vector<int>> classes;
@@ -102,7 +102,7 @@ struct PoseClass {
   std::map<int, Sums> by_clip;
 };
 
-/// Returns the mean of d² over the frames of a class, without those in `own`: Σ w (a² − 2 a E[x] + E[x²]).
+/// Returns the mean of d² from `frame` to the frames of a class that are not in `own`: Σ w (a² − 2 a E[x] + E[x²]).
 double MeanSquareDistance(const Grades& frame, const Sums& all, const Sums& own, const FeatureWeights& weights) {
   const double others = all.frames - own.frames;
   double sum = 0;

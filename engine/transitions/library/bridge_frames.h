@@ -24,7 +24,7 @@ struct TaggedClip {
   double rate_hz = kJudgedRateHz;
   std::vector<Grades> grades;      ///< one per frame
   std::vector<Tags> tags;          ///< one per frame
-  std::vector<int> bridge_frames;  ///< in rising order
+  std::vector<int> bridge_frames;  ///< in ascending order
 
   int FrameCount() const { return static_cast<int>(grades.size()); }
   bool InFrontHalf(int frame) const { return frame < FrameCount() / 2; }
@@ -39,7 +39,7 @@ struct TagRules {
   /// the other clips are kept (RateFrames). 0 keeps all: paper A asks for "those of smallest difference", but also for
   /// as many as possible.
   int most_per_class = 0;
-  FeatureWeights weights = PaperWeights();  ///< weights of that difference
+  FeatureWeights weights = PaperWeights();  ///< weights of the distance by which frames differ
 };
 
 /// Selects the bridge frames of a library (algorithms A4): frames whose ten tags occur together in enough clips and

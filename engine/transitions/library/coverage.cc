@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-/// Returns the longest wait for the next of `frames` (in rising order), in seconds, in a clip that is repeated at its
-/// end.
+/// Returns the longest wait for the next of `frames` (in ascending order), in seconds, if the clip is played in a loop.
+/// Returns nullopt if there are no frames.
 std::optional<double> WorstWait(std::span<const int> frames, const TaggedClip& clip) {
   if (frames.empty()) return std::nullopt;
   int worst = frames.front() + clip.FrameCount() - frames.back();
@@ -97,7 +97,7 @@ Coverage::Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, c
   for (std::size_t c = 0; c < clips.size(); ++c) {
     any_.push_back(CoverageOf(clips[c], of_all[c], of_bridges[c], options.budget_s));
   }
-  // Compare pairs of clips, if required, or only the clips leading into the wanted ones.
+  // If required, compare every pair of clips; else find only the clips without a way into each wanted clip.
   if (options.with_pairs) {
     CoverageOptions of_pairs = options;
     of_pairs.on_progress = progress_of(2);

@@ -15,8 +15,8 @@ namespace etude {
 struct ClipCoverage {
   double frame_share = 0;   ///< share of all frames that match a frame of the other clip
   double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame of the other clip
-  /// The longest wait from any frame to the next matching bridge frame, in seconds, in a clip that is repeated at its
-  /// end; empty if no bridge frame matches.
+  /// The longest wait from any frame to the next matching bridge frame, in seconds, if the clip is played in a loop;
+  /// nullopt if no bridge frame matches.
   std::optional<double> worst_wait_s;
   /// The share of frames after which no matching bridge frame follows within the budget and before the clip's end. A
   /// transition from such a frame goes through an in-between.
@@ -28,7 +28,8 @@ struct CoverageOptions {
   double budget_s = 1;             ///< maximal wait before a transition, seconds
   bool with_pairs = true;          ///< also compute Coverage::Of
   std::vector<int> wanted = {};    ///< clips for which WithoutWayInto is computed; all if `with_pairs`
-  OnProgress on_progress = {};     ///< gets the number of clips compared; each counts once per kind of comparison
+  OnProgress on_progress = {};     ///< receives the number of clips compared so far; a clip counts once per kind of
+                                   ///< comparison
 };
 
 /// The coverage of every clip of a library. A clip's last frame is never a match, because it has no next frame.
@@ -44,7 +45,7 @@ class Coverage {
   const ClipCoverage& Of(int from, int to) const { return pairs_[Pair(from, to)]; }
 
   /// Returns the clips that have no bridge frame matching a bridge frame of clip `wanted`. Paper A (section 3.5)
-  /// demands that every move has one into the corrective clip.
+  /// demands that every move has such a frame for the corrective clip.
   const std::vector<int>& WithoutWayInto(int wanted) const { return without_.at(wanted); }
 
  private:

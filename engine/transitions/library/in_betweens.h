@@ -51,8 +51,8 @@ class Tween {
   std::array<double, kRoleCount> lengths_from_{}, lengths_to_{};
 };
 
-/// Returns samples of a tween, from `from` to the aligned `to`, with zero velocity and acceleration at both ends. The
-/// rules' speed determines their number.
+/// Returns samples of a tween, from `from` to the aligned `to`, with zero velocity and acceleration at both ends. Their
+/// number follows from the speed limits of `rules`.
 std::vector<BodyPose> SampleTween(const Tween& tween, double rate_hz, const TweenRules& rules);
 
 /// Appends a tween from the last of `frames` (at least one) to the aligned `to`.

@@ -51,17 +51,18 @@ std::vector<double> ZeroMomentOffsets(const BodyMotion& motion);
 struct TaggedLibrary {
   BodyProportions proportions;
   std::vector<std::string> names;
-  std::vector<TaggedClip> tagged;  ///< per clip and frame
+  std::vector<TaggedClip> tagged;  ///< one per clip
   InBetweenNet in_betweens;
 };
 
 /// A tagged library with its motions and the data that choices and joins need.
 struct MotionLibrary : TaggedLibrary {
-  std::vector<BodyMotion> motions;                    ///< per clip and frame, as `tagged` and the other members
+  std::vector<BodyMotion> motions;                    ///< one per clip, in the order of `tagged`, like all members
+                                                      ///< below
   std::vector<std::vector<MotionFeatures>> features;
-  std::vector<double> usual_accelerations;            ///< UsualAcceleration per clip
+  std::vector<double> usual_accelerations;            ///< UsualAcceleration of each clip
   std::vector<std::vector<Stance>> stances;
-  std::vector<std::vector<double>> beside_feet;       ///< ZeroMomentOffsets per clip
+  std::vector<std::vector<double>> beside_feet;       ///< ZeroMomentOffsets of each clip
 };
 
 /// Makes a library from motions of one body at 30 Hz. `rules` select tags and bridge frames; `tween` sets the speed of

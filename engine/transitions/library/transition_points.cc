@@ -35,7 +35,8 @@ bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b,
 
 std::optional<TransitionPoint> FindTransitionPoint(const TaggedClip& playing, FrameWindow window,
                                                    const TaggedClip& next, const MatchRules& rules) {
-  // Bridge frames are in ascending order, so those of the clip's front half come first.
+  // The first match in this order wins. Bridge frames are in ascending order, so the clip's front half is searched
+  // first.
   const std::vector<int> entering = BridgeFramesWithin(next, EntryWindow(next));
   const auto rank = [&](const TransitionPoint& point) {
     return std::tuple(!next.InFrontHalf(point.to), point.distance.value);

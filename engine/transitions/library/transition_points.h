@@ -29,7 +29,7 @@ FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s);
 /// Returns the frames that may be entered: all except the last, after which the clip shows nothing.
 FrameWindow EntryWindow(const TaggedClip& next);
 
-/// Returns the frames of a window in rising order.
+/// Returns the frames of a window in ascending order.
 std::vector<int> FramesWithin(FrameWindow window);
 std::vector<int> BridgeFramesWithin(const TaggedClip& clip, FrameWindow window);
 

@@ -12,7 +12,7 @@ MatchClip::MatchClip(std::span<const Grades> grades, std::span<const Tags> tags,
     grades_.push_back(grades[frame]);
     if (rules.within_class) tags_.push_back(tags[frame]);
   }
-  // Compute steps and boxes for the queries.
+  // Prepare the frames as queries: their distances from the frame before, and a bounding box per sixteen frames.
   const std::span<const Grades> own = grades_;
   const auto block_at = [&](std::size_t i) {
     return own.subspan(i, std::min<std::size_t>(kBlockLanes, own.size() - i));
@@ -21,7 +21,7 @@ MatchClip::MatchClip(std::span<const Grades> grades, std::span<const Tags> tags,
     steps_.push_back(ComputeDistance(own[i], own[i > 0 ? i - 1 : 0], rules.weights).value);
   }
   for (std::size_t i = 0; i < own.size(); i += kBlockLanes) boxes_.push_back(BoxOf(block_at(i)));
-  // Arrange the targets in blocks.
+  // Prepare the frames as targets: blocks of sixteen with their bounding boxes.
   const bool has_last = !own.empty() && frames_.back() + 1 == static_cast<int>(grades.size());
   target_count_ = static_cast<int>(own.size()) - (has_last ? 1 : 0);
   targets_.resize(static_cast<std::size_t>(BlocksFor(static_cast<std::size_t>(target_count_))));

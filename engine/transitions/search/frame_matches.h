@@ -13,7 +13,7 @@ namespace etude {
 class MatchClip {
  public:
   /// Prepares a clip. `grades` and `tags` have one entry per frame; tags are read only if `rules.within_class`.
-  /// `frames` are the participating frames (for instance the bridge frames) in rising order.
+  /// `frames` are the participating frames (for instance the bridge frames) in ascending order.
   MatchClip(std::span<const Grades> grades, std::span<const Tags> tags, std::span<const int> frames,
             const MatchRules& rules);
 
@@ -24,7 +24,7 @@ class MatchClip {
   friend class PairSearch;
 
   std::vector<int> frames_;
-  std::vector<Grades> grades_;  // per frame of `frames_`, like the next two members
+  std::vector<Grades> grades_;  // one per frame of `frames_`, like the next two members
   std::vector<Tags> tags_;      // empty if classes do not matter
   std::vector<double> steps_;   // distance to the frame before
   std::vector<GradeBox> boxes_;  // one per sixteen of `frames_`
@@ -35,7 +35,7 @@ class MatchClip {
   std::vector<BoxBlock> target_boxes_;  // target_boxes_[i] holds the boxes of targets_[16 i] …
 };
 
-/// Returns the frames of `from` that match (d < threshold) a frame of `to`, in rising order. The last frame of `to`
+/// Returns the frames of `from` that match (d < threshold) a frame of `to`, in ascending order. The last frame of `to`
 /// never matches, because no frame follows it. `rules` must be the rules with which both clips were prepared;
 /// `rules.pick` has no effect. The result is exactly that of a loop over `ComputeDistance`.
 std::vector<int> FindMatchingFrames(const MatchClip& from, const MatchClip& to, const MatchRules& rules);

@@ -31,8 +31,8 @@ class GradeIndex {
   /// Returns the memory in use, in bytes.
   std::int64_t Bytes() const;
 
-  /// Returns true if any frame matches. `hint` is read and updated: it holds the block of the last match, which helps a
-  /// search for a similar frame. Every value gives the same answer; begin with 0.
+  /// Returns true if any frame matches. `hint` affects only speed: it is the block of the last match, where the search
+  /// begins, and is updated. Begin with 0, and pass it on to a search for a similar frame.
   bool HasMatch(const Query& query, int& hint) const;
 
  private:
@@ -40,7 +40,7 @@ class GradeIndex {
   /// frame blocks.
   struct Level {
     std::vector<BoxBlock> boxes;  ///< boxes of each node's children
-    std::vector<int> first_frames, last_frames;  ///< of each child
+    std::vector<int> first_frames, last_frames;  ///< of each child: its first and last frame
   };
   struct Node;
 

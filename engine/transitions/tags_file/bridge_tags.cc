@@ -82,7 +82,7 @@ void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& com
                                                  file.frames, file.rate_hz, now.frames, now.rate_hz));
     return;
   }
-  // Compare the bridge frames that both have, and report the others.
+  // Compare the bridge frames that are in both sets of tags, and report the others.
   std::map<int, const TaggedFrame*> frames_now;
   for (const TaggedFrame& frame : now.bridge_frames) frames_now[frame.frame] = &frame;
   for (const TaggedFrame& frame : file.bridge_frames) {
@@ -116,7 +116,7 @@ TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
   compare("the set of weights", file.weights, now.weights);
   compare("the body's height", file.standing_hip_height_m, now.standing_hip_height_m);
 
-  // Report missing clips first: other poses are then frequent, so bridge frames differ, too.
+  // Report missing clips first: they change which poses are frequent, and thereby the bridge frames of the other clips.
   std::map<std::string, const ClipTags*> clips_now;
   for (const ClipTags& clip : now.clips) clips_now[clip.name] = &clip;
   std::vector<std::pair<const ClipTags*, const ClipTags*>> in_both;
@@ -133,7 +133,7 @@ TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
     comparison.differences.push_back(fmt::format("clip {} is not in the file", Quote(name)));
   }
   comparison.clips = static_cast<int>(in_both.size());
-  // Compare the clips that both have, and the keys.
+  // Compare the clips that are in both sets of tags, then the keys.
   for (const auto& [clip, clip_now] : in_both) CompareClips(*clip, *clip_now, comparison);
   compare("the choice of keys", file.keys, now.keys);
   return comparison;

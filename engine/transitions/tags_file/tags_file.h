@@ -22,7 +22,7 @@ struct TaggedFrame {
   Tags tags{};
   Grades grades{};
   int clips = 1;          ///< number of clips of the library in which its ten tags occur together
-  double difference = 0;  ///< FrameRating::difference: to frames with the same tags in other clips
+  double difference = 0;  ///< FrameRating::difference: the distance to frames with the same tags in other clips
 
   friend bool operator==(const TaggedFrame&, const TaggedFrame&) = default;
 };
@@ -32,7 +32,7 @@ struct ClipTags {
   std::string name, source;  ///< the clip's name in tables, and the name from which it is loaded
   int frames = 0;
   double rate_hz = kJudgedRateHz;
-  std::vector<TaggedFrame> bridge_frames;  ///< in rising order
+  std::vector<TaggedFrame> bridge_frames;  ///< in ascending order
 
   friend bool operator==(const ClipTags&, const ClipTags&) = default;
 };
@@ -77,7 +77,7 @@ constexpr std::size_t kMaxTagsFileBytes = 512'000'000;
 Result<std::string> WriteTagsFile(const BridgeTags& tags);
 
 /// Reads the output of WriteTagsFile, bit for bit; error messages name it `file`. The text is validated against the
-/// schema and checked for consistency: frame numbers rise and lie within their clips, times follow from frames, tags
+/// schema and checked for consistency: frame numbers ascend and lie within their clips, times follow from frames, tags
 /// follow from grades, clip names are unique, keys are bridge frames. A document type declaration is an error, and no
 /// entity is loaded or expanded.
 Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file);
@@ -85,8 +85,8 @@ Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file);
 /// The result of comparing two sets of tags.
 struct TagsComparison {
   std::vector<std::string> differences;  ///< one line each
-  int clips = 0;                         ///< number of clips in both
-  int bridge_frames = 0;                 ///< number of bridge frames in both
+  int clips = 0;                         ///< number of clips in both sets of tags
+  int bridge_frames = 0;                 ///< number of bridge frames in both sets of tags
 };
 
 /// Compares the tags of a file with the current tags of its clips. Rules, clips, frames and keys must be equal; grades
