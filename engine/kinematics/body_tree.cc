@@ -91,7 +91,7 @@ KinematicTree MakeBodyTree(const LimbLengths& lengths) {
   }};
   // clang-format on
 
-  // R_PJ follows from the rest axes of a joint and of its parent.
+  // Compute each R_PJ from the rest axes of the joint and of its parent.
   KinematicTree tree;
   tree.standing_root = rows[0].R_WJ;
   for (const JointRow& row : rows) {

@@ -43,7 +43,7 @@ struct CaptureBody {
   };
 
   bool is_paper = false;  ///< true for paper B's body, which has its own rules for lengths and start angles
-  KinematicTree tree;     ///< rooted at the left toe, which is put at its observed position
+  KinematicTree tree;     ///< rooted at the left toe; the root is put at the toe's observed position
   std::array<TreePoint, kRoleCount> roles;
   /// True if each hip turns relative to the pelvis by a joint of its own. The hip centre is then the midpoint of both
   /// hips and not a point of a limb.

@@ -15,7 +15,7 @@ using enum Role;
 constexpr double kSamePositionM = 1e-6;
 constexpr double kMinLimbLengthM = 1e-4;
 constexpr double kMaxOffLineM = 1e-4;
-// A range without effect: start angles are within half a turn of zero, so no angle reaches ±3π.
+// A range that never limits an angle: start angles are within half a turn of zero, so no angle reaches ±3π.
 constexpr double kUnlimited = 3 * kPi;
 // The limit of a joint that does not coincide with a role.
 constexpr double kMaxHiddenAngle = Radians(90);
@@ -153,7 +153,8 @@ class Builder {
   explicit Builder(const Parts& parts) : parts_(parts), limb_of_(parts.size(), -1) {}
 
   Result<CaptureBody> Build() {
-    // Add the left leg, from the toe to the pelvis. A limb's parent in the rest body is its child in the tree.
+    // Add the left leg, from the toe to the pelvis. The tree runs up this leg, so a limb's parent in the rest body is
+    // its child in the tree.
     AddRoot();
     int below = -1;
     for (int part = parts_.CarrierOf(kLeftFoot); part >= 0; part = parts_[part].parent) {

@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kLine = 8;  // doubles of a cache line
+constexpr std::size_t kLine = 8;  // number of doubles in a cache line
 
 // Returns an odd number of cache lines, so that the rows of one problem do not share one cache set.
 std::size_t StrideFor(int count) { return (((static_cast<std::size_t>(count) + kLine - 1) / kLine) | 1) * kLine; }
@@ -65,7 +65,7 @@ IkProblem IkBatch::Get(int problem_index) const {
   const auto take_all = [&](double* numbers, int count) {
     for (int n = 0; n < count; ++n) numbers[n] = take();
   };
-  // Fill the problem in that order.
+  // Fill the problem from these numbers.
   IkProblem problem;
   problem.start.angles.resize(dofs_);
   problem.limits.resize(dofs_);

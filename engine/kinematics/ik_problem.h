@@ -82,7 +82,8 @@ struct IkProblem {
   std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
 };
 
-/// The settings of single solvers. A solver reads only its own settings; its header explains them and their defaults.
+/// The settings of single solvers. The comment behind a setting names the solver that reads it; the solver's header
+/// explains the setting and its default.
 struct SolverSettings {
   std::optional<int> first_sweeps = {};      ///< gauss-newton
   std::optional<int> memory = {};            ///< ccd-anderson
@@ -101,7 +102,7 @@ struct IkOptions {
   WeightRefresh refresh = WeightRefresh::kSweep;
   SolverSettings solver_settings;  ///< of single solvers, for `IkSolver::solve`
   bool limits = true;              ///< paper B, section 3.7.1; false leaves all angles free
-  /// Maximum difference between an angle and its start angle, radians (paper B, section 3.7.2). Empty: unlimited.
+  /// Maximum difference between an angle and its start angle, radians (paper B, section 3.7.2). nullopt means no limit.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;
   /// A pose has converged if every effector is nearer to its target than `position_goal`, and each of its axes is
@@ -167,8 +168,8 @@ inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 /// exceed `kMaxIkValue`; limbs of zero length (a joint may coincide with the root); limits with lower > upper; axes
 /// that are not orthonormal; negative weights; an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
-/// These make only some of the checks above: those of tree and options, of the tree, of the options, and of one problem
-/// whose tree has no faults.
+/// The following overloads make only some of these checks: of tree and options, of the tree, of the options, and of one
+/// problem whose tree has no faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
 std::string_view FindTreeFault(const KinematicTree& tree);
 std::string_view FindFault(const IkOptions& options);

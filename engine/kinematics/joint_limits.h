@@ -13,7 +13,7 @@ namespace etude {
 enum class LimitSet {
   kAdult,       ///< *ours*: round figures, some narrower than the table; the limits that `MakeBodyTree` sets
   kAaos,        ///< American Academy of Orthopaedic Surgeons
-  kKendall,     ///< Kendall and McCreary; values missing in this column or the next two are taken from the first
+  kKendall,     ///< Kendall and McCreary; values missing here, in kHoppenfeld or in kAma are taken from kAaos
   kHoppenfeld,  ///< Hoppenfeld
   /// American Medical Association. The table splits its trunk into two parts: flexion and rotation are the thoracic
   /// spine's, extension and lateral bending the lumbar spine's.

@@ -140,7 +140,7 @@ class Completer {
     return 0.5 * pair.width * UnitOr(like_[pair.right.root] - like_[pair.left.root], {-1, 0, 0});
   }
 
-  /// Returns the midpoint of both chain roots, computed from the observed ends; nothing if none was observed.
+  /// Returns the midpoint of both chain roots, computed from the observed ends; nullopt if no end was observed.
   std::optional<glm::dvec3> MiddleOfRoots(const LimbPair& pair) const {
     const glm::dvec3 from_left = whole_.ends[pair.left.end] - Reach(pair.left, pair) + HalfAcross(pair);
     const glm::dvec3 from_right = whole_.ends[pair.right.end] - Reach(pair.right, pair) - HalfAcross(pair);

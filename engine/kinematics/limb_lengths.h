@@ -39,7 +39,7 @@ constexpr double kSpineShare = 0.45;
 ///     Both arms move along that line until P₂ is their midpoint. *Ours*: P₂ and the arms then move along P₁P₂ until
 ///     the trunk has its known length. The head follows from P₂.
 /// Afterwards all lengths are right, and the left foot is at its observed position. The other ends have moved, and
-/// inverse kinematics must move them back. Returns nothing if the input is not finite, a direction or a length is not
+/// inverse kinematics must move them back. Returns nullopt if the input is not finite, a direction or a length is not
 /// positive, or both hips, both shoulders, or P₁ and P₂ coincide.
 std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const LimbLengths& lengths);
 
@@ -61,7 +61,7 @@ LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
 /// A complete observation is returned unchanged.
 /// @param like a pose near the observed one: the last one recovered, or a standing body
 /// @param is_placed true if `like` stands at the right position in the world
-/// @return nothing if no end was seen and `is_placed` is false
+/// @return nullopt if no end was seen and `is_placed` is false
 std::optional<LimbObservation> CompleteObservation(const LimbObservation& seen, const LimbLengths& lengths,
                                                    const BodyPose& like, bool is_placed);
 

@@ -59,7 +59,7 @@ std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
   return glm::dmat3(x, glm::cross(z, x), z);
 }
 
-// Returns the desired X axis of a limb in the world, or nothing if no neighbour defines it.
+// Returns the desired X axis of a limb in the world, or nullopt if no neighbouring limb defines it.
 std::optional<glm::dvec3> FindTwist(int limb, const Directions& directions, const BodyPose& joints) {
   const auto next = std::ranges::find(kTwistHinges, limb, &TwistHinge::limb);
   glm::dvec3 x(0);

@@ -22,7 +22,7 @@ namespace etude {
 /// - the pelvis: its Y axis is as near as possible to the trunk, so that a sitting body bends at the hips and not at
 ///   the navel. The trunk: its X axis points along the shoulders.
 /// If `joints` are a pose of the tree, the positions of all joints are reproduced exactly, if `limits` allow it.
-/// Returns nothing if a position is not finite, two neighbouring joints coincide, or the left leg and the hips lie on
+/// Returns nullopt if a position is not finite, two neighbouring joints coincide, or the left leg and the hips lie on
 /// one line.
 std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPose& joints,
                                         std::span<const AngleRange> limits);

@@ -257,7 +257,7 @@ class AngleSweep {
   std::vector<double> middles_, angles_;
 };
 
-// A sweep followed by an extrapolation from the last sweeps.
+// A sweep followed by Anderson's extrapolation from the last sweeps.
 template <class Sweep>
 class Accelerated {
  public:
@@ -377,7 +377,7 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
 // Stores the newest pair and its difference from the pair before it, in place of the oldest difference.
 void AndersonMixing::RecordPair(std::span<const double> x, std::span<const double> g) {
   if (has_last_ && memory_ > 0) {
-    // Overwrite the oldest difference.
+    // Put the newest difference in the place of the oldest one.
     std::rotate(df_.begin(), df_.end() - 1, df_.end());
     std::rotate(dg_.begin(), dg_.end() - 1, dg_.end());
     differences_ = std::min(differences_ + 1, memory_);

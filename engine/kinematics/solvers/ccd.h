@@ -20,7 +20,7 @@ IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, c
 /// The gain of a hinge: how well the end effectors beyond it match their targets after it turns by φ (paper B,
 /// equations 3.10–3.13), g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ, which is maximised. Summing over several effectors
 /// is ours. For axes, the paper starts from minimising Σ (u_d · u_c − 1)² but then maximises Σ u_d · u_c, which is
-/// another criterion for three axes. This struct uses the second one, which minimises Σ |u_d − u_c|².
+/// another criterion for three axes. This struct maximises Σ u_d · u_c, which minimises Σ |u_d − u_c|².
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 
@@ -93,7 +93,7 @@ class CcdSweep {
   const std::vector<AngleRange> ranges_;
   std::vector<std::vector<int>> effectors_below_;  // of each joint: the effectors beyond it
   TreeState state_;
-  TreeFrames frames_;  // during a sweep only its effectors are kept up to date
+  TreeFrames frames_;  // during a sweep, only the frames of effectors are up to date
   std::vector<EffectorError> errors_;
   std::vector<EffectorWeights> weights_;
 };
@@ -141,7 +141,7 @@ class AndersonMixing {
   Vector last_f_, last_g_;       // of the pair recorded last
   Vector rest_;                  // the part of f that is orthogonal to the basis
   std::vector<Vector> df_, dg_;  // differences, newest first
-  std::vector<Vector> basis_;    // orthonormal; of those df that are independent of newer ones
+  std::vector<Vector> basis_;    // orthonormal basis of the df that are linearly independent of newer ones
   std::vector<Vector> parts_;    // df_[chosen_[r]] = Σ_k parts_[r][k] · basis_[k]
   std::vector<int> chosen_;
   Vector shares_;  // γ of the chosen differences

@@ -16,10 +16,10 @@ namespace {
 
 // Maximum trust-region radius. Beyond it, JᵀJ of 29 angles and 24 residuals is too nearly singular for Cholesky.
 constexpr double kMaxRadius = 1e8;
-// The solver stops if a step lowers the sum by less than this share.
+// The solver stops if a step lowers the sum of squares by less than this share.
 constexpr double kMinCostChange = 1e-9;
-// The maximum number of successive steps that raise the sum. At limits the sum often rises before it falls, so Ceres's
-// default of 5 is too small.
+// The maximum number of successive steps that raise the sum of squares. At limits the sum often rises before it falls,
+// so Ceres's default of 5 is too small.
 constexpr int kMaxStepsUphill = 20;
 
 // Returns the rotation, in the world, that turns an effector's axes E into the desired axes D, by less than half a

@@ -12,7 +12,7 @@ struct CeresLmOptions {
   double first_radius = 10;
 };
 
-/// Solves by the Levenberg–Marquardt method of Ceres Solver, the general-purpose solver with which ours are compared.
+/// Solves by the Levenberg–Marquardt method of Ceres Solver, a general-purpose solver, for comparison with our solvers.
 /// Its options are tuned for speed (bench/peers/README.md lists what was tried). It minimises the same sum as
 /// `damped-least-squares`,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],

@@ -49,7 +49,7 @@ class Follower {
       double lever = 0;
       for (const int limb : fitted) {
         const LimbFrame& X_WL = limbs_[limb];
-        const LimbFrame& X_WD = pass_.limbs()[limb];  // as the pass left it
+        const LimbFrame& X_WD = pass_.limbs()[limb];  // the limb's frame after the passes
         for (const FabrikPass::Tip& tip : pass_.tips(limb)) {
           const glm::dvec3 p_JT_W = X_WL.position + X_WL.axes * tip.p_LT - p_WJ;
           gain.Add(1, p_JT_W, X_WD.position + X_WD.axes * tip.p_LT - p_WJ, axis_W);
@@ -74,7 +74,7 @@ class Follower {
   const KinematicTree& tree_;
   std::span<const AngleRange> ranges_;
   const FabrikPass& pass_;
-  std::vector<std::vector<int>> led_;  // of each joint: the limbs with targets that it moves, its own first
+  std::vector<std::vector<int>> led_;  // of each joint: the limbs with tips that it moves, its own limb first
   std::vector<LimbFrame> limbs_;       // current frames
 };
 

@@ -64,8 +64,8 @@ class FabrikPass {
   std::vector<glm::dvec3> from_, to_;
 };
 
-/// Returns the rotation R that minimises Σ |R from − to|². If all of `from` lie on one line, the smallest such
-/// rotation; the identity if the vectors determine no rotation.
+/// Returns the rotation R that minimises Σ |R from − to|². If all of `from` lie on one line, returns the smallest such
+/// rotation; if the vectors determine no rotation, returns the identity.
 glm::dmat3 BestTurn(std::span<const glm::dvec3> from, std::span<const glm::dvec3> to);
 
 }  // namespace etude

@@ -15,7 +15,8 @@
 namespace etude {
 namespace {
 
-// An error within this share of a goal plus this absolute amount may be decided by rounding, so it is measured exactly.
+// If an error differs from its goal by less than this share of the goal plus this absolute amount, rounding could
+// decide the comparison, so the error is measured exactly.
 constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
 
 // The float solver aims at this share of each goal, so that float's rounding cannot make a missed goal look reached.
@@ -154,7 +155,7 @@ class BatchQueue final : public GaussNewtonQueue {
   ScalarHelp& help_;
   IkBatchSolution& solution_;
   Column column_;
-  // A copy of a problem with allowed ranges instead of its limits; empty if they are equal.
+  // A copy of a problem with the allowed ranges in place of its limits; empty if they are the same.
   std::vector<double> own_ranges_;
 };
 
@@ -162,7 +163,7 @@ class BatchQueue final : public GaussNewtonQueue {
 
 GaussNewtonRules RulesFor(const IkOptions& options, const GaussNewtonOptions& own, Precision precision) {
   const double position = options.position_goal, axis = options.axis_goal;
-  // Goals of axes are compared as chords of the unit circle, which are shorter than the angles.
+  // An axis error is compared as a chord of the unit circle, which is shorter than the angle.
   const double chord = 2 * ComputeSineCosine(0.5 * std::min(axis, kPi)).sine;
   if (precision == Precision::kDouble) {
     return {SquareBelow(position), position * position, SquareBelow(chord),

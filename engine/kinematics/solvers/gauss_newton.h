@@ -33,8 +33,7 @@ struct GaussNewtonOptions {
 ///    residual: far from the targets steps are short, so few angles reach their limits, and near the targets
 ///    convergence is quadratic;
 /// 3. Levenberg–Marquardt steps without the pull, if the pull has led to limits that block progress. These steps never
-/// raise
-///    the residual;
+///    raise the residual;
 /// 4. `restarts` from other poses around the start, each with two sweeps and steps as in 3; none if the targets are out
 ///    of reach of any pose;
 /// 5. from the pose of the smallest residual, steps as in 3 until they stall: the answer if the targets cannot be met.
@@ -69,7 +68,7 @@ enum class Precision { kFloat, kDouble };
 
 /// Solves many problems of one tree at once by `gauss-newton`. Each problem keeps one lane of the SIMD vectors from its
 /// start to its last restart; then the lane takes the next problem. Results do not depend on the vectors' width or on
-/// the other problems. Scalar code decides goals that are met only to within rounding, and computes the poses of
+/// the other problems. Scalar code compares errors with goals where rounding could decide, and computes the poses of
 /// restarts with their sweeps; everything else runs in lanes.
 /// - `kDouble`: every solution equals that of `SolveGaussNewton` to the last bit.
 /// - `kFloat`: twice as many lanes. The solver aims at nine tenths of each goal, so that the requested goal is met in

@@ -23,7 +23,8 @@ class GaussNewtonCourse {
   enum class Act {
     kStep,      ///< store the pose as the last one, step with `damping`, and report the step to `Stepped`
     kGoBack,    ///< return to the last pose, because the step from there raised the residual
-    kSweep,     ///< scatter by `restart` unless it is 0, then sweep `sweeps` times or until `CountSweep` returns false
+    kSweep,     ///< go to the pose of restart number `restart` (0: stay), then sweep `sweeps` times or until
+                ///< `CountSweep` returns false
     kTakeBest,  ///< continue from the best pose
     kEnd,       ///< end at this pose if `has_converged`, else at the best pose
   };
@@ -65,7 +66,7 @@ class GaussNewtonCourse {
     Next next;
     const bool is_at_end = arrival_ == Arrival::kBack || (arrival_ == Arrival::kStep && is_stuck_);
     if (!is_at_end && Approach(squares, next)) return next;
-    // The phase has ended. Begin the next one, which may end at once, too.
+    // The phase has ended. Begin the next phase, which may also end at once.
     while (true) {
       RecordBest(squares, next);
       if (phase_ == Phase::kToStart) {
@@ -89,7 +90,7 @@ class GaussNewtonCourse {
           next = {.act = Act::kTakeBest};
         }
       } else {
-        ++fk_evaluations_;  // for the errors of the best pose
+        ++fk_evaluations_;  // for the pass that computes the errors of the best pose
         next = {};
       }
       next.is_best = is_best;

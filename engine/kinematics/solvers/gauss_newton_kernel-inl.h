@@ -115,8 +115,8 @@ HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   }
 }
 
-/// Sets `screw` for a hinge at J: first its unit axis, then the translation per radian of the limb's point at R, the
-/// root.
+/// Sets `screw` for a hinge at J: first its unit axis, then the translation per radian of that point of the limb which
+/// is at the root R.
 template <class V>
 HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
   V shift[3];
@@ -274,7 +274,8 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   };
   for (int i = 0; i < 6; ++i)
     y[i] = (times(0, i) + times(1, i)) + (times(2, i) + times(3, i)) + (times(4, i) + times(5, i));
-  // Compute the best change if the limb before does not move; a fixed hinge moves to its end instead.
+  // Compute the best change if the limb before does not move. If the hinge is fixed, its change leads to the end of its
+  // range.
   const V nothing(0.0);
   const V scale = V(1.0) / (damping + Larger(nothing, Dot6(y, s)));
   const V best = scale * (damping * pull + Dot6(limb.vector, s));
@@ -287,7 +288,7 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
     const V row_share = share * y[r];
     for (int i = 0; i < (kHasUpperTriangle<V> ? 6 : r + 1); ++i) m[6 * r + i] = m[6 * r + i] + row_share * y[i];
   }
-  // Subtract from η the part of the hinge's change.
+  // Subtract from η what the hinge's change already contributes.
   const V back = nothing - change;
   for (int k = 0; k < 6; ++k) {
     limb.vector[k] = limb.vector[k] + back * y[k];

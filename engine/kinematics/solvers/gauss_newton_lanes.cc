@@ -56,7 +56,7 @@ class GaussNewtonLanes {
   struct Lane {
     int problem = -1;
     bool steps = false;  ///< true if the lane takes part in the step of this round
-    int passes = 0;      ///< active-set passes of its present step in former rounds
+    int passes = 0;      ///< number of active-set passes that the current step took in earlier rounds
     GaussNewtonCourse course;
   };
 
@@ -66,7 +66,7 @@ class GaussNewtonLanes {
     kToStart,    // 1 or 0, like the following flags
     kKeepsLast,  // the present pose is stored as the last one
     kKeepsBest,  // the present pose is stored as the best one
-    kCounts,     // takes part in this active-set pass
+    kCounts,     // the lane takes part in this active-set pass
     kHasChanged,
     kMoves,
     kLargest,
@@ -122,7 +122,7 @@ class GaussNewtonLanes {
     for (std::size_t n = 0; n < lanes_.size(); ++n) {
       Lane& lane = lanes_[n];
       lane.steps = lane.problem >= 0 && (lane.passes > 0 || Ask(lane, static_cast<int>(n)));
-      if (lane.problem < 0) At(kDamping, n) = 1;  // an idle lane computes along with harmless numbers
+      if (lane.problem < 0) At(kDamping, n) = 1;  // give an idle lane harmless numbers, because it computes too
       if (lane.steps) At(kCounts, n) = 1;
     }
     const M keeps_last = Flag(kKeepsLast), keeps_best = Flag(kKeepsBest);

@@ -1,6 +1,6 @@
-// Solves problems one after the other, with four limbs in the lanes of a vector and the trunk by rows. This file is
-// compiled once per instruction set; the best one is selected at run time (README.md). Whatever the width of the
-// vectors, numbers are added in the order of gauss_newton_plain.cc.
+// Solves problems one after the other, with four limbs side by side in the lanes of a vector; the trunk's joints come
+// one by one, with a matrix row per vector. This file is compiled once per instruction set; the best one is selected at
+// run time (README.md). Whatever the width of the vectors, numbers are added in the order of gauss_newton_plain.cc.
 #include <algorithm>
 #include <limits>
 

@@ -193,7 +193,8 @@ GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const Effe
       change_(tree.limits.size()) {}
 
 double GaussNewtonStep::Build(const TreeFrames& frames) {
-  // Compute the screw of every hinge: its axis, and the translation per radian of the limb's point at the root.
+  // Compute the screw of every hinge: its axis, and the translation per radian of that point of the limb which is at
+  // the root.
   const glm::dvec3 p_WR = frames.joints[0].position;
   for (const int n : inwards_) {
     const TreeJoint& joint = tree_.joints[n];
@@ -215,7 +216,8 @@ double GaussNewtonStep::Build(const TreeFrames& frames) {
 // Sets `out` to the quadratic of one target in the movement of its limb. Returns its part of |e|².
 double GaussNewtonStep::LineariseTarget(const EffectorTarget& target, const LimbFrame& X_WE, const glm::dvec3& p_WR,
                                         Quadratic& out) {
-  // η and |e|²: pull is the weighted position error, twist its moment about the root plus the axes' errors.
+  // Compute η and |e|²: `pull` is the weighted position error; `twist` is its moment about the root plus the axes'
+  // errors.
   const double w = target.position_weight / (kPositionScale * kPositionScale);
   const glm::dvec3& u = target.axis_weights;
   const glm::dmat3 &R_WE = X_WE.axes, &R_WD = target.axes;
@@ -228,8 +230,8 @@ double GaussNewtonStep::LineariseTarget(const EffectorTarget& target, const Limb
     twist += u[k] * glm::cross(R_WE[k], R_WD[k]);
     squares += 2 * u[k] * (1 - glm::dot(R_WE[k], R_WD[k]));
   }
-  // Λ: the weighted square of the effector's translation, and of each axis's movement, which is the component of the
-  // rotation normal to the axis.
+  // Compute Λ: the weighted square of the effector's translation, and of each axis's movement, which is the component
+  // of the rotation normal to the axis.
   const double straight = w * glm::dot(p_RE_W, p_RE_W) + u.x + u.y + u.z;
   const glm::dvec3 lever = w * p_RE_W;
   std::array<double, 36>& m = out.matrix;

@@ -123,7 +123,7 @@ class LimbPacker {
   }
 
   void AddPack(std::span<Limb> limbs) {
-    // Each limb takes one lane.
+    // Assign each limb of the pack to a lane.
     const int number = static_cast<int>(made_.packs.size());
     LimbPacks::Pack& pack = made_.packs.emplace_back();
     pack.first_level = static_cast<int>(made_.levels.size());
@@ -135,8 +135,8 @@ class LimbPacker {
       pack.parents[lane] = joints_[limb.parent].trunk;
       joints[lane] = limb.first_joint;
     }
-    // Going outwards, each level holds the next joint of every limb and its effector; shorter limbs end in the last
-    // level.
+    // Add the levels from the trunk outwards. A level contains one joint of every limb, and its effector; shorter limbs
+    // end in the last level.
     for (int l = 0; l < pack.level_count; ++l) {
       LimbPacks::Level& level = made_.levels.emplace_back();
       level.first_slot = made_.slot_count;
@@ -235,7 +235,8 @@ GaussNewtonTree::GaussNewtonTree(const KinematicTree& tree)
     for (int k = 0; k < 3; ++k) joints[n].p_PJ[k] = from.p_PJ[k];
     DescribeAxes(from.R_PJ, joints[n]);
   }
-  // The first effector or branch of a limb determines where its quadratic is gathered.
+  // Assign memory to the quadratic of each limb. A limb without effectors of its own shares the
+  // memory of its first branch.
   for (const etude::Effector& from : tree.effectors) {
     Effector& made = effectors.emplace_back(Effector{from.joint, {from.p_LE.x, from.p_LE.y, from.p_LE.z}});
     int& quadratic = joints[from.joint].quadratic;

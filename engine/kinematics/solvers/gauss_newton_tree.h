@@ -38,7 +38,8 @@ struct GaussNewtonTree {
   std::vector<Joint> joints;
   std::vector<Effector> effectors;
   std::vector<int> inwards;  ///< joints sorted by height, each after all joints beyond it (`JointsInwards`)
-  std::vector<Step> steps;   ///< in that order; joints of one height alternate, so that a CPU can overlap them
+  std::vector<Step> steps;   ///< in the order of `inwards`; joints of one height alternate, so that a CPU can overlap
+                             ///< them
   std::vector<int> unasked;  ///< joints that move no effector
   int quadratic_count = 0;
   int dof_count = 0;

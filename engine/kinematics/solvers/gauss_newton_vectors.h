@@ -51,8 +51,8 @@ class GaussNewtonHelp {
 
 // ---- One problem, four limbs in lanes (gauss_newton_limbs.cc) ------------------------------------------------------
 
-/// Solves problems of one tree one after the other, with four limbs in the lanes of the CPU's vectors and the trunk by
-/// rows. The constructor allocates all memory.
+/// Solves problems of one tree one after the other, with four limbs side by side in the lanes of the CPU's vectors, and
+/// the joints of the trunk one by one. The constructor allocates all memory.
 class GaussNewtonLimbs {
  public:
   /// Makes a solver for the vectors that `SetBatchTarget` selects. `packs` must outlive it.
@@ -64,8 +64,8 @@ class GaussNewtonLimbs {
   double *angles = nullptr, *lower = nullptr, *upper = nullptr;
   double root[12] = {};  ///< p_WL, then R_WL column by column
 
-  /// Returns the memory of an effector's target: the numbers of `IkBatch::target`, four apart, with the position weight
-  /// per square of `kPositionScale`.
+  /// Returns the memory of an effector's target: the numbers of `IkBatch::target`, stored four doubles apart, with the
+  /// position weight per square of `kPositionScale`.
   virtual double* TargetOf(int effector) = 0;
 
   /// The pose X_WE of an effector at the pose placed last, which is the solution if the course has converged.

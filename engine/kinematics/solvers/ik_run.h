@@ -60,11 +60,10 @@ class IkRun {
   /// Returns true if the next record enters the trace.
   bool Traces() const { return options_.trace && std::ssize(solution_.trace) < options_.max_trace_entries; }
 
-  /// Records an iteration that certainly misses the goals, without its errors. It must not be called while `Traces()`
-  /// returns true.
+  /// Records an iteration without its errors. The pose must certainly miss the goals, and `Traces()` must return false.
   void RecordMisses();
 
-  /// Counts a forward-kinematics pass in addition to the one per iteration.
+  /// Counts a forward-kinematics pass beyond the one pass per iteration.
   void CountPass() { ++solution_.fk_evaluations; }
   /// Records that the solver has stalled.
   void Stall() { has_stalled_ = true; }

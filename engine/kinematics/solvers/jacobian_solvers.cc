@@ -88,7 +88,7 @@ bool DampedInverse::StepWithin(double damping, std::span<const double> preferred
     duals = residuals;
     duals.noalias() -= jacobian * out;
     if (!SolveDuals(damping)) return false;
-    // The primal step follows from y; update the active set.
+    // Compute the primal step from y, and update the active set.
     is_exact_ = true;
     for (int i = 0; i < columns_; ++i) {
       const Eigen::Map<const Eigen::VectorXd> column(&jacobian_[static_cast<std::size_t>(i) * rows_], rows_);
@@ -221,12 +221,12 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
 
 namespace {
 
-// Range of the factor that multiplies the damping (Nielsen's rule). A smaller factor would not keep steps short if the
-// residual stays large.
+// Range of the factor that multiplies the damping (Nielsen's rule). With a smaller factor, steps would be too long
+// where the residual stays large.
 constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9;
 // After the first rejected step, this factor is multiplied by kFirstGrowth.
 constexpr double kFirstGrowth = 2;
-// Minimum damping: JJᵀ of limbs at their limits is singular.
+// Minimum damping. Without it, JJᵀ is singular when limbs are at their limits.
 constexpr double kMinMu = 1e-9;
 
 // A descent is stuck if kMaxPatience steps have not reduced the sum of squares to the share kMinProgress of its value.
@@ -350,7 +350,7 @@ class Minimiser {
   TreeState trial_;
   TreeFrames trial_frames_;
   std::vector<double> step_;
-  const std::vector<double> no_preference_;  // zeros: steps stay near their own beginning
+  const std::vector<double> no_preference_;  // zeros: the preferred change of each step is none
   double best_cost_ = std::numeric_limits<double>::infinity();
   std::vector<double> best_angles_;
 };

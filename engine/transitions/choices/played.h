@@ -38,8 +38,9 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// - one second for each 10 cm that feet slide;
 /// - 0.1 s for each frame in which no foot bears weight by FootPlan;
 /// - 6 s for each frame beyond two in the longest run of frames in which FindSupport finds no support;
-/// - 6 s for each 10 cm that the zero-moment point is off the supports for one second (ZeroMomentOffset); only the part
-///   counts that exceeds 10 cm and the distance in either clip at that time, and only while something supports the body;
+/// - 6 s for each 10 cm that the zero-moment point is off the supports for one second (ZeroMomentOffset). Only the part
+///   that exceeds 10 cm and the distance in either clip at that time counts, and only while something supports the
+///   body;
 /// - one second for each centimetre that the slowest support glides farther than a clip's own joint does there.
 ///
 /// Pairs are left out if their join would raise or lower the body without support (NeedsClip). If no other pair is
