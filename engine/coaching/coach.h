@@ -54,7 +54,7 @@ struct CoachOptions {
   /// True if the player dances as in a mirror: the player's left side follows the coach's right side. The caller must
   /// then mirror the input (CoachSession does so); in the coach, this option only changes what it says.
   bool player_mirrors = false;
-  /// After this number of consecutive mistakes the coach acts puzzled instead of shaking its head.
+  /// After this number of consecutive mistakes, the coach plays the act `puzzled` in place of the head shake.
   int puzzled_after = 3;
   /// The maximum number of corrections of one repetition; then the dance continues.
   int most_corrections = 3;
@@ -87,7 +87,7 @@ struct CoachInput {
   bool moment = false;  ///< for policy `yoked`: if true, correct as soon as the dance can be interrupted
 };
 
-/// The whole state of a session. It holds plain values and can be copied.
+/// The whole state of a session, in plain values; it can be copied.
 struct CoachState {
   std::int64_t frame = 0;
   CoachMode mode = CoachMode::kStandby;
@@ -136,7 +136,7 @@ class Coach {
  public:
   struct PolicyChoice {
     const Policy* policy = nullptr;
-    std::vector<double> settings;  ///< one per setting of the policy; empty means the defaults
+    std::vector<double> settings;  ///< one per setting of the policy; if empty, the defaults apply
   };
 
   /// Makes a coach. `transitions` must outlive the coach.

@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kLeavingFrames = 60;
 /// An entering clip contains this many frames of its act: half a second and the longest join.
 constexpr std::size_t kEnteringFrames = 15 + 30 + 1;
-/// A returning clip contains this many frames before and after the beginning of its repetition: a lead-in, so that
-/// players are already moving when the repetition begins, and the longest join.
+/// A returning clip contains this many frames before the beginning of its repetition, as a lead-in in which players
+/// start to move, and this many frames after the beginning, enough for the longest join.
 constexpr std::size_t kBeforeFrames = 45, kIntoFrames = 30;
 
 BodyMotion Excerpt(const BodyMotion& motion, std::size_t first, std::size_t end) {

@@ -82,7 +82,7 @@ void Advance(Playback& playback, const DanceLibrary& library, double rate);
 /// Starts a transition from the playing dance or clip to the clip `clip`, beginning with the next frame. The playback
 /// must be settled.
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions);
-/// Starts a transition like LeaveFor, to a clip that is shown at the place where it was authored.
+/// Starts a transition like LeaveFor, into a clip that keeps the place where it was authored.
 void LeaveForHome(int clip, Playback& playback, const DanceTransitions& transitions);
 
 }  // namespace etude

@@ -44,7 +44,7 @@ struct Policy {
   bool asks_truth = false;     ///< true if the verdict comes from CoachInput::told_right instead of the recogniser
   bool takes_moments = false;  ///< true if the policy corrects only when CoachInput::moment is set
   std::vector<NumberSetting> settings = {};
-  /// Decides after a window has closed. `values` holds one value per setting, in order; empty means the defaults.
+  /// Decides after a window has closed. `values` has one value per setting, in order; if empty, the defaults apply.
   PolicyDecision (*decide)(const PolicyInput& input, std::span<const double> values) = nullptr;
 };
 

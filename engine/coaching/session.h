@@ -40,7 +40,7 @@ class CoachSession {
   CoachOutput Next(const SensedFrame& frame, const SessionInput& input = {});
 
   const CoachState& state() const { return state_; }
-  /// Replaces the state while no window is open; filters and followers keep their own states.
+  /// Replaces the state while no window is open. The states of filters and followers do not change.
   void ReplaceState(CoachState state) { state_ = std::move(state); }
 
  private:

@@ -11,7 +11,8 @@ namespace etude {
 /// frames remain for a join.
 constexpr int kBeforeEndFrames = 15;
 
-/// One call of Coach::Step: takes the player's input, advances the playback, shows it, and decides what comes next.
+/// One call of Coach::Step: takes the player's input, advances the playback, outputs the pose, and chooses the next
+/// mode.
 class Stepping {
  public:
   /// Prepares a step. All arguments must outlive this object; `step.state` is changed and `step.output` is filled.

@@ -21,7 +21,8 @@ const Feature* FindFeature(std::string_view name);
 /// Returns the joints whose positions the feature depends on.
 std::span<const Role> JointsOf(Feature feature);
 
-/// The crisp inputs of the membership functions, in degrees. Posture is a height, scaled so that standing gives 80.
+/// The crisp inputs of the membership functions. They are angles in degrees; only Posture is a height, scaled so that
+/// standing gives 80.
 struct PoseFeatures {
   std::array<double, kFeatureCount> values{};
   double operator[](Feature feature) const { return values[static_cast<std::size_t>(feature)]; }

@@ -229,7 +229,8 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   return {};
 }
 
-/// Reads the list under `rules`, for example `- {if: {RH: up, LH: up}, then: arms up}`. It may hold 100 rules.
+/// Reads the list under `rules`, for example `- {if: {RH: up, LH: up}, then: arms up}`. The list may have at most 100
+/// rules.
 Result<RuleBase> ReadRules(const Node& node) {
   if (node.kind != Node::Kind::kSequence || node.items.size() > kMaxRules) {
     return Fail(node.place, "'rules' must be a list of at most {} rules, found {}", kMaxRules,

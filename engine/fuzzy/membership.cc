@@ -128,7 +128,7 @@ constexpr ShapeKind kKinds[] = {
     {"singleton", "a number", 1, [](const auto& v) -> Shape { return Singleton{v[0]}; }},
 };
 
-constexpr double kMaxNumber = 1e6;  // far above any angle or height; keeps all sums finite
+constexpr double kMaxNumber = 1e6;  // far above any angle or height; with this limit, all sums stay finite
 constexpr double kMinSigma = 1e-3;  // a narrower shape should be a singleton
 
 std::vector<double> NumbersOf(const Shape& shape) {

@@ -63,7 +63,7 @@ Vector NewtonStep(std::span<const LabelledPair> pairs, const Row& beta, double r
     lower[k][k] += ridge;
     gradient[k] -= ridge * beta[k];
   }
-  // The bias needs no penalty, but a tiny one keeps the matrix positive definite if all probabilities are 0 or 1.
+  // The bias needs no penalty, but a tiny penalty keeps the matrix positive definite if all probabilities are 0 or 1.
   lower.back().back() += 1e-9;
 
   // Solve for the step.

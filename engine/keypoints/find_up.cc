@@ -294,7 +294,7 @@ class Cues {
       }
       kinds.emplace_back(middle, AboveSole(kind, stature_));
     }
-    // Compare the kinds with each other: their heights should be those of a flat foot.
+    // Compare the kinds of landmarks with each other: their heights should differ as on a flat foot.
     glm::dvec3 middle(0);
     double middle_above = 0;
     for (const auto& [place, above] : kinds) {

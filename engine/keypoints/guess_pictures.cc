@@ -93,8 +93,8 @@ class Guesser {
     return people_[key] = UndistortPeople(films_[c].camera, std::move(people));
   }
 
-  // Returns the median epipolar distance of two people as a share of the height; nullopt if they share too few
-  // keypoints.
+  // Returns the median epipolar distance of two people as a share of the height; nullopt if they have too few keypoints
+  // in common.
   std::optional<double> MisfitOf(const EpipolarGeometry& geometry, const SeenPerson& one,
                                  const SeenPerson& other) const {
     std::vector<double> distances;
@@ -133,7 +133,7 @@ class Guesser {
     return misses_[key] = misses.empty() ? kNothing : UpperMedian(std::move(misses));
   }
 
-  // Returns the median distance of one film to all others under a hypothesis.
+  // Returns the median distance of film `c` to all other films under a hypothesis.
   double MissOf(std::size_t c, const Guess& guess) {
     std::vector<double> misses;
     for (std::size_t o = 0; o < films_.size(); ++o) {

@@ -106,7 +106,7 @@ class Mender {
     return least;
   }
 
-  /// Returns the median misfit over the other cameras.
+  /// Returns the median misfit of a person in camera `c` over all other cameras.
   std::optional<double> MisfitOf(std::size_t c, std::size_t frame, const SeenPerson& one) const {
     std::vector<double> misfits;
     for (std::size_t o = 0; o < cameras_.size(); ++o) {

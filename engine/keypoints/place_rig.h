@@ -17,10 +17,11 @@ namespace etude {
 struct PlacementOptions {
   /// "auto", a name of RigUnits(), or the number of metres in one unit of the file.
   std::string unit = "auto";
-  /// "auto", an axis of the file that points up ("z", "-y"), or "floor": from cameras and feet, not from the file.
+  /// The direction that points up: "auto", an axis of the file ("z", "-y"), or "floor", which finds it from cameras and
+  /// feet.
   std::string up = "auto";
-  /// The position of the floor, which becomes height 0: "auto" (at the feet if they determined the up axis, otherwise
-  /// as in the file), "keep", "feet", or its height in metres.
+  /// The position of the floor, which becomes height 0: "feet", "keep" (as in the file), its height in metres, or
+  /// "auto" ("feet" if the feet determined the up axis, otherwise "keep").
   std::string floor = "auto";
 };
 

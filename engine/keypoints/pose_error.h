@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// The expected errors of one joint, as mean squares, so that the errors at several places can be averaged. The limb of
-/// a joint is the limb that ends in the joint; the hip centre has no limb.
+/// The expected errors of one joint, as mean squares, so that errors of several poses can be averaged. The limb of a
+/// joint is the limb that ends in the joint; the hip centre has no limb.
 struct JointErrors {
   double point = 0;       ///< of the triangulated position, m²
   double body = 0;        ///< of the position in the fitted body, m²

@@ -17,7 +17,7 @@
 
 namespace etude {
 
-/// Makes the body of a person with these bone lengths, metres, each from the parent of a role to the role. The clip's
+/// Makes the body of a person from bone lengths, metres: for each role, the distance from its parent role. The clip's
 /// skeleton has a joint named head. Fails if a bone has no length.
 Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths);
 

@@ -15,7 +15,7 @@ constexpr std::size_t kFootKinds = 4;
 /// Returns the height of a kind of landmark above the sole of a flat foot *(ours)*, in the unit of `stature`.
 double AboveSole(std::size_t kind, double stature);
 
-/// A place where a landmark of a foot rested for a fifth of a second or longer.
+/// A period of a fifth of a second or longer in which a landmark of a foot rested.
 struct FootStay {
   glm::dvec3 place{0};
   std::size_t kind = 0;  ///< below kFootKinds

@@ -93,7 +93,7 @@ Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, doubl
   return misfit;
 }
 
-/// Adds, for each person of one camera, the misfit to the best-fitting person of the other.
+/// For each person of one camera, adds the smallest misfit to a person of the other camera.
 void AddMisfit(const EpipolarGeometry& geometry, const OffsetFilm& one, const OffsetFilm& other, double offset,
                std::size_t frames, const PeopleSyncOptions& options, Misfit& all) {
   constexpr int kMinCount = 30;

@@ -66,21 +66,21 @@ enum BodyTreeJoint {
 
 /// Returns paper B's body (figure 3.10): rooted at the left toe, with 15 joints, 29 degrees of freedom, limits `adult`
 /// and the effectors right foot, left hand, right hand, head, in this order. At rest (all angles zero) it stands with
-/// hanging arms. *Ours*: its feet are level in the rest pose, because this choice keeps the ankles within their limits
-/// most often on real clips.
+/// hanging arms. *Ours*: its feet are level in the rest pose, because with this choice, real clips keep the ankles
+/// within their limits most often.
 KinematicTree MakeBodyTree(const LimbLengths& lengths);
 
 /// One limb of the tree, named by two roles of the canonical body.
 struct BodyTreeLimb {
   Role from;  ///< the joint about which the limb turns
-  Role to;    ///< the joint at its far end, or the role of the effector if the limb ends in one
+  Role to;    ///< the joint at the limb's far end; if the limb ends in an effector, the effector's role
 };
 
 /// Returns the limbs of `MakeBodyTree(…).joints`, in the order of BodyTreeJoint.
 std::span<const BodyTreeLimb, kBodyTreeJointCount> BodyTreeLimbs();
 
-/// Returns the twenty joints of a pose of paper B's body (`MakeBodyTree`). The hip centre is the navel; the spine lies
-/// at the share `kSpineShare` of the way from navel to neck.
+/// Returns the twenty joints of a pose of paper B's body (`MakeBodyTree`). The hip centre is the navel; the spine is on
+/// the line from navel to neck, at the fraction `kSpineShare`.
 BodyPose ToBodyPose(const KinematicTree& body, const TreeState& state);
 
 /// Returns a motion of paper B's body as a clip with its own skeleton: metres, Y up, rooted at the hips as other

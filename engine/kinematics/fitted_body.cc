@@ -335,7 +335,7 @@ class Builder {
   void AddEnd(Role role, bool has_position) {
     const glm::dvec3 outer = parts_.places()[role], inner = parts_.places()[*ParentOf(role)];
     const int limb = limb_of_[parts_.CarrierOf(role)];
-    // A limb of the left leg leads from the outer joint to the inner joint.
+    // In the left leg, the limb begins at the outer joint and ends at the inner joint.
     const bool is_climbed = AreSame(OriginOf(limb), outer);
     const TreePoint end = PointAt(is_climbed ? inner : outer, parts_.CarrierOf(role));
     // A direction is a target only if the stroke between the two roles runs along the rigid limb itself.

@@ -163,10 +163,10 @@ inline constexpr double kMaxIkValue = 1e6;
 /// Tolerances on the squared length of an axis and on the determinant of a frame, which should both be 1.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 
-/// Returns the fault of a problem as text, or empty if there is none. Faults are: joints that form no tree; degrees of
-/// freedom that are not numbered consecutively; lists whose sizes do not fit the tree; values that are not finite or
-/// exceed `kMaxIkValue`; limbs of zero length (a joint may coincide with the root); limits with lower > upper; axes
-/// that are not orthonormal; negative weights; an iteration limit below 1.
+/// Returns the fault of a problem as text, or an empty text if there is none. Faults are: joints that form no tree;
+/// degrees of freedom that are not numbered consecutively; lists whose sizes do not fit the tree; values that are not
+/// finite or exceed `kMaxIkValue`; limbs of zero length (a joint may coincide with the root); limits with lower >
+/// upper; axes that are not orthonormal; negative weights; an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 /// The following overloads make only some of these checks: of tree and options, of the tree, of the options, and of one
 /// problem whose tree has no faults.

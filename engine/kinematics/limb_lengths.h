@@ -27,8 +27,8 @@ struct LimbObservation {
 /// Returns the roles at which `LimbObservation::directions` is read: the lower joints of thirteen limbs.
 std::span<const Role, 13> ObservedLimbs();
 
-/// The role `spine` lies at this share of the way from navel to neck. *Ours: paper B's body has no such joint; the
-/// value lies between the built-in body's 0.40 and 0.5.*
+/// The role `spine` is on the line from navel to neck, at this fraction of it. *Ours: paper B's body has no such joint;
+/// the value lies between the built-in body's 0.40 and 0.5.*
 constexpr double kSpineShare = 0.45;
 
 /// Returns the twenty joints after every limb is given its known length (paper B, section 3.2, figure 3.2):

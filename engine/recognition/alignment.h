@@ -31,7 +31,7 @@ class SubsequenceAligner {
   /// Returns the cost of the best path that ends at the last seen step, divided by the number of pattern steps: a mean
   /// squared distance. Returns infinity while no path reaches the pattern's end.
   double Cost() const { return costs_.back() / static_cast<double>(pattern_.size()); }
-  /// Returns the best path that ends at the last seen step, in order of time; empty if Cost is infinite.
+  /// Returns the best path that ends at the last seen step, in order of time; an empty list if Cost is infinite.
   std::vector<StepPair> Path() const;
 
  private:

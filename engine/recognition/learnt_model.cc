@@ -21,7 +21,7 @@ constexpr std::size_t kRows = 3;  // depth of a tree: comparisons from the root 
 /// The performances of one boosting round, with their measures as histogram bins.
 struct Sample {
   std::vector<std::array<std::uint8_t, kMeasureCount>> bins;
-  std::vector<std::array<double, kBins - 1>> cuts;  // per measure: bin b holds values in (cuts[b − 1], cuts[b]]
+  std::vector<std::array<double, kBins - 1>> cuts;  // per measure: the values in (cuts[b − 1], cuts[b]] are in bin b
   std::vector<double> labels, weights, log_odds;
 };
 
@@ -112,7 +112,7 @@ DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const Boost
   DecisionTree tree;
   std::array<Split, DecisionTree::kNodes> splits;
   std::vector<std::vector<std::size_t>> row(1);
-  // The root holds all performances that this tree is fitted to.
+  // The root node gets all performances to which this tree is fitted.
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     if (turn.SeesPerformance(i)) row[0].push_back(i);
   }

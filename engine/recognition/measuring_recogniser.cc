@@ -148,7 +148,7 @@ class MeasuringFollower final : public StepFollower {
                                  const InWindow* window) const {
     const std::vector<StepPair> path = aligner.Path();
     const auto seen = [&](int number) -> const PoseVector& { return steps_[first + number]; };
-    // If only one move was taught, holding still stands in for the other moves.
+    // If only one move was taught, there are no other moves; compare with holding still instead.
     double other = costs_.LowestOther(example.move);
     if (is_alone_) other = CostOfHolding(example, path, seen);
     PerformanceMeasures measures =

@@ -136,7 +136,7 @@ std::size_t PutLimbs(const std::array<LimbMeasures, kPosePartCount>& limbs, std:
 /// The timing of a performance relative to the example, in seconds.
 struct PathClock {
   double lag = 0;       ///< mean delay, counted from the first seen step
-  double stretch = 0;   ///< 0 at the taught tempo, 1 at half of it
+  double stretch = 0;   ///< 0 at the taught tempo, 1 at half the taught tempo
   double unsteady = 0;  ///< root mean squared deviation from a steady tempo
   double worst = 0;     ///< largest deviation from a steady tempo
 };

@@ -138,7 +138,7 @@ int StepDescriber::Update(const SeenFrame& frame) {
   ++frame_;
   if (completed == 0) return 0;
 
-  // Finish the step as the mean of its frames; it is empty if no frame showed a body.
+  // Finish the step as the mean of its frames; it is nullopt if no frame showed a body.
   step_.reset();
   if (summed_ > 0) {
     step_ = sum_;

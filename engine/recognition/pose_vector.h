@@ -47,7 +47,7 @@ class StepDescriber {
   /// Takes a frame and returns the number of steps that it completes: usually 0 or 1, more if the frame rate is below
   /// the step rate. If it completes several steps, all of them are equal to `Step`.
   int Update(const SeenFrame& frame);
-  /// Returns the last completed step; empty if no body was seen in it.
+  /// Returns the last completed step; nullopt if no body was seen in it.
   const std::optional<PoseVector>& Step() const { return step_; }
 
  private:

@@ -57,7 +57,7 @@ struct DecisionOptions {
 
 /// The result for one performance that was asked for.
 struct Judgement {
-  std::optional<int> recognised_at;   ///< frame within the window; empty if the move was not recognised
+  std::optional<int> recognised_at;   ///< frame within the window; nullopt if the move was not recognised
   double score = 0;                   ///< in [0, 1], for ROC curves
   std::vector<double> running_score;  ///< per frame of the window
 };
@@ -65,9 +65,9 @@ struct Judgement {
 /// Judges one window of the trace. Its move must have been asked for in this window.
 Judgement JudgeWindow(const EvidenceTrace& trace, const FrameInterval& window, double threshold);
 
-/// Turns evidence into detections frame by frame, separately for each move. A move is detected when its evidence rises
-/// to the threshold. It can be detected again after the evidence fell below the threshold and the refractory time has
-/// passed.
+/// Turns evidence into detections frame by frame, separately for each move. A move is detected when its evidence
+/// reaches the threshold. It can be detected again after the evidence fell below the threshold and the refractory time
+/// has passed.
 class MoveSpotter {
  public:
   MoveSpotter(std::size_t moves, const DecisionOptions& options, double rate_hz);

@@ -24,7 +24,7 @@ struct RecogniserKind {
   bool needs_examples = false;   ///< true if every taught move must have at least one example
   /// The default evidence at which this recogniser calls a move right, in (0, 1).
   double threshold = 0.5;
-  /// The settings whose values `RecogniserOptions::settings` holds, in this order.
+  /// The settings of this recogniser, in the order of the values in `RecogniserOptions::settings`.
   std::vector<NumberSetting> settings = {};
   std::function<std::unique_ptr<Recogniser>(std::span<const TaughtMove> taught, const RecogniserOptions& options)>
       teach = {};
@@ -43,7 +43,7 @@ const RecogniserKind& RecommendedRecogniser(std::span<const TaughtMove> taught, 
 struct RecogniserOptions {
   const RecogniserKind* kind = &AllRecognisers().front();  ///< default: key-pose, paper A's recogniser
   TrackingWeights weights = {};
-  std::vector<double> settings = {};  ///< one value per setting of the kind, in order; empty means the defaults
+  std::vector<double> settings = {};  ///< one value per setting of the kind, in order; if empty, the defaults apply
 };
 
 /// Makes a recogniser for these moves. It identifies a move by its index in `taught`. Returns an error if a move lacks

@@ -47,7 +47,8 @@ WholePose WholePoseOf(const PoseVector& joints, const PoseVector& limbs) {
   return whole;
 }
 
-/// Returns the squared distance with the weights of `seen`. Eight partial sums keep the order of additions fixed.
+/// Returns the squared distance with the weights of `seen`. Eight partial sums fix the order of additions, so that
+/// vectorised code gives the same bits.
 double SquaredDistanceOf(const WholePose& seen, const WholePose& taught) {
   constexpr std::size_t kLanes = 8;
   static_assert(WholePose::kNumbers % kLanes == 0);
@@ -118,7 +119,7 @@ void ExampleDistance::Update(const WholePose& seen) {
       best = 0;
       start = now;
     }
-    // Drop a passage that is too long, and keep the old costs for the next pattern steps.
+    // Give a passage that is too long an infinite cost. Store the old costs for the next pattern steps.
     passage_[j] = now - start >= longest_ ? kInfinity : best + gap;
     starts_[j] = start;
     passage_before_that = passage_before;

@@ -97,7 +97,7 @@ struct TransitionRecord {
   int request_frame = 0;
   std::vector<Segment> segments;         ///< empty: no transition was found; two: direct; three: through an in-between
   std::vector<FuzzyDistance> distances;  ///< one per transition point: segments.size() − 1 entries
-  /// The taken pair and the best others, at most kMaxCandidates, in order of frames.
+  /// The taken pair and the best other pairs, at most kMaxCandidates, in order of frames.
   std::vector<Candidate> candidates;
   std::int64_t pairs_seen = 0;     ///< pairs of frames within the budget, including those after a first match
   std::int64_t pairs_matched = 0;  ///< number of these pairs that match

@@ -46,7 +46,7 @@ class FabrikPass {
   /// Runs both passes, starting from the limbs in `frames`.
   void Run(const TreeFrames& frames);
 
-  /// Returns the tips of one limb; empty if no target lies beyond it.
+  /// Returns the tips of one limb; an empty span if there is no target beyond the limb.
   std::span<const Tip> tips(int limb) const { return tips_[limb]; }
   /// Returns the frame of every limb (base and axes) after the last run.
   std::span<const LimbFrame> limbs() const { return limbs_; }

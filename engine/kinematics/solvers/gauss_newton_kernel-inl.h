@@ -1,5 +1,5 @@
-// The parts of a Gauss–Newton step (gauss_newton_plain.h) and of its forward kinematics, for a value type V: `Lanes`
-// holds one number each of many problems, `Four` one number each of four limbs. All operations are those of
+// The parts of a Gauss–Newton step (gauss_newton_plain.h) and of its forward kinematics, for a value type V: a `Lanes`
+// contains one number of each of many problems, a `Four` one number of each of four limbs. All operations are those of
 // `ComputeFrames` and `GaussNewtonStep` in the same order, so a problem in double gets the same bits in every lane on
 // every CPU. This file is included once per instruction set, which explains the include guard.
 #if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -355,19 +355,19 @@ HWY_INLINE void PutRows(const Four* numbers, const RowOf& row_of) {
   row_of(3) = {d, h};
 }
 
-/// `QuadraticLanes` of one limb.
+/// The quadratic of one limb, Λ and η as in `QuadraticLanes`, stored by rows.
 struct QuadraticRows {
   SixRow matrix[6];
   SixRow vector;
 };
 
-/// `FrameLanes` of one limb.
+/// The frame of one trunk limb, as in `FrameLanes`.
 struct TrunkFrame {
   Four axes[3];  ///< x, y, z, 0
   Four position;
 };
 
-/// `HingeLanes` of one hinge.
+/// The state of one trunk hinge, as in `HingeLanes`.
 struct alignas(64) TrunkHinge {
   double screw[8], matrix_s[8];
   double scale, best, side;

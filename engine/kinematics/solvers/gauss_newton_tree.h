@@ -17,7 +17,8 @@ struct GaussNewtonTree {
     int first_dof = 0, dof_count = 0;
     bool renames_axes = false;  ///< true if every axis of `R_PJ` is ± an axis of the parent
     int from[3] = {};           ///< for each axis: the index of the parent's axis along which it lies
-    double sign[3] = {};        ///< for each axis: 1 if it points the same way, else −1
+    double sign[3] = {};        ///< for each axis: 1 if it has the direction of the parent's axis, −1 if it has the
+                                ///< opposite direction
     double R_PJ[3][3] = {};     ///< columns
     double p_PJ[3] = {};
     int quadratic = -1;  ///< index of the quadratic of its limb; its parent may share it
@@ -49,9 +50,9 @@ struct GaussNewtonTree {
 };
 
 /// A tree divided for vectors of four numbers. *Limbs* are unbranched chains of joints that end in a leaf; four of them
-/// side by side form a *pack*. The *trunk* holds the joints between them and is computed one by one. In paper B's body,
-/// the arms, the right leg and the neck form one pack. If a limb has fewer joints, axes or effectors than others of its
-/// pack, neutral ones are added. All numbers are stored in the order of use.
+/// side by side form a *pack*. The other joints, between the limbs, form the *trunk* and are computed one by one. In
+/// paper B's body, the arms, the right leg and the neck form one pack. If a limb has fewer joints, axes or effectors
+/// than others of its pack, neutral entries are added. All numbers are stored in the order of use.
 struct LimbPacks {
   static constexpr int kWidth = 4;
   static constexpr std::size_t kAlignment = kWidth * sizeof(double);

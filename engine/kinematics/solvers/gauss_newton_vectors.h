@@ -22,7 +22,7 @@ struct GaussNewtonRules {
   int extra_passes = 0;
   double max_turn = 0;  ///< maximum change of an angle in one step, radians (`kMaxTurn`)
 
-  /// Returns true if a pose meets the goals; calls `measure()` if the squares do not decide this.
+  /// Returns true if a pose meets the goals. If the squares are too close to the goals to tell, calls `measure()`.
   template <class Measure>
   bool AreMet(double squared_distance, double squared_chord, const Measure& measure) const {
     // NaN fails every comparison, so a NaN residual never meets the goals.
@@ -31,7 +31,7 @@ struct GaussNewtonRules {
   }
 };
 
-/// Returns the rules of these options in the given precision.
+/// Returns the rules that follow from these options and this precision.
 GaussNewtonRules RulesFor(const IkOptions& options, const GaussNewtonOptions& own, Precision precision);
 
 /// Scalar code for the rare operations of the vector solvers. `problem` is a problem's number; angles are in the tree's
@@ -101,7 +101,7 @@ class GaussNewtonQueue {
   virtual void Finish(int problem, const GaussNewtonCourse& course, std::span<const double> angles) = 0;
 };
 
-/// These solve all problems of the queue, each in one lane.
+/// SolveInFloats and SolveInDoubles solve all problems of the queue, each in one lane, in the named precision.
 void SolveInFloats(const GaussNewtonTree& tree, const GaussNewtonRules& rules, GaussNewtonQueue& queue,
                    GaussNewtonHelp& help);
 void SolveInDoubles(const GaussNewtonTree& tree, const GaussNewtonRules& rules, GaussNewtonQueue& queue,

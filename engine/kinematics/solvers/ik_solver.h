@@ -36,11 +36,11 @@ struct IkSolver {
   std::string_view step;      ///< the word for iterations: "sweeps", "steps"
   std::vector<IkSolverSetting> settings = {};  ///< those of `IkOptions::solver_settings` that it reads
   std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)> solve = {};
-  /// Prepares the solver for problems of one tree that come one after the other; empty if there is nothing to prepare.
-  /// Callers use the function `Prepare` instead.
+  /// Prepares the solver for problems of one tree that come one after the other; an empty function if there is nothing
+  /// to prepare. Callers use the function `Prepare` instead.
   std::function<std::unique_ptr<PreparedIkSolver>(const KinematicTree& tree)> prepare = {};
-  /// Solves many problems of one tree faster than `solve` one by one, with the same answers except for traces; empty if
-  /// there is no such method. Callers use the function `SolveAll` instead.
+  /// Solves many problems of one tree faster than `solve` one by one, with the same answers except for traces; an empty
+  /// function if there is no faster method. Callers use the function `SolveAll` instead.
   std::function<std::vector<IkSolution>(const KinematicTree& tree, std::span<const IkProblem> problems,
                                         const IkOptions& options)>
       solve_batch = {};
@@ -58,7 +58,7 @@ std::vector<std::string> IkSolverNames();
 /// Finds a solver by its name; returns null if no solver has this name.
 const IkSolver* FindIkSolver(std::string_view name);
 
-/// Returns the present name of the solver that was formerly called `name`; empty if there was none.
+/// Returns the present name of the solver that was formerly called `name`; an empty text if there was no such solver.
 std::string_view NewNameOfIkSolver(std::string_view name);
 
 }  // namespace etude

@@ -46,8 +46,8 @@ bool DampedInverse::Step(double damping, std::span<const double> preferred, std:
   return true;
 }
 
-// Solves (J_F J_Fᵀ + μI) y = e − J step, where F are the free angles. `duals_` holds the right-hand side before the
-// call and y after it. Returns false if the matrix is singular.
+// Solves (J_F J_Fᵀ + μI) y = e − J step, where F are the free angles. Before the call, `duals_` is the right-hand side;
+// afterwards, it is y. Returns false if the matrix is singular.
 bool DampedInverse::SolveDuals(double damping) {
   if (rows_ == 0) return true;  // no target: only the preferred posture determines the step
   damped_ = gram_;
@@ -78,7 +78,7 @@ bool DampedInverse::StepWithin(double damping, std::span<const double> preferred
   Eigen::Map<Eigen::VectorXd> out(step.data(), columns_), duals(duals_.data(), rows_);
   is_exact_ = false;
   for (int pass = 0; pass < kMaxPasses && !is_exact_; ++pass) {
-    // Fix the active angles at their ends, the others at the preferred change.
+    // Fix the active angles at the ends of their ranges. Let the other angles make the preferred change.
     for (int i = 0; i < columns_; ++i) {
       step[i] = sides_[i] < 0   ? ranges[i].lower - angles[i]
                 : sides_[i] > 0 ? ranges[i].upper - angles[i]

@@ -11,8 +11,9 @@ namespace etude {
 
 /// The way in which a solver of dense linear steps keeps angles within their ranges.
 enum class Bounds {
-  kClamped,  ///< `Step`, then the new angles are clamped; other angles do not compensate
-  /// `StepWithin`: angles that would leave their range are fixed at its end, and the step is solved for the others
+  kClamped,  ///< make an unlimited step (`Step`), then clamp the angles; free angles do not compensate for clamped ones
+  /// Solve for the best step within the ranges (`StepWithin`): angles that would leave their range are fixed at its
+  /// end, and the other angles compensate.
   kActiveSet,
 };
 

@@ -68,7 +68,7 @@ class LanePoses {
   /// Returns the residuals of all lanes.
   const ResidualLanes<V>& miss() const { return miss_[0]; }
   const TargetQuadraticLanes<V>& AskedOf(std::size_t effector) const { return asked_[effector]; }
-  /// Returns the hinges. Their screws are those of the placed poses; their other members belong to the step.
+  /// Returns the hinges. The forward kinematics sets their screws; the step uses their other members.
   AlignedList<HingeLanes<V>>& hinges() { return hinges_; }
 
  private:
@@ -94,7 +94,7 @@ class LanePoses {
       } else {
         for (int c = 0; c < 3; ++c) MixNumbers(parent.axes, joint.R_PJ[c], axes[c]);
       }
-      // Turn about X, Y and Z, as far as the joint has these degrees of freedom.
+      // Rotate about those of the axes X, Y and Z about which the joint can turn.
       if (joint.dof_count > 0) TurnHinge<0>(joint, angles, p_RJ_W, axes);
       if (joint.dof_count > 1) TurnHinge<1>(joint, angles, p_RJ_W, axes);
       if (joint.dof_count > 2) TurnHinge<2>(joint, angles, p_RJ_W, axes);

@@ -46,7 +46,7 @@ class LimbPoses {
   /// Returns the residual of the pose.
   const ResidualLanes<double>& miss() const { return miss_; }
   const TargetQuadraticLanes<Four>& AskedAt(int ends) const { return ends_[ends].asked; }
-  /// Returns the hinges. Their screws are those of the placed pose; their other members belong to the step.
+  /// Returns the hinges. The forward kinematics sets their screws; the step uses their other members.
   AlignedList<HingeLanes<Four>>& hinges() { return hinges_; }
   AlignedList<TrunkHinge>& trunk_hinges() { return trunk_hinges_; }
 

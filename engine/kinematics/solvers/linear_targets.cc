@@ -47,8 +47,8 @@ void LinearTargets::Build(const TreeFrames& frames) {
         residuals_.push_back(gap[k]);
       }
     }
-    // Add up to three rows for the axes. A rotation by ω moves axis u_k by ω × u_k, and the sum of squares
-    // Σ w_k |ω × u_k|² is diagonal in the axes' own frame.
+    // Add up to three rows for the axes. A rotation by ω moves axis u_k by ω × u_k. The sum of squares Σ w_k |ω × u_k|²
+    // is diagonal in the axes' own frame, so one row per axis is enough.
     const glm::dvec3& w = target.axis_weights;
     const glm::dvec3 weight(w.y + w.z, w.x + w.z, w.x + w.y);
     glm::dvec3 pull(0);

@@ -39,8 +39,8 @@ struct Moments {
 };
 
 struct GoalState {
-  Quad axes[3];   // (u_kD_W, 0)
-  Quad position;  // (p_WD, 1), from the root
+  Quad axes[3];   // axes of the target, (u_kD_W, 0)
+  Quad position;  // position of the target, (p_WD, 1), from the root
   double position_weight, axis_weights[3];
   double position_share, axis_shares[3];  // 1 if the position or axis has weight, else 0
   // Errors at the pose measured last, and weights of the present sweep.
@@ -194,7 +194,7 @@ struct MomentSweep::State {
   const double squared_position_goal, squared_axis_goal;
   const SweepTree tree;
   const std::vector<AngleRange> ranges;
-  std::vector<double> middles;  // see `MiddleOf`; angles are counted from there
+  std::vector<double> middles;  // the angles from which angles are counted (`MiddleOf`)
   std::vector<HingeState> hinges;
   std::vector<GoalState> goals;
   std::vector<Quad> axes;  // ê of limbs, before and after each turn

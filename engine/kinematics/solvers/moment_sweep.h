@@ -40,7 +40,7 @@ class MomentSweep {
   void SetHalfTangents(std::span<const double> half_tangents);
 
   /// Returns true if the pose measured last certainly misses the goals; this test is much cheaper than `errors`. If it
-  /// returns false, the errors decide.
+  /// returns false, compare `errors` with the goals.
   bool MissesGoals() const;
 
   /// Returns the angles, radians.

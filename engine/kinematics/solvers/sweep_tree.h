@@ -27,7 +27,8 @@ struct SweepTree {
     bool is_first = false;  ///< true for the first effector of its limb
     double p_LE[3] = {};
     int names[3] = {};     ///< for each axis of the sweep: the index of the tree's axis
-    double signs[3] = {};  ///< for each axis: 1 if both point the same way, else −1
+    double signs[3] = {};  ///< for each axis: 1 if it has the direction of the tree's axis, −1 if it has the opposite
+                           ///< direction
   };
   /// A step: one hinge of a joint turns, or, after all hinges of the joint, moments pass from its limb to the parent
   /// limb.

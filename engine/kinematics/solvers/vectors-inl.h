@@ -1,8 +1,8 @@
-// A CPU's vectors as values with operators: `Lanes` holds one number each of many problems, `Four` holds four doubles.
-// This file is included once per instruction set, which explains the include guard. No operation of `Lanes` mixes
-// lanes. No operation is a fused multiply-add, which rounds once where CPUs without it round twice. Square roots and
-// quotients are rounded correctly on all CPUs. The results of a problem therefore do not depend on the width of the
-// vectors.
+// A CPU's vectors as values with operators: a `Lanes` contains one number of each of many problems; a `Four` contains
+// four doubles. This file is included once per instruction set, which explains the include guard. No operation of
+// `Lanes` mixes lanes. No operation is a fused multiply-add, which rounds once where CPUs without it round twice.
+// Square roots and quotients are rounded correctly on all CPUs. The results of a problem therefore do not depend on the
+// width of the vectors.
 #if defined(ETUDE_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_VECTORS_INL_H_
 #undef ETUDE_VECTORS_INL_H_
@@ -116,8 +116,8 @@ HWY_INLINE double GetLane(const Lanes<T, D>& a, int lane) {
 
 // ---- Four doubles --------------------------------------------------------------------------------------------------
 
-// Stored as one vector, or as two on CPUs whose vectors hold two doubles. A `Four` holds either one number each of four
-// limbs, or four numbers of a row; only operations on rows move numbers between lanes.
+// A `Four` is stored as one vector, or as two on CPUs whose vectors have two doubles. It contains either one number of
+// each of four limbs, or four numbers of a row; only operations on rows move numbers between lanes.
 
 #if HWY_MAX_BYTES >= 32
 

@@ -14,7 +14,7 @@
 namespace etude {
 
 /// A rule that decides at which frame one clip is left and at which frame the other is entered. Scenario files use its
-/// name. `values` holds one value per setting, in order; empty means the defaults.
+/// name. `values` has one value per setting, in order; if empty, the defaults apply.
 struct Choice {
   std::string name;
   std::string description;                   ///< one line for users
@@ -43,18 +43,18 @@ struct TransitionWay {
   const JoinKind* join = nullptr;
   MatchRules rules = {};
   std::vector<double> choice_settings = {},
-                      /// One value per setting of the choice and of the join; empty means the defaults.
+                      /// One value per setting of the choice and of the join; if empty, the defaults apply.
       join_settings = {};
 };
 
 /// The transition that a method made for a request.
 struct Transition {
   TransitionRecord record;
-  Splice splice;  ///< empty if the record has no segments
+  Splice splice;  ///< without frames if the record has no segments
 };
 
-/// Makes a transition from a frame of one clip into another clip, within a time budget. The library must hold the
-/// request's clips and frame, and the wanted clip must have at least two frames.
+/// Makes a transition from a frame of one clip into another clip, within a time budget. The request's clips and frame
+/// must be in the library, and the wanted clip must have at least two frames.
 Transition MakeTransition(const MotionLibrary& library, const TransitionRequest& request, const TransitionWay& way);
 
 }  // namespace etude

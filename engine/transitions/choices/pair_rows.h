@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// Computes one kind of cost for pairs of frames, row by row; a row holds all pairs with one frame that may be left.
+/// Computes one kind of cost for pairs of frames, row by row; a row contains all pairs of one frame that may be left.
 /// Rows must be requested in ascending order of that frame.
 class PairRows {
  public:

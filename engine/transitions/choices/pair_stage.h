@@ -53,7 +53,7 @@ struct Burden {
   double glide = 0;     ///< how far the slowest support glides, beyond the same joint of a clip, metres
 };
 
-/// Holds the data that all joins at one pair of frames share.
+/// The data that all joins at one pair of frames have in common.
 class PairStage {
  public:
   /// `last` is the last frame of the wanted clip that is used; `frames` is the length of the longest join.

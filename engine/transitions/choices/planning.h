@@ -51,14 +51,14 @@ struct RankedPair {
 };
 
 /// Returns the taken pair and the best of `others` (which must not contain the taken pair), at most kMaxCandidates in
-/// total, in order of their frames. Matching pairs of `others` get the outcome `passed_over`.
+/// total, in order of their frames. Pairs of `others` that match get the outcome `passed_over`.
 std::vector<Candidate> ListCandidates(const MotionLibrary& library, const TransitionRequest& request,
                                       const MatchRules& rules, const RankedPair& taken, std::vector<RankedPair> others,
                                       CandidateOutcome passed_over);
 
 /// Returns a sentence such as "no match among 900 pairs of bridge frames: the nearest has d = 0.52, not below 0.4".
-/// `nearest` holds pairs that do not match, ranked by d; it is empty if no two frames could be compared. `frames` names
-/// the kind of frames, for example "bridge frames".
+/// `nearest` are pairs that do not match, ranked by d; the list is empty if no two frames could be compared. `frames`
+/// names the kind of frames, for example "bridge frames".
 std::string DescribeNoMatch(const std::vector<RankedPair>& nearest, std::int64_t pairs, std::string_view frames,
                             const MatchRules& rules);
 

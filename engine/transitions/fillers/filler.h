@@ -35,7 +35,7 @@ struct Filler {
   std::vector<NumberSetting> settings = {};
   bool uses_library = false;
   /// Returns the missing frames. Returns no frames if the filler needs a library and the library has no gap of this
-  /// length on this tree. `values` holds one value per setting, in order; empty means the defaults.
+  /// length on this tree. `values` has one value per setting, in order; if empty, the defaults apply.
   std::vector<TreePose> (*fill)(const Gap& gap, std::span<const double> values) = nullptr;
 };
 

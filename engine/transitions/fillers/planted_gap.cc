@@ -56,12 +56,12 @@ struct FootView {
   glm::dvec3 Lowered(std::size_t end) const { return End(end) - glm::dvec3(0, raised[end], 0); }
 
   TreeLeg leg;
-  std::vector<glm::dvec3> path;    ///< its tip's filled positions, from the frame before the gap to the frame after it
-  std::vector<glm::dvec3> hips;    ///< its hip joint's positions in the same frames
-  glm::dvec3 velocity{0};          ///< its tip's velocity before the gap, metres per second
+  std::vector<glm::dvec3> path;    ///< the tip's filled positions, from the frame before the gap to the frame after it
+  std::vector<glm::dvec3> hips;    ///< the hip joint's positions in the same frames
+  glm::dvec3 velocity{0};          ///< the tip's velocity before the gap, metres per second
   std::array<bool, 2> stands{};    ///< true if the foot stands before the gap, after the gap
   double length = 0;               ///< length of the stretched leg from hip to tip, metres
-  std::array<double, 2> raised{};  ///< height of a standing tip above the lowest one around the gap, metres
+  std::array<double, 2> raised{};  ///< height of a standing tip above the lowest tip around the gap, metres
 };
 
 constexpr double kLowest_m = 0.1, kRest_mps = 0.4, kLanded_m = 0.06, kPassing_m = 0.02, kTravels_mps = 0.5;

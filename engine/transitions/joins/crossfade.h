@@ -25,7 +25,7 @@ struct CrossfadeOptions {
 const SettingTable<CrossfadeOptions>& CrossfadeSettings();
 
 /// Fades from the old motion to the new one over `blend_s` with the weight 3t² − 2t³ (Kovar, Gleicher and Pighin 2002,
-/// section 3.3). The old motion continues to the end of its clip and then holds its last frame.
+/// section 3.3). The old motion continues to the end of its clip and then repeats its last frame.
 ///
 /// The hip centre is interpolated linearly and every limb by its smallest rotation, so limbs with equal lengths in both
 /// motions keep their lengths.

@@ -45,10 +45,10 @@ struct JoinKind {
   std::string name;
   std::string description;  ///< one line for users
   std::vector<NumberSetting> settings = {};
-  /// Begins a join. `values` holds one value per setting, in order; empty means the defaults.
+  /// Begins a join. `values` has one value per setting, in order; if empty, the defaults apply.
   Blend (*begin)(const JoinInput& input, std::span<const double> values) = nullptr;
-  /// Returns the floor move that aligns the new motion with the old one. Both spans hold the frames from the point on,
-  /// at least one. If `align` is null, AlignOnFloor aligns the two frames of the point.
+  /// Returns the floor move that aligns the new motion with the old one. Both spans contain the frames from the point
+  /// on, at least one frame. If `align` is null, AlignOnFloor aligns the two frames of the point.
   FloorMove (*align)(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) = nullptr;
 };
 

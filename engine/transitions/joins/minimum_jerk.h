@@ -41,7 +41,7 @@ struct JoinWindow {
   int Frames() const { return static_cast<int>(next.size()) - 1; }
 };
 
-/// Returns the window of `frames` frames after the point. A motion that ends earlier holds its last frame.
+/// Returns the window of `frames` frames after the point. A motion that ends earlier repeats its last frame.
 JoinWindow WindowOf(const JoinInput& input, int frames);
 
 /// Caches the rotations from the new motion's limbs to the old motion's limbs, which all fades of a window share. Each

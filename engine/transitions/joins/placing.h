@@ -11,7 +11,7 @@ namespace etude {
 /// the same time should stand at the same positions. It is a least-squares fit of toe tips and ankles and, with a lower
 /// weight, of the hips and shoulders at the point. If no foot stands in both motions, only hips and shoulders are
 /// fitted. The feet may rotate the body by at most 30°, which is 190° per second in the shortest join. `old` and `next`
-/// hold the frames from the point on, at least one.
+/// contain the frames from the point on, at least one frame.
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz);
 
 /// Returns the horizontal shift of a new motion that lets the velocity of the body's mass centre change evenly over a

@@ -48,8 +48,8 @@ struct TagRules {
 std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height,
                                  const TagRules& rules = {});
 
-/// How frequent a frame's pose is in a library, and how well the frame represents this pose (paper A, section 3.4:
-/// bridge frames are frequent poses, "those of smallest difference").
+/// The frequency of a frame's pose in a library, and the distance of the frame from other frames with this pose (paper
+/// A, section 3.4: bridge frames are frequent poses, "those of smallest difference").
 struct FrameRating {
   int clips = 0;   ///< number of clips, including its own, in which the frame's ten tags occur together
   int frames = 0;  ///< number of frames of the library with these tags

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// How well the frames of one clip lead into one other clip, or into any other clip of a library.
+/// How many frames of one clip match frames of one other clip, or of any other clip of a library.
 struct ClipCoverage {
   double frame_share = 0;   ///< share of all frames that match a frame of the other clip
   double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame of the other clip
@@ -38,10 +38,10 @@ class Coverage {
   Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, const CoverageOptions& options = {});
 
   int ClipCount() const { return static_cast<int>(any_.size()); }
-  /// Returns how well a clip leads into any other clip.
+  /// Returns the coverage of a clip by all other clips together.
   const ClipCoverage& IntoAny(int from) const { return any_[static_cast<std::size_t>(from)]; }
   bool HasPairs() const { return !pairs_.empty(); }
-  /// Returns how well clip `from` leads into clip `to`. Requires CoverageOptions::with_pairs.
+  /// Returns the coverage of clip `from` by clip `to`. Requires CoverageOptions::with_pairs.
   const ClipCoverage& Of(int from, int to) const { return pairs_[Pair(from, to)]; }
 
   /// Returns the clips that have no bridge frame matching a bridge frame of clip `wanted`. Paper A (section 3.5)

@@ -27,8 +27,8 @@ glm::dquat TrunkFrame(const BodyPose& pose) {
   return glm::quat_cast(glm::dmat3(left, up, glm::cross(left, up)));
 }
 
-/// Returns true if a limb's direction is interpolated in the trunk's frame. This holds for arms and head, but not for
-/// hips and legs, because feet would slide whenever the body bends.
+/// Returns true if a limb's direction is interpolated in the trunk's frame: for arms and head, but not for hips and
+/// legs, because feet would slide whenever the body bends.
 bool GoesWithTrunk(Role child) {
   return child == kHead || (Index(child) >= Index(kLeftShoulder) && Index(child) <= Index(kRightHand));
 }

@@ -67,7 +67,7 @@ class PairSearch {
     double reach;  // distance at the last comparison plus `travelled_` at that time
   };
 
-  /// Collects the target blocks that may hold a match of a query frame in the box `asking`.
+  /// Collects the target blocks that may contain a match of a query frame in the box `asking`.
   void FindNearBlocks(const GradeBox& asking) {
     near_.clear();
     const double limit = SquaredLimit(rules_.threshold);

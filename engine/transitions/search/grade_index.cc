@@ -169,7 +169,7 @@ bool GradeIndex::HasMatchBelow(int level, int node, const Query& query, int& hin
     hint = node;
     return true;
   }
-  // Collect the children that may hold a match. Skip children that hold only frames of the query's own clip.
+  // Collect the children that may contain a match. Skip children that contain only frames of the query's own clip.
   const Level& of = levels_[level];
   const int first = node * kBlockLanes;
   const int count = std::min(kBlockLanes, static_cast<int>(of.first_frames.size()) - first);
