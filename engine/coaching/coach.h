@@ -49,7 +49,7 @@ struct CoachOptions {
   /// The evidence at which a performance counts as right, in (0, 1]. The right value depends on the recogniser: to
   /// compare recognisers, choose values that give equal false-alarm rates.
   double right_from = 0.5;
-  /// The delay of windows after the coach's repetition, because learners follow with a lag.
+  /// Windows open and close this time after the coach's repetition, because learners follow with a lag.
   double reaction_s = 0.3;
   /// True if the player dances as in a mirror: the player's left side follows the coach's right side. The caller must
   /// then mirror the input (CoachSession does so); in the coach, this option only changes what it says.
@@ -96,7 +96,7 @@ struct CoachState {
 
   // The player.
   ClapState clap;
-  bool clap_waits = false;  ///< a clap was detected and has not been used yet
+  bool clap_waits = false;  ///< true from the detection of a clap until the coach reacts to it
   StillnessState stillness;
   std::int64_t idle_since = 0;  ///< the last frame in which somebody took part
   PlayerHint stand = PlayerHint::kNone;

@@ -22,7 +22,7 @@ enum class CoachEvent {
   kUnjudged,    ///< a window closed without a verdict, or was interrupted
   kCorrects,    ///< the coach leaves the dance for a corrective act
   kShows,       ///< a slow demonstration begins
-  kReturns,     ///< the coach returns to the dance at the repetition
+  kReturns,     ///< the coach returns to the dance, at the repetition that was corrected
   kGoesOn,      ///< the dance continues after too many corrections of one repetition
   kPraises,     ///< praise: in words after a corrected mistake, or as an act at the song's end
   kTag,         ///< a music-time tag was reached
@@ -65,7 +65,7 @@ enum class CoachMode {
   kDoze,
   kWake,
   kDance,
-  kCorrect,      ///< head shake, wave or puzzled
+  kCorrect,      ///< one of the acts head shake, wave and puzzled
   kDemonstrate,  ///< a slow demonstration of the move, which the player only watches
   kPraise,
 };

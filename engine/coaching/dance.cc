@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// A clip needs one frame to leave and one to enter.
+/// A clip needs two frames: a transition leaves it at one and enters it at another.
 constexpr std::size_t kMinFrames = 2;
 
 Result<void> CheckMotion(const std::string& title, std::string_view what, const BodyMotion& motion) {

@@ -14,7 +14,7 @@ namespace {
 /// A leaving clip contains this many frames after the beginning of the next repetition: enough for a window to close,
 /// for the longest wait of a transition, and for a join.
 constexpr std::size_t kLeavingFrames = 60;
-/// An entering clip contains this many frames of its act: half a second and the longest join.
+/// An entering clip contains the first frames of its act: half a second, and enough frames for the longest join.
 constexpr std::size_t kEnteringFrames = 15 + 30 + 1;
 /// A returning clip contains this many frames before the beginning of its repetition, as a lead-in in which players
 /// start to move, and this many frames after the beginning, enough for the longest join.

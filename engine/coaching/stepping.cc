@@ -61,7 +61,7 @@ void Stepping::Watch() {
   if (moves || !is_asked) state_.idle_since = state_.frame;
   if (input_.moment) state_.moment_waits = true;
 
-  // Change the position hint if another hint has been due for some time.
+  // Replace the position hint once another hint has been due for kHintFrames frames.
   const PlayerHint hint = WhereToStand();
   state_.stand_frames = hint == state_.stand ? 0 : state_.stand_frames + 1;
   if (state_.stand_frames < kHintFrames) return;
@@ -274,7 +274,7 @@ void Stepping::Say(std::string_view words, double seconds) {
 }
 
 void Stepping::FollowMusic(double dance_frame) {
-  // Start the music with the dance.
+  // When the dance begins or continues, start the music.
   if (!state_.music_plays) {
     out_.music = {.kind = MusicCommand::Kind::kPlayFrom, .music_s = MusicAt(dance_, dance_frame)};
     state_.music_plays = true;

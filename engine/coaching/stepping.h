@@ -47,7 +47,7 @@ class Stepping {
   void AnswerMistake(Mistake mistake);
   void AnswerMoment(double dance_frame);
 
-  // Changes from mode to mode.
+  // Functions that change the mode.
   void BeginSong();
   void EndSong();
   void Interrupt(int repetition, std::string why);

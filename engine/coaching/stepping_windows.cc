@@ -75,7 +75,7 @@ void Stepping::Remember(WindowVerdict verdict) {
     }
   }
   state_.decided = true;
-  // Record the verdict; praise a right performance after a mistake.
+  // Record the verdict. If the performance is right and the previous one was wrong, praise the player.
   const auto note = [&](CoachEvent event, std::string why) {
     CoachRecord& record = Note(event, std::move(why));
     record.repetition = window.repetition;

@@ -132,7 +132,7 @@ std::string_view DefuzzificationName(Defuzzification method) { return kNames[sta
 std::optional<double> Defuzzify(std::span<const ActivatedTerm> terms, const Universe& universe,
                                 Defuzzification method) {
   std::vector<ActivatedTerm> active;
-  std::vector<ActivatedTerm> wide;  // terms with an area
+  std::vector<ActivatedTerm> wide;  // activated terms that have an area (no singletons)
   for (const ActivatedTerm& term : terms) {
     const Cut top = Within(universe, CutOf(term.shape, 1));
     if (term.grade <= 0 || top.low > top.high) continue;

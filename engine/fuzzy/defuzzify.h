@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// The four methods of defuzzification that paper A names (section 2.4). The paper gives no formulas; these are the
-/// usual ones.
+/// The four methods of defuzzification that paper A names (section 2.4). The paper gives no formulas, so the usual
+/// formulas are used.
 enum class Defuzzification {
   kMaximum,   ///< the mean of the inputs with maximum membership
   kCentroid,  ///< the centre of gravity of the area under the union of the terms; overlaps count once
@@ -19,7 +19,7 @@ enum class Defuzzification {
 };
 
 std::span<const Defuzzification, 4> AllDefuzzifications();
-/// Returns "maximum", "centroid", "height", "area".
+/// Returns "maximum", "centroid", "height" or "area".
 std::string_view DefuzzificationName(Defuzzification method);
 
 /// A term's shape, clipped at the grade to which the term is activated.

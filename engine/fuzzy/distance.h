@@ -32,7 +32,7 @@ struct FuzzyDistance {
 /// Computes equation 1, d = sqrt(Σ_k S_k Σ_terms (μ₁ − μ₂)²): a Euclidean distance in 24 dimensions.
 FuzzyDistance ComputeDistance(const Grades& a, const Grades& b, const FeatureWeights& weights);
 
-/// Returns true exactly if ComputeDistance gives d < `threshold`; it stops summing as soon as the answer is known.
+/// Returns the value of ComputeDistance(…) < `threshold`, but stops summing as soon as the answer is known.
 bool IsCloser(const Grades& a, const Grades& b, const FeatureWeights& weights, double threshold);
 
 }  // namespace etude

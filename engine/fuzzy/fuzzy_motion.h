@@ -32,7 +32,7 @@ struct MotionSimilarityOptions {
   double band = 0.1;
   /// The mean distance at which the similarity is 0.5; > 0.
   double half_at = kPaperThreshold;
-  /// The search may stop early if the similarity is below this; 0 turns this off.
+  /// The search may return nullopt early if the similarity is certainly below this value; 0 turns this off.
   double at_least = 0;
 };
 

@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-/// The settings in a file that concern table 1's features.
+/// The part of a fuzzy system that a file sets per feature: memberships and weights.
 struct FeatureSettings {
   Memberships memberships;
   FeatureWeights weights{};  ///< scaled to sum to 8
@@ -61,11 +61,11 @@ Result<Universe> ReadUniverse(Fields& fields) {
   return tl::unexpected(fields.Finish().error());
 }
 
-/// Collects the settings of a file's features.
+/// Reads the settings of all features from a file.
 class FeaturesReader {
  public:
   Result<void> ReadFeature(const Node::Entry& entry) {
-    // Read the features' names, which may occur only once.
+    // Read the names of the features; each name may occur only once in a file.
     ASSIGN_OR_RETURN(const auto group, ReadGroup(entry));
     for (Feature feature : group) {
       bool& seen = seen_[static_cast<std::size_t>(feature)];
@@ -91,7 +91,7 @@ class FeaturesReader {
     return {};
   }
 
-  /// Refuses missing features, and scales the weights.
+  /// Returns an error if a feature is missing; scales the weights to sum to 8.
   Result<void> Finish(const Place& place) {
     std::vector<std::string> missing;
     for (std::size_t k = 0; k < kFeatureCount; ++k) {
@@ -133,7 +133,7 @@ class FeaturesReader {
   std::array<bool, kFeatureCount> seen_{};
 };
 
-/// Returns the lines below a feature's name.
+/// Returns the lines that WriteFeatures puts below a feature's name.
 std::string Written(Feature feature, const FeatureSettings& settings) {
   const std::size_t k = static_cast<std::size_t>(feature);
   const Universe& universe = settings.memberships.universes[k];
@@ -162,7 +162,7 @@ Result<FeatureSettings> ReadFeatures(const Node& node) {
 
 /// Returns the lines below `features`; features with equal settings share a key.
 std::string WriteFeatures(const FeatureSettings& settings) {
-  std::vector<std::pair<std::string, std::string>> groups;  // the names, and the lines below them
+  std::vector<std::pair<std::string, std::string>> groups;  // names of features, and the lines below these names
   for (Feature feature : AllFeatures()) {
     const std::string text = Written(feature, settings);
     const auto alike = std::ranges::find(groups, text, &std::pair<std::string, std::string>::second);
@@ -206,7 +206,7 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   const Node* premise = fields.Raw("if");
   const std::string pose = fields.RequiredText("then");
   RETURN_IF_ERROR(fields.Finish());
-  // Check the premise and the conclusion.
+  // Check that the premise names terms and that the conclusion names a pose.
   if (premise == nullptr || premise->kind != Node::Kind::kMapping || premise->entries.empty()) {
     return Fail(premise == nullptr ? node.place : premise->place, "'if' must name terms ({{RH: up, LH: up}}), found {}",
                 premise == nullptr ? "nothing" : Describe(*premise));
@@ -216,7 +216,7 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
                 "{} is not a valid name of a pose; allowed: at most {} letters, digits, spaces, '-', a letter first",
                 Quote(pose), kMaxPoseNameBytes);
   }
-  // Translate the names to indices.
+  // Replace the names by indices.
   Rule rule;
   for (const Node::Entry& entry : premise->entries) {
     ASSIGN_OR_RETURN(const auto term, ReadTerm(entry));

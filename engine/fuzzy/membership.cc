@@ -59,7 +59,7 @@ constexpr std::array<Term, kTermCount> kTerms = {{
     {kLF, "inward"},     {kLF, "outward"},   {kRFK, "false"},   {kRFK, "true"},   {kLFK, "false"},   {kLFK, "true"},
 }};
 
-/// The terms of feature k are kFirstTerm[k] … kFirstTerm[k + 1] − 1.
+/// The terms of feature k have the indices kFirstTerm[k] … kFirstTerm[k + 1] − 1 in `AllTerms`.
 constexpr std::array<std::size_t, kFeatureCount + 1> kFirstTerm = [] {
   std::array<std::size_t, kFeatureCount + 1> first{};
   for (const Term& term : kTerms) ++first[static_cast<std::size_t>(term.feature) + 1];

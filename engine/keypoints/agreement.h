@@ -62,7 +62,7 @@ struct MarkerAgreement {
 /// reference was made from the same keypoints, the distance measures agreement, not error.
 std::vector<MarkerAgreement> CompareMarkers(const MarkerMotion& motion, const MarkerMotion& reference);
 
-/// Compares all markers and frames at once.
+/// Returns the agreement over all markers and frames together.
 MarkerAgreement CompareAllMarkers(const MarkerMotion& motion, const MarkerMotion& reference);
 
 }  // namespace etude

@@ -201,7 +201,7 @@ class Cues {
     }
   }
 
-  /// Sums all residuals at the direction `up`.
+  /// Linearises all cues at the direction `up` and sums their residuals.
   Sum At(const glm::dvec3& up) const {
     Sum sum(up);
     AddCameras(up, sum);
@@ -237,7 +237,7 @@ class Cues {
   void AddCameras(const glm::dvec3& up, Sum& sum) const {
     constexpr double kRoll = Radians(3), kPitch = Radians(20), kLooksDown = Radians(10), kTurned = 4;
     for (const NamedCamera& named : cameras_) {
-      // Take the quarter turn of the picture that fits the direction best.
+      // Of the four quarter turns of the picture, take the one that fits the direction best.
       double least = 1e9, roll = 0, pitch = 0;
       Picture best{};
       for (int quarters = 0; quarters < 4; ++quarters) {

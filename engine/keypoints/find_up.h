@@ -12,7 +12,7 @@ namespace etude {
 /// The direction opposite to gravity.
 struct FoundUp {
   glm::dvec3 up;
-  double deviation = 0;  ///< standard deviation in the worse direction, radians
+  double deviation = 0;  ///< standard deviation in radians, along the axis in which the direction is least certain
   double within = 0;     ///< the truth is within this angle in 95 of 100 takes, radians
   std::string by;        ///< the evidence: "the cameras' horizons and resting feet"
 };

@@ -78,7 +78,7 @@ class Guesser {
   }
 
  private:
-  /// Returns the people of the sampled frames in the rig's pixels, undistorted.
+  /// Returns the people of film `c` in the sampled frames, in undistorted pixels of the rig.
   const SeenPeople& PeopleBy(std::size_t c, const Guess& guess) {
     const auto key = std::pair(c, guess);
     if (const auto known = people_.find(key); known != people_.end()) return known->second;

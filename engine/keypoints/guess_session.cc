@@ -75,7 +75,7 @@ class SessionGuesser {
     SessionGuess found;
     const double said = MissOfPictures(films_, least_confidence_);
     constexpr double kOff = 0.001, kBetter = 0.5, kPercent = 100;
-    // Test all hypotheses, and keep the best hypothesis that at least halves the distance.
+    // Test all hypotheses, and keep the best one of those that at least halve the distance.
     if (said > kOff) {
       least_ = kBetter * std::min(said, MissAsGuessed());
       TryPoses();

@@ -69,7 +69,7 @@ std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatri
   std::vector<LandmarkPositions> places(frames);
   std::vector<double> residuals, used(cameras.size()), rejected(cameras.size());
   std::array<std::size_t, kLandmarkCount> found{};
-  // Count the points, and the outliers of each camera.
+  // Store the triangulated positions, and count the outliers of each camera.
   for (const auto& [frame, landmark, by, point] : TriangulateLandmarks(cameras, person, options)) {
     places[frame][landmark] = point.position;
     residuals.push_back(point.residual_px);
@@ -148,7 +148,7 @@ RoleVectors JointsOf(const LandmarkPositions& marks) {
   head = at(kHead);
   if (!head) head = Middle(at(kLeftEar), at(kRightEar));
   if (!head) head = at(kNose);
-  // Substitute a missing head and missing feet.
+  // If the head or a foot is missing, guess it.
   const auto &hips = joints[Index(Role::kHipCentre)], &shoulders = joints[Index(Role::kShoulderCentre)];
   constexpr double kNeckOfTrunk = 0.5;
   if (!head && hips && shoulders) head = *shoulders + kNeckOfTrunk * (*shoulders - *hips);

@@ -24,7 +24,7 @@ struct TriangulateOptions {
 /// Statistics of a triangulation.
 struct TriangulationReport {
   std::vector<double> rejected;  ///< for each camera, the share of its keypoints that were outliers
-  double residual_px = 0;        ///< median over all points
+  double residual_px = 0;        ///< median reprojection error over all points
   double found = 0;              ///< share of frames × landmarks that were triangulated; landmarks that are never seen
                                  ///< do not count
 };

@@ -36,7 +36,7 @@ class Follower {
   std::vector<PersonTrack> Follow() {
     std::vector<PersonTrack> tracks;
     for (std::size_t frame = 0; frame < people_.size(); ++frame) {
-      // Extend the tracks by the nearest unambiguous candidates.
+      // Extend each track by its nearest candidate, unless another candidate is nearly as near.
       std::vector<bool> taken(people_[frame].size()), extended(tracks.size());
       for (const auto& [step, track, person] : Candidates(tracks, frame)) {
         if (taken[person] || extended[track]) continue;
@@ -130,7 +130,7 @@ class PersonMatcher {
         if (error < options_.max_error) pairs.emplace_back(error, a, b);
       }
     }
-    // Join groups, the best pairs first.
+    // Join groups of tracks, beginning with the pair of the smallest error.
     std::ranges::sort(pairs);
     for (const auto& [error, a, b] : pairs) {
       if (group_[a] != group_[b] && MayJoin(group_[a], group_[b])) Unite(group_[a], group_[b]);
@@ -219,7 +219,7 @@ class PersonMatcher {
 
   std::vector<MatchedPerson> Persons() const {
     std::vector<MatchedPerson> persons;
-    // Each group is one person.
+    // Make one person of each group.
     for (std::size_t g = 0; g < tracks_.size(); ++g) {
       if (group_[g] != g) continue;
       MatchedPerson person;
@@ -252,7 +252,7 @@ class PersonMatcher {
   const std::span<const SeenPeople> people_;
   const MatchOptions& options_;
   const std::vector<Track> tracks_;
-  std::vector<std::size_t> group_;  ///< of each track: the index of the group's first track
+  std::vector<std::size_t> group_;  ///< for each track: the index of the first track of its group
   std::map<std::pair<std::size_t, std::size_t>, double> errors_;
 };
 

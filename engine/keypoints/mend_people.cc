@@ -26,7 +26,7 @@ namespace {
 
 using enum Landmark;
 
-constexpr std::size_t kGroups = 2;  // arms, legs
+constexpr std::size_t kGroups = 2;  // group 0: arms; group 1: legs
 
 /// Returns the left and right landmarks of a group.
 const std::vector<std::pair<Landmark, Landmark>>& PairsOf(std::size_t group) {
@@ -217,7 +217,7 @@ class Mender {
   /// A sequence of labellings of one camera over time.
   struct Course {
     std::vector<bool> is_swapped;
-    double gain = 0;  ///< reduction of the cost against keeping all labels
+    double gain = 0;  ///< the cost of keeping all labels minus the cost of this sequence
   };
 
   // Finds the labelling of minimal cost over time (Viterbi).
@@ -238,7 +238,7 @@ class Mender {
       }
       total = next;
     }
-    // Backward pass: read the path.
+    // Backward pass: follow the best path from the last frame to the first.
     Course course{std::vector<bool>(frames_), as_it_is - std::min(total[0], total[1])};
     bool state = total[1] < total[0];
     for (std::size_t frame = frames_; frame-- > 0;) {
@@ -274,7 +274,7 @@ class Mender {
     }
   }
 
-  // Triangulates a landmark in one frame; nullopt if that fails.
+  // Triangulates a landmark in one frame; nullopt if the triangulation fails.
   std::optional<glm::dvec3> PositionOf(std::size_t frame, Landmark landmark) const {
     std::vector<Sighting> sightings;
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
@@ -379,7 +379,8 @@ class Mender {
   PairGeometry geometry_;
   std::size_t frames_ = 0;
   double scale_px_ = 1;
-  std::array<std::vector<std::vector<bool>>, kGroups> flips_;  ///< [group][camera][frame]
+  std::array<std::vector<std::vector<bool>>, kGroups> flips_;  ///< true if the label is swapped; indexed
+                                                               ///< [group][camera][frame]
   std::vector<Mend> mends_;
 };
 

@@ -20,8 +20,8 @@ struct Mend {
     kSwappedSides,  ///< left and right exchanged on the whole body
     kSwappedArms,   ///< left and right exchanged on face, shoulders and arms only
     kSwappedLegs,   ///< left and right exchanged on hips, legs and feet only
-    kOtherPerson,   ///< another person's keypoints; replaced by the person's own
-    kNobody,        ///< another person's keypoints; the person's own are missing, and the frame is left out
+    kOtherPerson,   ///< another person's keypoints were replaced by the person's own
+    kNobody,        ///< another person's keypoints were removed, because the person's own were not found
   };
   Kind kind = Kind::kSwappedSides;
   std::size_t camera = 0;

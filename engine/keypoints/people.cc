@@ -61,7 +61,7 @@ std::span<const KeypointLayout> KeypointLayouts() {
       {"mediapipe",
        Listed("Nose - LEye - - REye - LEar REar - - LShoulder RShoulder LElbow RElbow LWrist RWrist - - - - - - LHip "
               "RHip LKnee RKnee LAnkle RAnkle LHeel RHeel LBigToe RBigToe")},
-      // The following layouts continue with face and hands, whose points are not used.
+      // The following layouts have more points, of face and hands, which are ignored.
       {"coco_wholebody",
        Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
               "RAnkle LBigToe LSmallToe LHeel RBigToe RSmallToe RHeel"),
@@ -96,7 +96,7 @@ Landmark LandmarkOfName(std::string_view name) {
   // Handle names that differ from ours by more than the word for the side.
   if (bare == "midhip" || bare == "hip" || bare == "pelvis" || bare == "root") return Landmark::kMidHip;
   if (bare == "headtop" || bare == "tophead") return Landmark::kHead;
-  // Write the side as one letter in front.
+  // Replace "left" and "right" by one letter in front of the name.
   for (const std::string_view side : {"left", "right"}) {
     if (bare.starts_with(side)) bare = std::string(side.substr(0, 1)) + std::string(bare.substr(side.size()));
     if (bare.ends_with(side))

@@ -163,7 +163,7 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
 /// The up axis in the cameras' world.
 struct ChosenUp {
   glm::dvec3 up;
-  bool from_the_take = false;  ///< the person and the cameras determined it, not the file
+  bool from_the_take = false;  ///< true if the person and the cameras determined `up`; false if the file did
   std::string told;
 };
 
@@ -204,7 +204,7 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
     }
     return ChosenUp{usual, false, told};
   }
-  // Prefer an axis of the file that is close to the direction that was found.
+  // If the file has an axis that is close to the direction found, take this axis.
   if (camera.empty() && options.up == "auto") {
     for (const FileAxis& axis : kAxes) {
       const glm::dvec3 up = rig.R_WF * axis.direction;

@@ -17,7 +17,7 @@ namespace etude {
 struct JointErrors {
   double point = 0;       ///< of the triangulated position, m²
   double body = 0;        ///< of the position in the fitted body, m²
-  double point_turn = 0;  ///< of the limb's direction by triangulated positions, rad²
+  double point_turn = 0;  ///< of the limb's direction between the triangulated positions, rad²
   double body_turn = 0;   ///< of the limb's direction in the fitted body, rad²
 };
 

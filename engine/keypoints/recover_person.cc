@@ -164,7 +164,7 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
   assert(cameras.size() >= 2 && cameras.size() == people.size());
   RecoveredPerson person;
   person.people = MatchPeople(cameras, people, options.match);
-  // The candidates are the people whom at least two cameras saw.
+  // Only people whom at least two cameras saw can be triangulated.
   std::vector<std::size_t> in_space;
   for (std::size_t i = 0; i < person.people.size(); ++i) {
     if (person.people[i].cameras >= 2) in_space.push_back(i);

@@ -54,11 +54,11 @@ struct RecoveredPerson {
   std::vector<LandmarkPositions> landmarks;  ///< of the requested person, with gaps filled and smoothed
   TriangulationReport report;
   std::vector<Mend> mends;  ///< corrections of the requested person's keypoints
-  double outlier_px = 0;    ///< the threshold that was used
+  double outlier_px = 0;    ///< the threshold for outliers that was used, pixels
   CaptureBody body;
   std::vector<TreeState> states;  ///< poses of the body, one per frame
   Clip clip;                      ///< metres, Y up
-  BodyMotion motion;              ///< the same motion as twenty joints
+  BodyMotion motion;              ///< the motion of `clip` as twenty joints
   std::vector<bool> is_held;      ///< true for frames that could not be recovered and repeat the last pose
 };
 

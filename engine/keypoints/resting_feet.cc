@@ -49,7 +49,7 @@ std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, doub
       };
       glm::dvec3 sum(0);
       for (std::size_t i = 1; i < points.size(); ++i) {
-        // A fast frame, or one far from the stay's mean, ends the stay.
+        // A fast frame ends the stay, and so does a frame far from the stay's mean.
         const auto &before = points[i - 1][Index(landmark)], &now = points[i][Index(landmark)];
         if (!before || !now) continue;  // a gap does not end a stay
         const bool is_slow = glm::distance(*before, *now) * rate_hz <= kMaxSpeed * stature;

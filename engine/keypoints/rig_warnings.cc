@@ -206,7 +206,7 @@ class RigChecker {
     return UpperMedian(std::move(shoulders)) / (UpperMedian(std::move(thighs)) + UpperMedian(std::move(shanks)));
   }
 
-  // Triangulates a landmark in one frame; nullopt if that fails.
+  // Triangulates a landmark in one frame; nullopt if the triangulation fails.
   std::optional<glm::dvec3> PositionOf(std::size_t frame, Landmark landmark, const Read& read) const {
     std::vector<Sighting> sightings;
     for (std::size_t film = 0; film < cameras_.size(); ++film) {

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// A tracked person of one camera, at any time between its frames.
+/// A tracked person of one camera, interpolated between frames.
 class MovingPerson {
  public:
   MovingPerson(const SeenPeople& people, const PersonTrack& track) : people_(people), track_(track) {}

@@ -46,7 +46,7 @@ struct JointRow {
   std::string_view name;
   int parent;
   glm::dvec3 p_PJ;
-  glm::dmat3 R_WJ;                     // at rest
+  glm::dmat3 R_WJ;                     // axes of the joint at rest
   std::vector<AngleRange> limits_deg;  // one entry per degree of freedom
 };
 

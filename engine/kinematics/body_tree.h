@@ -18,7 +18,7 @@ struct LimbLengths {
   double hip_width = 0.18;
   double trunk = 0.50;           ///< navel (midway between the hips) to the base of the neck
   double neck = 0.25;            ///< base of the neck to the head
-  double shoulder_width = 0.36;  ///< the base of the neck is its middle
+  double shoulder_width = 0.36;  ///< distance of the shoulders; the base of the neck is midway between them
   double upper_arm = 0.29;
   double forearm = 0.25;
   double hand = 0.18;  ///< wrist to finger tips

@@ -224,14 +224,14 @@ class Builder {
     }
     // If the parent turns about the same point, attach the limb to the first ancestor that turns about another point.
     while (parent > 0 && AreSame(OriginOf(parent), limb.from)) parent = body_.tree.joints[parent].parent;
-    // Set the axes at rest, and the axes at which all angles are zero.
+    // Set the limb's axes at rest and its axes at zero angles.
     TreeJoint joint{.name = {}, .parent = parent};
     const glm::dmat3 R_WL = RestAxes(part, limb);
     joint.p_PJ = glm::transpose(rest_axes_[parent]) * (limb.from - OriginOf(parent));
     joint.R_PJ = glm::transpose(rest_axes_[parent]) * NeutralAxes(limb, R_WL);
     joint.first_dof = body_.tree.dof_count();
     joint.dof_count = DofsOf(part, limb);
-    // Set the limits of the angles.
+    // Limit the angles only if pictures do not show the joint.
     const double max_angle = IsHidden(part, limb.from) ? kMaxHiddenAngle : kUnlimited;
     for (int dof = 0; dof < joint.dof_count; ++dof) body_.tree.limits.push_back({-max_angle, max_angle});
     limb_of_[part] = static_cast<int>(body_.tree.joints.size());
@@ -379,9 +379,9 @@ class Builder {
 
   const Parts& parts_;
   CaptureBody body_;
-  std::vector<int> limb_of_;           // the limb of each part, −1 if none yet
-  std::vector<int> order_;             // the part of each limb
-  std::vector<glm::dmat3> rest_axes_;  // of each limb: R_WL at rest
+  std::vector<int> limb_of_;           // for each part: its limb, or −1 while it has none
+  std::vector<int> order_;             // for each limb: its part
+  std::vector<glm::dmat3> rest_axes_;  // for each limb: R_WL at rest
   std::vector<glm::dvec3> origins_;    // the rest position of each limb's joint, except the first limb's
 };
 

@@ -67,7 +67,7 @@ struct FixedPoint {
 FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const EffectorTarget& target) {
   FixedPoint point{target.position, {}, glm::length(effector.p_LE)};
   const glm::dvec3& w = target.axis_weights;
-  if (w.x > 0 && w.y > 0 && w.z > 0) {  // all three axes have targets, so the upper end of the limb is fixed, too
+  if (w.x > 0 && w.y > 0 && w.z > 0) {  // all three axes have targets, so these also fix the upper end of the limb
     point.position -= target.axes * effector.p_LE;
     point.last_limb = 0;
   }
@@ -77,7 +77,7 @@ FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const Ef
 
 // The chain of limbs from a point up to a joint.
 struct Branch {
-  double length = 0;  // of all its limbs, metres
+  double length = 0;  // total length of its limbs, metres
   int top = -1;       // the last joint of the chain; −1 if it has none
 };
 
@@ -223,7 +223,7 @@ std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& pr
 }
 
 bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem) {
-  constexpr double kRounding = 1e-9;  // metres
+  constexpr double kRounding = 1e-9;  // tolerance for rounding, metres
   std::vector<FixedPoint> points;
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     if (problem.targets[e].position_weight <= 0) continue;

@@ -79,7 +79,7 @@ struct EffectorTarget {
 struct IkProblem {
   TreeState start;
   std::vector<EffectorTarget> targets;  ///< one per effector of the tree, in its order
-  std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
+  std::vector<AngleRange> limits;       ///< one per degree of freedom; usually the tree's own limits
 };
 
 /// The settings of single solvers. The comment behind a setting names the solver that reads it; the solver's header
@@ -98,10 +98,11 @@ struct SolverSettings {
 
 /// Options that all solvers share. Each solver's own options are in its header.
 struct IkOptions {
-  WeightRule weights = WeightRule::kAdaptive;  ///< CCD solvers only
+  WeightRule weights = WeightRule::kAdaptive;  ///< the rule of weights; only CCD solvers use it
   WeightRefresh refresh = WeightRefresh::kSweep;
-  SolverSettings solver_settings;  ///< of single solvers, for `IkSolver::solve`
-  bool limits = true;              ///< paper B, section 3.7.1; false leaves all angles free
+  SolverSettings solver_settings;  ///< settings of single solvers, which `IkSolver::solve` reads
+  bool limits = true;              ///< true: angles stay within their limits (paper B, section 3.7.1); false: all
+                                   ///< angles are free
   /// Maximum difference between an angle and its start angle, radians (paper B, section 3.7.2). nullopt means no limit.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;

@@ -205,7 +205,7 @@ std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const
   Shift(kLeftArm, joints[kShoulderCentre] - half_width - joints[kLeftShoulder], joints);
   Shift(kRightArm, joints[kShoulderCentre] + half_width - joints[kRightShoulder], joints);
 
-  // Place the head and the spine, which follow from the trunk.
+  // Compute the head and the spine from the trunk.
   joints[kHead] = joints[kShoulderCentre] + lengths.neck * glm::normalize(observation.directions[Index(kHead)]);
   joints[kSpine] = glm::mix(joints[kHipCentre], joints[kShoulderCentre], kSpineShare);
   return joints;
@@ -217,7 +217,7 @@ LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses) {
   for (const BodyPose& pose : poses) {
     const auto between = [&](Role a, Role b) { return glm::distance(pose[a], pose[b]); };
     const auto of_both = [&](Role a, Role b) { return 0.5 * (between(a, b) + between(Mirrored(a), Mirrored(b))); };
-    // Sum up the lengths of this frame.
+    // Add the lengths of this frame to the sums.
     const glm::dvec3 mid_hips = 0.5 * (pose[kLeftHip] + pose[kRightHip]);
     const glm::dvec3 mid_shoulders = 0.5 * (pose[kLeftShoulder] + pose[kRightShoulder]);
     sum.foot += of_both(kLeftAnkle, kLeftFoot);

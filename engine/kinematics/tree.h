@@ -23,7 +23,7 @@ double ClampAngle(double angle, const AngleRange& range);
 /// A joint with fewer degrees of freedom omits the last rotations. W is the world.
 struct TreeJoint {
   std::string_view name;
-  int parent = -1;     ///< parents stand before children; −1 for the root, which does not turn
+  int parent = -1;     ///< parents come before children; −1 for the root, which does not turn
   glm::dvec3 p_PJ{0};  ///< metres
   glm::dmat3 R_PJ{1};
   int first_dof = 0;  ///< index of its X angle in the list of all angles

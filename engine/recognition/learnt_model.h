@@ -48,7 +48,7 @@ struct BoostingOptions {
   int trees = 100;
   double rate = 0.12;  ///< shrinkage: each tree's values are multiplied by this
   double ridge = 3;    ///< L2 penalty that shrinks leaf values towards 0; one performance at even odds counts ¼
-  int min_per_leaf = 12;  ///< minimum number of performances
+  int min_per_leaf = 12;  ///< minimum number of performances in a leaf
   /// If true, trees take turns: each is fitted to three fifths of the performances and a third of the measures, so that
   /// they differ (stochastic boosting, Friedman 2002, but with a fixed rotation instead of random numbers).
   bool takes_turns = false;

@@ -153,7 +153,7 @@ PathClock MeasureClock(std::span<const StepPair> path) {
     taught_squares += t * t / count;
     products += s * t / count;
   }
-  // Fit a straight line, seen time over taught time; its slope is the tempo.
+  // Fit a straight line, seen time over taught time; its slope is the duration relative to the example.
   const double covariance = products - seen * taught;
   const double taught_variance = taught_squares - taught * taught;
   const double seen_variance = seen_squares - seen * seen;

@@ -144,7 +144,7 @@ class PersonBaseline {
  public:
   /// Adds a performance, right or wrong. Only the latest 32 count.
   void Add(const PerformanceMeasures& performance);
-  /// Fills in the differences from the usual measures.
+  /// Fills in the differences from this person's usual measures.
   void Relate(PerformanceMeasures& performance) const;
   /// Returns this person's usual delay relative to the window, in seconds.
   double Shift() const;

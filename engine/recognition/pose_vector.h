@@ -61,7 +61,7 @@ class StepDescriber {
   bool follows_ = false;  // true once a body was seen
   glm::dvec3 facing_{0, 0, 1};
   double trunk_m_ = 0;
-  PoseVector sum_;  // of this step's frames
+  PoseVector sum_;  // sum of the poses in this step's frames
   int summed_ = 0;
   std::optional<PoseVector> step_;
 };
@@ -82,7 +82,7 @@ class StepFollower : public MoveFollower {
   std::optional<std::size_t> asked() const { return asked_; }
 
  private:
-  /// Is called when a window opens for `move`, or when the window closes (no move).
+  /// Is called when a window opens for `move`, or with nullopt when the window closes.
   virtual void Open(std::optional<std::size_t> move) = 0;
   /// Takes the next step. Returns the evidence that the asked performance ends now (0 without an asked move), and
   /// writes the evidence of every move to `spotted`.

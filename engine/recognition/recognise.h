@@ -30,8 +30,8 @@ struct AskedMove {
 /// A recogniser's evidence in every frame of a stream.
 struct EvidenceTrace {
   std::size_t moves = 0;
-  std::vector<double> asked;    ///< per frame
-  std::vector<double> spotted;  ///< per frame and move, frame-major
+  std::vector<double> asked;    ///< evidence of the asked move, per frame
+  std::vector<double> spotted;  ///< evidence of every move, per frame and move, frame-major
 
   /// Returns the evidence of every move in a frame.
   std::span<const double> SpottedAt(std::size_t frame) const {

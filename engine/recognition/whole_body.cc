@@ -301,7 +301,7 @@ class WholeBodyFollower final : public MoveFollower {
   std::unique_ptr<MoveFollower> judge_;
   bool judge_spots_;
   StepDescriber joints_, limbs_;
-  std::vector<std::vector<ExampleDistance>> always_;  // per move
+  std::vector<std::vector<ExampleDistance>> always_;  // per move: one per example
   std::vector<LatelyLowest> lately_;                  // per move
   std::vector<ExampleDistance> in_window_, images_;   // the asked move: its examples, their mirror images
   double right_ = kInfinity, image_ = kInfinity;      // distances of the nearest passages in the window

@@ -13,7 +13,7 @@ namespace etude {
 
 /// The rule that decides which of several matching pairs of frames is taken.
 enum class Pick {
-  kFirst,     ///< the first one found, as in paper A
+  kFirst,     ///< the first match that is found, as in paper A
   kSmallest,  ///< the smallest distance in the window; paper A also says "the smallest difference"
 };
 
@@ -37,7 +37,7 @@ struct TransitionRequest {
 
 /// The kind of transition that was found.
 enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kInBetween, kForced, kUnbroken };
-/// Returns "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced", "unbroken".
+/// Returns "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced" or "unbroken".
 std::string_view BranchName(Branch branch);
 
 /// The ways in which the joins `minimum-jerk` and `planted-feet` change from the old motion to the new one.
@@ -65,7 +65,7 @@ struct Segment {
   static constexpr int kOwnFrames = -1;
   int clip = kOwnFrames;                        ///< index in the library, or kOwnFrames
   int first = 0;                                ///< index in the clip or in `own`
-  int last = 0;                                 ///< the last frame shown
+  int last = 0;                                 ///< index of the last frame shown
   std::vector<BodyPose> own;                    ///< frames made by the method, only with kOwnFrames
   std::optional<PreferredJoin> preferred = {};  ///< the preferred join into this segment
   bool in_place = false;                        ///< true if `own` is already aligned

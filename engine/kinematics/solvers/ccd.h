@@ -138,9 +138,9 @@ class AndersonMixing {
   const int memory_;
   bool has_last_ = false;
   int differences_ = 0;          // number of stored differences, at most `memory_`
-  Vector last_f_, last_g_;       // of the pair recorded last
+  Vector last_f_, last_g_;       // f and g of the pair recorded last
   Vector rest_;                  // the part of f that is orthogonal to the basis
-  std::vector<Vector> df_, dg_;  // differences, newest first
+  std::vector<Vector> df_, dg_;  // the differences Δf and Δg, newest first
   std::vector<Vector> basis_;    // orthonormal basis of the df that are linearly independent of newer ones
   std::vector<Vector> parts_;    // df_[chosen_[r]] = Σ_k parts_[r][k] · basis_[k]
   std::vector<int> chosen_;

@@ -53,7 +53,7 @@ class Residuals final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(moving_.size()));
   }
 
-  // Returns the forward kinematics at `x`, computed only if an angle has changed.
+  // Returns the forward kinematics at `x`. Recomputes it only if an angle has changed.
   const TreeFrames& FramesAt(const double* x) const {
     bool has_moved = false;
     for (std::size_t i = 0; i < moving_.size(); ++i) {
@@ -122,7 +122,7 @@ class Residuals final : public ceres::CostFunction {
   const KinematicTree& tree_;
   const IkProblem& problem_;
   const std::vector<int> moving_;
-  mutable TreeState state_;  // of the last evaluation
+  mutable TreeState state_;  // the pose of the last evaluation
   mutable TreeFrames frames_;
   mutable TreeJacobian moves_;
 };

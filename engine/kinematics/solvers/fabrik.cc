@@ -25,7 +25,7 @@ class Follower {
     for (std::vector<int>& limbs : led_) std::ranges::reverse(limbs);
   }
 
-  // Updates `angles`, which must be the angles of `frames`.
+  // Changes `angles` so that they follow the passes. `frames` are the frames at `angles`.
   void Follow(const TreeFrames& frames, std::vector<double>& angles) {
     limbs_ = frames.joints;
     // In the first round, each joint fits the tips of its own limb. In the second round, it fits all tips beyond it.
@@ -78,7 +78,7 @@ class Follower {
   std::vector<LimbFrame> limbs_;       // current frames
 };
 
-constexpr double kTiny = 1e-12;  // metres, or relative to a length
+constexpr double kTiny = 1e-12;  // tolerance: in metres, or as a fraction of a length
 
 Eigen::Vector3d ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -157,7 +157,7 @@ void FabrikPass::Run(const TreeFrames& frames) {
     const int above = tree_.joints[limb].parent;
     limbs_[limb].position = limbs_[above].position + limbs_[above].axes * tree_.joints[limb].p_PJ;
     if (tips_[limb].empty()) {
-      // Keep the old R_PL: R_WL = R_WP R_PL.
+      // A limb without tips keeps its rotation R_PL relative to its parent: R_WL = R_WP R_PL.
       limbs_[limb].axes = limbs_[above].axes * glm::transpose(frames.joints[above].axes) * frames.joints[limb].axes;
     } else {
       LayForward(limb);

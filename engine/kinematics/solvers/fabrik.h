@@ -37,7 +37,7 @@ class FabrikPass {
   /// A point T of a limb that leads to a target: the base of another limb, or an effector.
   struct Tip {
     glm::dvec3 p_LT;    ///< T in the frame of the limb L, metres
-    int limb = -1;      ///< the limb whose base it is, or −1
+    int limb = -1;      ///< the limb whose base is at T, or −1
     int effector = -1;  ///< the effector at T, or −1
   };
 
@@ -58,7 +58,7 @@ class FabrikPass {
 
   const KinematicTree& tree_;
   std::span<const EffectorTarget> targets_;
-  std::vector<std::vector<Tip>> tips_;  ///< of each limb
+  std::vector<std::vector<Tip>> tips_;  ///< the tips of each limb
   std::vector<LimbFrame> limbs_;
   std::vector<glm::dvec3> desired_bases_;
   std::vector<glm::dvec3> from_, to_;

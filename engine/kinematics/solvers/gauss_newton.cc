@@ -150,7 +150,7 @@ class BatchQueue final : public GaussNewtonQueue {
   const IkOptions& options_;
   const GaussNewtonCourse course_;
   const std::vector<int> asked_;
-  const bool rounds_angles_;  // float: angles are rounded and may leave their ranges
+  const bool rounds_angles_;  // true in float, where rounded angles may leave their ranges
   std::size_t next_ = 0;
   ScalarHelp& help_;
   IkBatchSolution& solution_;
@@ -277,7 +277,7 @@ IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem,
 
 IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,
                                       Precision precision, const GaussNewtonOptions& own) {
-  // Every problem is kBadInput until it is solved.
+  // Set the status of every problem to kBadInput until it is solved.
   const std::size_t count = problems.count();
   IkBatchSolution solution;
   solution.count = problems.count();

@@ -25,7 +25,7 @@ class GaussNewtonCourse {
     kGoBack,    ///< return to the last pose, because the step from there raised the residual
     kSweep,     ///< go to the pose of restart number `restart` (0: stay), then sweep `sweeps` times or until
                 ///< `CountSweep` returns false
-    kTakeBest,  ///< continue from the best pose
+    kTakeBest,  ///< go to the best pose so far and continue from there
     kEnd,       ///< end at this pose if `has_converged`, else at the best pose
   };
   struct Next {
@@ -54,7 +54,7 @@ class GaussNewtonCourse {
     // Count the iteration and its forward-kinematics pass.
     if (arrival_ == Arrival::kStep) ++iterations_;
     if (arrival_ == Arrival::kStep || arrival_ == Arrival::kStart) ++fk_evaluations_;
-    // After going back, try again with more damping.
+    // After a return to the last pose, try again with more damping.
     if (arrival_ == Arrival::kBack && left_ > 0) return Step(before_);
     // End if the goals are met.
     if (is_met && arrival_ != Arrival::kBack) {
@@ -62,7 +62,7 @@ class GaussNewtonCourse {
       return {};
     }
     if (arrival_ == Arrival::kStart && first_sweeps_ > 0) return Sweep(0, first_sweeps_);
-    // Continue the present phase while it makes progress.
+    // Continue the current phase while it makes progress.
     Next next;
     const bool is_at_end = arrival_ == Arrival::kBack || (arrival_ == Arrival::kStep && is_stuck_);
     if (!is_at_end && Approach(squares, next)) return next;
@@ -74,7 +74,7 @@ class GaussNewtonCourse {
         if (Approach(squares, next)) return next;
         continue;
       }
-      // After the steps come the restarts, then the best pose, then the end.
+      // When the steps near the start have ended, restarts follow, then steps from the best pose, then the end.
       const bool is_best = next.is_best;
       if (phase_ == Phase::kHere) restarts_ = MayGoOn() && !is_out_of_reach() ? max_restarts_ : 0;
       if (MayGoOn() && phase_ != Phase::kSettle) {
@@ -133,7 +133,7 @@ class GaussNewtonCourse {
   static constexpr int kPatience = 6;
   static constexpr int kShareOfPatience = 5;
   static constexpr double kProgress = 0.7;
-  static constexpr double kSettled = 1 - 1e-5;  // replaces kProgress in the last phase
+  static constexpr double kSettled = 1 - 1e-5;  // replaces kProgress in phase kSettle
 
   static constexpr int kRestartSweeps = 2;
 

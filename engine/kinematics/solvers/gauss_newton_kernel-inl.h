@@ -133,7 +133,7 @@ template <class V>
 struct TargetLanes {
   V position[3];
   V axes[3][3];       ///< columns
-  V position_weight;  ///< per square of `kPositionScale`
+  V position_weight;  ///< weight of a squared error in units of `kPositionScale`²
   V axis_weights[3];
 };
 
@@ -212,7 +212,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
   miss.squares = miss.squares + squares;
 }
 
-/// Expands the quadratic of one target into the full Λ and η: sets `sum` to it or adds it.
+/// Expands the quadratic of one target into full matrices Λ and η. Replaces `sum` by them, or adds them to `sum`.
 template <bool kIsFirst, class V>
 HWY_INLINE void Gather(const TargetQuadraticLanes<V>& asked, QuadraticLanes<V>& sum) {
   // `put` sets an entry of Λ or adds to it; float keeps only the lower triangle.

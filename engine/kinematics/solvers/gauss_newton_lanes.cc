@@ -138,7 +138,7 @@ class GaussNewtonLanes {
     const auto is_out_of_reach = [&] { return help_.IsOutOfReach(lane.problem); };
     const GaussNewtonCourse::Next next =
         lane.course.Arrive(GetLane(poses_.miss().squares, n), IsMet(lane, n), is_out_of_reach);
-    // A step: store the pose as the last one, and set up the step's variables.
+    // If the action is a step: store the pose as the last one, and set the step's variables.
     if (next.act == kStep) {
       At(kKeepsLast, n) = 1;
       At(kKeepsBest, n) = next.is_best;
@@ -146,7 +146,7 @@ class GaussNewtonLanes {
       At(kToStart, n) = next.to_start;
       return true;
     }
-    // Other actions: copy stored poses, sweep, or finish the problem.
+    // Any other action: copy stored poses, sweep, or finish the problem.
     if (next.is_best) {
       for (AngleLanes<V>& angle : angles_) SetLane(angle.best, n, GetLane(angle.now, n));
     }
@@ -201,7 +201,7 @@ class GaussNewtonLanes {
       }
       if (2 * unfinished < counting) break;  // the unfinished lanes continue in the next round
     }
-    // Move the lanes that have finished.
+    // Change the angles of the lanes that have finished their active sets.
     for (std::size_t n = 0; n < lanes_.size(); ++n) At(kMoves, n) = lanes_[n].steps && lanes_[n].passes == 0;
     Move();
     for (std::size_t n = 0; n < lanes_.size(); ++n) {

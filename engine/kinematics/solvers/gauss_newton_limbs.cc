@@ -136,7 +136,7 @@ class LimbLanes final : public GaussNewtonLimbs {
     bool is_empty = true;
     for (int l = pack.first_level + pack.level_count; l-- > pack.first_level;) {
       const LimbPacks::Level& level = packs_.levels[l];
-      // Add the effectors of this level.
+      // Add the quadratics of the effectors at this level.
       if (level.ends >= 0 && is_empty) {
         Gather<true>(poses_.AskedAt(level.ends), sum);
         is_empty = false;
@@ -215,7 +215,7 @@ class LimbLanes final : public GaussNewtonLimbs {
     movement[5] = from[1]->high;
     none = from[3]->high;
     Transpose(movement[4], movement[5], last, none);
-    // Substitute outwards, level by level.
+    // Back-substitution: compute the changes of the hinges outwards, level by level.
     FourMask has_changed = Below(Four(0.0), Four(0.0));
     for (const LimbPacks::Level& level : packs_.LevelsOf(pack)) {
       for (int slot = level.first_slot; slot < level.first_slot + level.hinge_count; ++slot) {
@@ -257,7 +257,7 @@ class LimbLanes final : public GaussNewtonLimbs {
   LimbPoses poses_;
   AlignedList<double> numbers_;  // memory of the following rows, one number per angle index
   double *now_, *last_, *best_, *start_, *lower_, *upper_;
-  double *to_start_, *to_lower_, *to_upper_, *change_;  // of the present step
+  double *to_start_, *to_lower_, *to_upper_, *change_;  // rows of the current step
   AlignedList<TrunkState> trunk_;                       // one per trunk joint
   AlignedList<TrunkHinge>& trunk_hinges_;
   AlignedList<HingeLanes<Four>>& hinges_;

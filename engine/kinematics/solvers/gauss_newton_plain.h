@@ -50,7 +50,8 @@ class GaussNewtonStep {
   /// Linearises the targets at `frames`. Returns |e|².
   double Build(const TreeFrames& frames);
 
-  /// Returns the change of every angle, radians. Angles must lie within `ranges` and stay there. `damping` = μ > 0.
+  /// Returns the change of every angle, radians. Angles must lie within `ranges`; the changed angles also do. `damping`
+  /// = μ > 0.
   std::span<const double> Solve(std::span<const double> angles, std::span<const double> preferred,
                                 std::span<const AngleRange> ranges, double damping);
 
@@ -82,7 +83,7 @@ class GaussNewtonStep {
 
   const KinematicTree& tree_;
   std::span<const EffectorTarget> targets_;
-  std::vector<int> inwards_;                // `JointsInwards`
+  std::vector<int> inwards_;                // the result of `JointsInwards`
   std::unique_ptr<Hinge[]> hinges_;         // one per angle
   std::unique_ptr<Quadratic[]> effectors_;  // one per effector
   std::unique_ptr<Quadratic[]> limbs_;      // one per limb

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-constexpr int kMaxDofs = 3;  // of a joint
+constexpr int kMaxDofs = 3;  // maximum number of degrees of freedom of a joint
 
 // Sets the axes of a joint, and finds whether every one of them is ± an axis of its parent.
 void DescribeAxes(const glm::dmat3& R_PJ, GaussNewtonTree::Joint& joint) {
@@ -61,8 +61,8 @@ class LimbPacker {
   struct Joint {
     int child_count = 0, effector_count = 0;
     int next = -1;      // the next joint outwards, within a limb
-    int effector = -1;  // its last effector
-    int trunk = -1;     // its index in the trunk, or −1
+    int effector = -1;  // the last effector of the joint
+    int trunk = -1;     // the joint's index in the trunk, or −1
     bool is_trunk = false;
   };
 

@@ -21,7 +21,7 @@ struct GaussNewtonTree {
                                 ///< opposite direction
     double R_PJ[3][3] = {};     ///< columns
     double p_PJ[3] = {};
-    int quadratic = -1;  ///< index of the quadratic of its limb; its parent may share it
+    int quadratic = -1;  ///< index of the limb's quadratic; the parent's limb may share it
   };
   struct Effector {
     int joint = 0;
@@ -33,7 +33,7 @@ struct GaussNewtonTree {
   /// the parent.
   struct Step {
     int joint = 0;
-    int dof = -1;  ///< −1 for the addition
+    int dof = -1;  ///< −1 if the step is the addition
   };
 
   std::vector<Joint> joints;
@@ -63,10 +63,10 @@ struct LimbPacks {
     alignas(kAlignment) double p_PJ[3][kWidth] = {};
     alignas(kAlignment) double has_hinge[3][kWidth] = {};  ///< 1 if the limb has this hinge, else 0
     bool turns_axes = false;                               ///< true if `R_PJ` of any limb is not the identity
-    int hinge_count = 0;                                   ///< the largest number of hinges of one of its joints
+    int hinge_count = 0;                                   ///< number of hinges of the joint that has the most
     /// Slot of the first hinge; slot s holds the angle indices 4 s … 4 s + 3.
     int first_slot = 0;
-    int ends = -1;  ///< index in `ends` of its effectors, −1 if it has none
+    int ends = -1;  ///< index in LimbPacks::ends of this level's effectors; −1 if it has none
   };
   /// One effector of each of four limbs. For a limb without an effector, the target has weight 0.
   struct Ends {
@@ -74,7 +74,7 @@ struct LimbPacks {
     int effectors[kWidth] = {-1, -1, -1, -1};
   };
   struct Pack {
-    int parents[kWidth] = {};  ///< joints of the trunk
+    int parents[kWidth] = {};  ///< the trunk joint to which each limb is attached
     int first_level = 0, level_count = 0;
   };
   /// A branch of a trunk joint: a limb, or another trunk joint (`pack` = −1).
@@ -91,10 +91,11 @@ struct LimbPacks {
   };
 
   std::vector<Pack> packs;
-  std::vector<Level> levels;  ///< pack after pack, each outwards
+  std::vector<Level> levels;  ///< the levels of the first pack from the trunk outwards, then those of the next pack
   std::vector<Ends> ends;
   std::vector<TrunkJoint> trunk;  ///< parents before children, the root first
-  std::vector<Branch> branches;   ///< joint after joint, in the order in which `GaussNewtonStep` adds them
+  std::vector<Branch> branches;   ///< the branches of each trunk joint, in the order in which `GaussNewtonStep` adds
+                                  ///< them
   std::vector<int> inwards;       ///< trunk joints without the root, each after all joints beyond it
   std::vector<int> places;        ///< the angle index of each degree of freedom
   std::vector<int> end_places;    ///< of each effector: 4 times its index in `ends`, plus its lane

@@ -85,7 +85,7 @@ class GaussNewtonQueue {
  public:
   virtual ~GaussNewtonQueue() = default;
 
-  /// A problem in the layout of `IkBatch::column`, with its allowed ranges as limits.
+  /// A problem in the layout of `IkBatch::column`. Its limits are replaced by its allowed ranges.
   struct Column {
     const double* numbers = nullptr;
     std::size_t stride = 1;

@@ -75,7 +75,7 @@ class IkRun {
   bool MustGoOn() const { return !HasConverged() && !has_stalled_ && solution_.iterations < options_.max_iterations; }
   int iterations() const { return solution_.iterations; }
 
-  /// Ends the run and returns the solution. `angles` must be the angles recorded last, unless `DiscardErrors` was
+  /// Ends the run and returns the solution. `angles` must be the angles recorded last, unless `DiscardErrors` has been
   /// called.
   IkSolution Finish(std::vector<double> angles);
 

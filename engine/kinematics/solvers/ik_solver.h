@@ -32,9 +32,10 @@ struct IkSolver {
   std::string name;
   std::string description;    ///< one line, for people
   bool uses_weights = false;  ///< true if IkOptions::weights and refresh apply
-  bool uses_axes = true;      ///< true if it aligns the axes of effectors; false if it uses positions only
+  bool uses_axes = true;      ///< true if the solver aligns the axes of effectors; false if it uses only their
+                              ///< positions
   std::string_view step;      ///< the word for iterations: "sweeps", "steps"
-  std::vector<IkSolverSetting> settings = {};  ///< those of `IkOptions::solver_settings` that it reads
+  std::vector<IkSolverSetting> settings = {};  ///< the settings in `IkOptions::solver_settings` that the solver reads
   std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)> solve = {};
   /// Prepares the solver for problems of one tree that come one after the other; an empty function if there is nothing
   /// to prepare. Callers use the function `Prepare` instead.

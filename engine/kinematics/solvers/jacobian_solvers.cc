@@ -12,7 +12,7 @@ namespace {
 
 // A matrix is singular if its smallest pivot is not above this share of its largest pivot.
 constexpr double kSingular = 1e-12;
-constexpr int kMaxPasses = 4;  // of an active set
+constexpr int kMaxPasses = 4;  // maximum number of active-set passes per step
 
 }  // namespace
 
@@ -113,7 +113,7 @@ double DampedInverse::Gain(std::span<const double> step) const {
 
 namespace {
 
-// Computes α JᵀdX at `angles`; zeros if no torque is left.
+// Computes α JᵀdX at `angles`; zeros if no angle has a torque within its range.
 void ComputeStep(const LinearTargets& linear, std::span<const double> angles, std::span<const AngleRange> ranges,
                  double gain, Eigen::VectorXd& step) {
   const Eigen::Map<const Eigen::MatrixXd> jacobian(linear.jacobian().data(), linear.rows(), linear.columns());
@@ -189,7 +189,7 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
     TreeState trial = state;
     TreeFrames trial_frames = frames;
     while (run.MustGoOn()) {
-      // Compute the step; more damping makes a singular matrix regular.
+      // Compute the step. If the matrix is singular, raise the damping until it is regular.
       if (own.bounds == Bounds::kClamped) {
         while (!inverse.Step(damping, no_preference, step)) damping *= kDampingStep;
         for (double& turn : step) turn = std::clamp(turn, -kMaxTurn, kMaxTurn);
@@ -311,7 +311,7 @@ class Minimiser {
         growth *= 2;
       }
       run_.RecordFrames(frames_, state_.angles);
-      // Count the steps without enough progress.
+      // Count the steps since the last sufficient reduction of the sum.
       if (cost < progress * fallen_to) {
         fallen_to = cost;
         left = patience;

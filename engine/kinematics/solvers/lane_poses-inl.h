@@ -43,7 +43,7 @@ class LanePoses {
       from += stride;
       return number;
     };
-    // In float, positions are stored relative to the root: smaller numbers keep more digits of a metre.
+    // In float, positions are stored relative to the root: smaller numbers have a finer resolution.
     constexpr bool kFromRoot = sizeof(T) < sizeof(double);
     double origin[3] = {};
     for (int k = 0; k < 3; ++k) {
@@ -86,7 +86,7 @@ class LanePoses {
         frame.position[k] = parent.position[k] + p_PJ_W[k];
         p_RJ_W[k] = frame.position[k] - root.position[k];
       }
-      // Compute the axes before the joint turns: renamed copies of the parent's axes where possible.
+      // Compute the axes before the joint turns. If they are ± the parent's axes, copy these.
       if (joint.renames_axes) {
         for (int c = 0; c < 3; ++c) {
           for (int k = 0; k < 3; ++k) axes[c][k] = parent.axes[joint.from[c]][k] * V(joint.sign[c]);
@@ -132,7 +132,7 @@ class LanePoses {
 
   const GaussNewtonTree& tree_;
   AlignedList<HingeLanes<V>> hinges_;
-  AlignedList<FrameLanes<V>> frames_;  // of each joint's limb
+  AlignedList<FrameLanes<V>> frames_;  // the frame of each joint's limb
   AlignedList<TargetLanes<V>> targets_;
   AlignedList<TargetQuadraticLanes<V>> asked_;
   AlignedList<ResidualLanes<V>> miss_;

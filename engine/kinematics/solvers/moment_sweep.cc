@@ -240,7 +240,7 @@ double MomentSweep::State::TurnHinges() {
 void MomentSweep::State::PlaceLimbs() {
   for (std::size_t n = tree.steps.size(); n-- > 0;) {
     const SweepTree::Step& step = tree.steps[n];
-    // A hinge: rotate two axes by its angle.
+    // If the step is a hinge: rotate two axes by the hinge's angle.
     if (step.hinge >= 0) {
       const double c = hinges[step.hinge].c, s = hinges[step.hinge].s;
       const Quad from = axes[step.from], towards = axes[step.towards];
@@ -248,12 +248,12 @@ void MomentSweep::State::PlaceLimbs() {
       axes[step.turned + 1] = towards * c - from * s;
       continue;
     }
-    // From limb to limb: shift the axes by p_PJ, and rotate them unless R_PJ is the identity.
+    // If the step leads to the next limb: shift the axes by p_PJ, and rotate them unless R_PJ is the identity.
     const SweepTree::Joint& joint = tree.joints[step.joint];
     const int(&above)[3] = tree.joints[joint.parent].axes;
     if (joint.is_aligned) {
       for (int k = 0; k < 3; ++k) {
-        if (joint.base[k] == above[k]) continue;  // the parent's own axis
+        if (joint.base[k] == above[k]) continue;  // this is the parent's own axis
         axes[joint.base[k]] = LessLast(axes[above[k]], joint.p_PJ[k]);
       }
       continue;
@@ -339,7 +339,7 @@ void MomentSweep::SetHalfTangents(std::span<const double> half_tangents) {
   for (std::size_t i = 0; i < half_tangents.size(); ++i) {
     HingeState& hinge = state_->hinges[i];
     const double t = half_tangents[i], scale = 1 / (1 + t * t);
-    // Cosine before limits are applied, relative to the middle.
+    // Cosine and sine of the angle before limits are applied, relative to the middle.
     const double free_c = (1 - t * t) * scale, free_s = 2 * t * scale;
     const bool is_inside = free_c >= hinge.cos_half;
     const double c = is_inside ? free_c : hinge.cos_half;

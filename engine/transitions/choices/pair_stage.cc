@@ -211,7 +211,8 @@ Burden PairStage::Rate(std::span<const BodyPose> played, const glm::dvec3& shift
   return burden;
 }
 
-/// Returns the larger of the distances that the zero-moment points of both clips have in a frame of the join.
+/// Returns the distance of the zero-moment point from the supports in a frame of the join: the larger one of both
+/// clips.
 double PairStage::OwnBeside(int frame) const {
   return std::max(LargestNear(playing_beside_, pair_.leave + frame), LargestNear(wanted_beside_, pair_.enter + frame));
 }

@@ -90,7 +90,7 @@ class PairStage {
   WindowTurns turns_;
   std::array<std::array<Limbs, kWays.size()>, kLengths_s.size()> limbs_;
   const FramePair pair_;
-  std::span<const double> playing_beside_, wanted_beside_;  // MotionLibrary::beside_feet
+  std::span<const double> playing_beside_, wanted_beside_;  // MotionLibrary::beside_feet of both clips
   const int before_;                                        // number of frames of `playing_` before the pair's frame
   std::span<const BodyPose> playing_;                       // the playing clip around the join
   std::vector<BodyPose> wanted_;                            // the wanted clip from the pair on, aligned on the floor

@@ -20,7 +20,7 @@ struct PlayedJoin {
   std::size_t length = 0;  ///< index of the join's length in kLengths_s
   int frames = 0;          ///< length of the join
   JoinStyle way = JoinStyle::kDirect;
-  bool carried = false;  ///< PreferredJoin::carried
+  bool carried = false;  ///< see PreferredJoin::carried
   double cost_s = 0;
   int unsupported = 0;  ///< the longest run of frames without support
 };

@@ -23,8 +23,8 @@ struct Splice {
   /// The last segment's own frames, aligned but without the join, from its first shown frame on. The first of them
   /// corresponds to the frame of the last point.
   std::vector<BodyPose> wanted;
-  /// The own frames, aligned but without the join, of each segment between the first and the last; empty for frames
-  /// that a choice made.
+  /// The own frames, aligned but without the join, of each segment between the first and the last; an empty list for a
+  /// segment whose frames a choice made.
   std::vector<std::vector<BodyPose>> between;
 };
 

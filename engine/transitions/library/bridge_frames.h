@@ -12,8 +12,8 @@ namespace etude {
 
 /// Paper A's rule that a frame with a large head motion is never a bridge frame. The limits are ours.
 struct HeadRule {
-  double max_bend = Radians(30);        ///< radians between the neck and the trunk's line
-  double max_turn_speed = Radians(60);  ///< radians per second, of the neck relative to the trunk
+  double max_bend = Radians(30);        ///< largest angle between the neck and the line of the trunk
+  double max_turn_speed = Radians(60);  ///< largest angular velocity of the neck relative to the trunk, per second
 };
 
 /// For each frame, returns true if the head is still enough.

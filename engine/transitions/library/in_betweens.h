@@ -37,14 +37,14 @@ class Tween {
 
  private:
   struct Turn {
-    glm::dvec3 start{0}, axis{0};  ///< unit vectors; arms and head: in the trunk's frame, others: in the world
+    glm::dvec3 start{0}, axis{0};  ///< unit vectors: of arms and head in the trunk's frame, of other limbs in the world
     double angle = 0;
     glm::dvec3 At(double part) const;
   };
   static Turn MakeTurn(const glm::dvec3& from, const glm::dvec3& to);
 
   BodyPose from_;
-  double low_from_ = 0, low_to_ = 0;  ///< heights of the lowest joints
+  double low_from_ = 0, low_to_ = 0;  ///< heights of the lowest joints of both poses
   Role planted_ = Role::kLeftAnkle;
   glm::dquat trunk_from_{1, 0, 0, 0}, trunk_to_{1, 0, 0, 0};
   std::array<Turn, kRoleCount> turns_;  ///< indexed by the limb's child joint

@@ -182,7 +182,7 @@ bool GradeIndex::HasMatchBelow(int level, int node, const Query& query, int& hin
     if (of.first_frames[child] >= query.own_first && of.last_frames[child] < query.own_end) return;
     children[children_count++] = {bounds.squared[lane], child};
   });
-  // Search the nearest child first, because it most likely holds a match.
+  // Search the nearest child first, because it most likely contains a match.
   std::sort(children.begin(), children.begin() + children_count);
   return std::any_of(children.begin(), children.begin() + children_count,
                      [&](const auto& child) { return HasMatchBelow(level - 1, child.second, query, hint); });

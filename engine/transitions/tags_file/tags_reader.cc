@@ -95,7 +95,7 @@ std::string OneLine(const char* message) {
 
 struct XmlReader::State {
   std::string file;
-  std::string text;  // the text that the reader reads
+  std::string text;  // the document, which `reader` reads in place
   std::optional<Error> complaint;
   XmlPtr<xmlSchema, xmlSchemaFree> schema;
   XmlPtr<xmlTextReader, xmlFreeTextReader> reader;  // declared after the schema, and therefore destroyed before it
