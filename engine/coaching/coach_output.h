@@ -103,7 +103,7 @@ struct CoachOutput {
   bool asks = false;                  ///< true if `open` has changed: call MoveFollower::Ask before the next frame
   std::string_view say;               ///< a line of text for the player; "" if there is none
   std::string_view hint;              ///< key pose of the move that is asked for or shown, in words; lives with the
-                                      ///< Dance
+                                      ///< dance
   const BodyPose* picture = nullptr;  ///< the key pose of `hint` as a picture; lives with the Dance
   PlayerHint stand = PlayerHint::kNone;
   MusicCommand music;

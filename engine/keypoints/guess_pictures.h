@@ -17,8 +17,7 @@ struct PictureOfFilm {
   PixelFit fit;           ///< the fit that the caller declares
   glm::dvec2 film_px{0};  ///< the size of the film's pictures
   SeenPeople people;      ///< in the file's pixels
-  bool is_sized = false;  ///< true if the file states the picture size, so that `people` are certainly in the film's
-                          ///< pixels
+  bool is_sized = false;  ///< true if the file states the picture size; `people` are then in the film's pixels
 };
 
 /// The map that converts the keypoints of a film to pixels of the rig.

@@ -379,8 +379,7 @@ class Mender {
   PairGeometry geometry_;
   std::size_t frames_ = 0;
   double scale_px_ = 1;
-  std::array<std::vector<std::vector<bool>>, kGroups> flips_;  ///< true if the label is swapped; indexed
-                                                               ///< [group][camera][frame]
+  std::array<std::vector<std::vector<bool>>, kGroups> flips_;  ///< true if swapped; [group][camera][frame]
   std::vector<Mend> mends_;
 };
 

@@ -15,8 +15,7 @@ struct PixelFit {
   glm::dvec2 shift{0};
   int quarter_turns = 0;     ///< clockwise, 0 to 3
   bool is_mirrored = false;  ///< left and right exchanged, before the rotation
-  glm::dvec2 size{0};        ///< size of the film's picture before the rotation; used only for rotated or mirrored
-                             ///< pictures
+  glm::dvec2 size{0};        ///< size of the film's picture before the rotation; used if it is rotated or mirrored
 
   glm::dvec2 ToFilm(const glm::dvec2& rig) const;
   glm::dvec2 ToRig(const glm::dvec2& film) const;

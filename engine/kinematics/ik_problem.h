@@ -101,8 +101,7 @@ struct IkOptions {
   WeightRule weights = WeightRule::kAdaptive;  ///< the rule of weights; only CCD solvers use it
   WeightRefresh refresh = WeightRefresh::kSweep;
   SolverSettings solver_settings;  ///< settings of single solvers, which `IkSolver::solve` reads
-  bool limits = true;              ///< true: angles stay within their limits (paper B, section 3.7.1); false: all
-                                   ///< angles are free
+  bool limits = true;              ///< true: angles stay within their limits (paper B, 3.7.1); false: they are free
   /// Maximum difference between an angle and its start angle, radians (paper B, section 3.7.2). nullopt means no limit.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;
@@ -181,8 +180,9 @@ std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& pr
 /// returns false, the targets may still be unreachable.
 bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem);
 
-/// Returns the range that every angle may take: the intersection of its limits (if on) with the angle-change tolerance
-/// around its start angle. The start angle is first clamped into its limits, so the intersection is never empty.
+/// Returns the range that every angle may take: the intersection of its limits (if `IkOptions::limits` is true) with
+/// the angle-change tolerance around its start angle. The start angle is first clamped into its limits, so the
+/// intersection is never empty.
 std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options);
 /// Returns the range that one angle may take, by the rule of `AllowedRanges`.
 AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options);

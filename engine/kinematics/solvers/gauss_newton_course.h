@@ -23,8 +23,7 @@ class GaussNewtonCourse {
   enum class Act {
     kStep,      ///< store the pose as the last one, step with `damping`, and report the step to `Stepped`
     kGoBack,    ///< return to the last pose, because the step from there raised the residual
-    kSweep,     ///< go to the pose of restart number `restart` (0: stay), then sweep `sweeps` times or until
-                ///< `CountSweep` returns false
+    kSweep,     ///< go to restart number `restart` (0: stay), then sweep `sweeps` times or until `CountSweep` is false
     kTakeBest,  ///< go to the best pose so far and continue from there
     kEnd,       ///< end at this pose if `has_converged`, else at the best pose
   };

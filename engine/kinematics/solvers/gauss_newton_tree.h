@@ -17,8 +17,7 @@ struct GaussNewtonTree {
     int first_dof = 0, dof_count = 0;
     bool renames_axes = false;  ///< true if every axis of `R_PJ` is ± an axis of the parent
     int from[3] = {};           ///< for each axis: the index of the parent's axis along which it lies
-    double sign[3] = {};        ///< for each axis: 1 if it has the direction of the parent's axis, −1 if it has the
-                                ///< opposite direction
+    double sign[3] = {};        ///< for each axis: 1 if it points as the parent's axis does, −1 if opposite to it
     double R_PJ[3][3] = {};     ///< columns
     double p_PJ[3] = {};
     int quadratic = -1;  ///< index of the limb's quadratic; the parent's limb may share it
@@ -39,8 +38,7 @@ struct GaussNewtonTree {
   std::vector<Joint> joints;
   std::vector<Effector> effectors;
   std::vector<int> inwards;  ///< joints sorted by height, each after all joints beyond it (`JointsInwards`)
-  std::vector<Step> steps;   ///< in the order of `inwards`; joints of one height alternate, so that a CPU can overlap
-                             ///< them
+  std::vector<Step> steps;   ///< in the order of `inwards`; joints of one height alternate, so that a CPU overlaps them
   std::vector<int> unasked;  ///< joints that move no effector
   int quadratic_count = 0;
   int dof_count = 0;
@@ -94,8 +92,7 @@ struct LimbPacks {
   std::vector<Level> levels;  ///< the levels of the first pack from the trunk outwards, then those of the next pack
   std::vector<Ends> ends;
   std::vector<TrunkJoint> trunk;  ///< parents before children, the root first
-  std::vector<Branch> branches;   ///< the branches of each trunk joint, in the order in which `GaussNewtonStep` adds
-                                  ///< them
+  std::vector<Branch> branches;   ///< of the first trunk joint, then of the next, in the order in which they are added
   std::vector<int> inwards;       ///< trunk joints without the root, each after all joints beyond it
   std::vector<int> places;        ///< the angle index of each degree of freedom
   std::vector<int> end_places;    ///< of each effector: 4 times its index in `ends`, plus its lane

@@ -32,8 +32,7 @@ struct IkSolver {
   std::string name;
   std::string description;    ///< one line, for people
   bool uses_weights = false;  ///< true if IkOptions::weights and refresh apply
-  bool uses_axes = true;      ///< true if the solver aligns the axes of effectors; false if it uses only their
-                              ///< positions
+  bool uses_axes = true;      ///< true if the solver aligns the axes of effectors; false if only their positions
   std::string_view step;      ///< the word for iterations: "sweeps", "steps"
   std::vector<IkSolverSetting> settings = {};  ///< the settings in `IkOptions::solver_settings` that the solver reads
   std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)> solve = {};

@@ -54,7 +54,7 @@ class DampedInverse {
   int rows_ = 0, columns_ = 0;
   std::vector<double> jacobian_, residuals_;
   std::vector<double> gram_, damped_;  ///< JJᵀ and JJᵀ + μI, rows_ × rows_; only the lower triangle is used
-  std::vector<double> duals_;          ///< y
+  std::vector<double> duals_;          ///< y of `StepWithin`
   std::vector<signed char> sides_;     ///< of each angle: −1 if fixed at its lower end, 1 at its upper end, 0 if free
   bool is_exact_ = false;
 };

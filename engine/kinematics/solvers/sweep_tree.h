@@ -27,8 +27,7 @@ struct SweepTree {
     bool is_first = false;  ///< true for the first effector of its limb
     double p_LE[3] = {};
     int names[3] = {};     ///< for each axis of the sweep: the index of the tree's axis
-    double signs[3] = {};  ///< for each axis: 1 if it has the direction of the tree's axis, −1 if it has the opposite
-                           ///< direction
+    double signs[3] = {};  ///< for each axis: 1 if it points as the tree's axis does, −1 if opposite to it
   };
   /// A step: one hinge of a joint turns, or, after all hinges of the joint, moments pass from its limb to the parent
   /// limb.

@@ -36,7 +36,7 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// - the deviation of the shown frames from the nearer clip's frames, as the root mean square over joints, integrated
 ///   over time (`invented_per_s`);
 /// - one second for each 10 cm that feet slide;
-/// - 0.1 s for each frame in which no foot bears weight by FootPlan;
+/// - 0.1 s for each frame in which no foot carries weight (FootPlan);
 /// - 6 s for each frame beyond two in the longest run of frames in which FindSupport finds no support;
 /// - 6 s for each 10 cm that the zero-moment point is off the supports for one second (ZeroMomentOffset). Only the part
 ///   that exceeds 10 cm and the distance in either clip at that time counts, and only while something supports the

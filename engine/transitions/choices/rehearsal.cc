@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², about free fall
 constexpr double kLimbShare = 0.6;     // this part of the limbs' cost counts before feet are planted
-constexpr double kUnplanted_s = 0.1;   // cost of a frame in which no foot bears weight by FootPlan
+constexpr double kUnplanted_s = 0.1;   // cost of a frame in which no foot carries weight (FootPlan)
 constexpr double kFloating_s = 6;      // cost of each frame beyond kHop in the longest run without support
 constexpr int kHop = 2;
 constexpr double kSlides_s = 10;   // cost of one metre that feet slide

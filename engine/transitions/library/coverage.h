@@ -28,8 +28,7 @@ struct CoverageOptions {
   double budget_s = 1;             ///< maximal wait before a transition, seconds
   bool with_pairs = true;          ///< also compute Coverage::Of
   std::vector<int> wanted = {};    ///< clips for which WithoutWayInto is computed; all if `with_pairs`
-  OnProgress on_progress = {};     ///< receives the number of clips compared so far; a clip counts once per kind of
-                                   ///< comparison
+  OnProgress on_progress = {};     ///< receives the number of clips compared; a clip counts once per kind of comparison
 };
 
 /// The coverage of every clip of a library. A clip's last frame is never a match, because it has no next frame.

@@ -43,8 +43,8 @@ Stance StanceOf(const BodyPose& pose, double standing_hip_height);
 /// would then raise or lower a body that nothing supports; only a recorded clip can show such a motion.
 bool NeedsClip(const Stance& a, const Stance& b);
 
-/// Returns, for every frame of a clip, the distance of the zero-moment point from the joints that bear the body by
-/// FindBearing, metres; 0 in a frame without such joints.
+/// Returns, for every frame of a clip, the distance of the zero-moment point from the joints that support the body
+/// (FindBearing), metres; 0 in a frame without such joints.
 std::vector<double> ZeroMomentOffsets(const BodyMotion& motion);
 
 /// Clips of one body at 30 Hz, with their tags and in-betweens.
@@ -57,8 +57,8 @@ struct TaggedLibrary {
 
 /// A tagged library with its motions and the data that choices and joins need.
 struct MotionLibrary : TaggedLibrary {
-  std::vector<BodyMotion> motions;                    ///< one per clip, in the order of `tagged`, like all members
-                                                      ///< below
+  std::vector<BodyMotion> motions;                    ///< one per clip, in the order of `tagged`, like the other
+                                                      ///< members
   std::vector<std::vector<MotionFeatures>> features;
   std::vector<double> usual_accelerations;            ///< UsualAcceleration of each clip
   std::vector<std::vector<Stance>> stances;

@@ -54,8 +54,7 @@ struct BridgeTags {
   bool within_class = false;
   int min_clips = 2, most_per_class = 0;                      ///< as in TagRules
   double max_neck_bend_deg = 0, max_neck_turn_deg_per_s = 0;  ///< as in HeadRule
-  double standing_hip_height_m = 0;                           ///< standing hip height of the body that performs all
-                                                              ///< clips
+  double standing_hip_height_m = 0;                           ///< of the body that performs all clips
   std::vector<ClipTags> clips;                                ///< with unique names
   std::vector<KeyTag> keys;                                   ///< the first is the hub
 
