@@ -102,9 +102,8 @@ struct CoachOutput {
   std::optional<OpenWindow> open;     ///< the window that is open in the next frame
   bool asks = false;                  ///< true if `open` has changed: call MoveFollower::Ask before the next frame
   std::string_view say;               ///< a line of text for the player; "" if there is none
-  std::string_view hint;              ///< key pose of the move that is asked for or shown, in words; lives with the
-                                      ///< dance
-  const BodyPose* picture = nullptr;  ///< the key pose of `hint` as a picture; lives with the Dance
+  std::string_view hint;              ///< key pose of the move asked for or shown, in words that the Dance owns
+  const BodyPose* picture = nullptr;  ///< the key pose of `hint` as a picture, which the Dance owns
   PlayerHint stand = PlayerHint::kNone;
   MusicCommand music;
   /// The delay of the dance behind the music, in seconds; negative if the dance is early, nullopt if it follows no

@@ -57,8 +57,7 @@ struct TaggedLibrary {
 
 /// A tagged library with its motions and the data that choices and joins need.
 struct MotionLibrary : TaggedLibrary {
-  std::vector<BodyMotion> motions;                    ///< one per clip, in the order of `tagged`, like the other
-                                                      ///< members
+  std::vector<BodyMotion> motions;                    ///< one per clip, as in `tagged` and the other members
   std::vector<std::vector<MotionFeatures>> features;
   std::vector<double> usual_accelerations;            ///< UsualAcceleration of each clip
   std::vector<std::vector<Stance>> stances;
