@@ -79,8 +79,8 @@ Result<CaptureBody> FittedBody(const RestBody& rest);
 BodyPose ToBodyPose(const CaptureBody& body, const TreeState& state);
 BodyPose ToBodyPose(const CaptureBody& body, const TreeFrames& frames);
 
-/// Makes the inverse-kinematics problem that follows a start pose: move the ends back to their observed positions, and
-/// point the last limbs in their observed directions if `CaptureBody::ends` gives them a direction. The smallest
+/// Makes the inverse-kinematics problem whose start pose is `start`: move the ends back to their observed positions,
+/// and point the last limbs in their observed directions if `CaptureBody::ends` gives them a direction. The smallest
 /// rotation to that direction also turns the X and Y axes of the start pose into those of the target, which have weight
 /// 0. Parts that `observation` lacks have weight 0. The limits are those of the tree.
 IkProblem MakeImageProblem(const CaptureBody& body, const LimbObservation& observation, const TreeState& start);

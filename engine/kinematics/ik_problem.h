@@ -176,7 +176,7 @@ std::string_view FindFault(const IkOptions& options);
 std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& problem);
 
 /// Returns true if the limbs are certainly too short for the targets at any angles: the target of an effector is
-/// farther from the root, or from another effector's target, than the stretched limbs between them are long. If it
+/// farther from the root, or from another effector's target, than the total length of the limbs in between. If it
 /// returns false, the targets may still be unreachable.
 bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem);
 

@@ -235,8 +235,8 @@ GaussNewtonTree::GaussNewtonTree(const KinematicTree& tree)
     for (int k = 0; k < 3; ++k) joints[n].p_PJ[k] = from.p_PJ[k];
     DescribeAxes(from.R_PJ, joints[n]);
   }
-  // Assign memory to the quadratic of each limb. A limb without effectors of its own shares the
-  // memory of its first branch.
+  // Assign memory to the quadratic of each limb. A limb without effectors of its own shares the memory of its first
+  // branch.
   for (const etude::Effector& from : tree.effectors) {
     Effector& made = effectors.emplace_back(Effector{from.joint, {from.p_LE.x, from.p_LE.y, from.p_LE.z}});
     int& quadratic = joints[from.joint].quadratic;

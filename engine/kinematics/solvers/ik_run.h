@@ -100,8 +100,8 @@ class IkRun {
 /// Returns the solution that every solver gives for a faulty problem.
 IkSolution BadInput(const KinematicTree& tree);
 
-/// Runs a solver that moves from pose to pose. The start has been recorded when `iterate(run, state, frames)` is
-/// called; it leaves the resulting angles in `state`:
+/// Runs a solver that moves from pose to pose. `iterate(run, state, frames)` is called once, after the start has been
+/// recorded, and must leave the resulting angles in `state`:
 ///
 ///     while (run.MustGoOn()) {
 ///       … one iteration: new state.angles …

@@ -97,7 +97,7 @@ double LargestNear(std::span<const double> values, int frame) {
 
 void CostMeter::Add(const BodyPose& shown) {
   if (count_ > 0) {
-    const std::size_t f = count_ - 1;  // the index of `here_`; its neighbours on both sides are known by now
+    const std::size_t f = count_ - 1;  // the frame of `here_`; both neighbours of this frame are known now
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const glm::dvec3 jump = SecondDifferenceOf(before_, here_, shown, j);
       const double least = std::max(own_[f][j], usual_) + worst_excess_, squared = glm::dot(jump, jump);

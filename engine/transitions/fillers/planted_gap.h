@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// Changes the legs of a filled gap: feet that bear the body stay in place, and other feet make steps. *(Ours.)*
+/// Changes the legs of a filled gap: feet that support the body stay in place, and other feet make steps. *(Ours.)*
 ///
 /// A foot stands at an end of the gap if it is among the lowest joints there and at rest. If no foot stands at either
 /// end, nothing is changed. Otherwise each foot gets a sequence of stances and steps; its cost measures the deviation

@@ -34,7 +34,7 @@ BodyPose FrameBefore(const BodyPose& first, const BodyPose& second);
 /// Plays the first segment's clip from its start (not from the request) to the segment's end, then the other segments
 /// to the end of the last one. Every segment is rotated and moved on the floor (yaw, x, z) to continue where the
 /// previous segment ended, unless it is already in place (Segment::in_place). There must be at least two segments, each
-/// with at least one frame to play. `join_settings` holds the values for JoinKind::begin.
+/// with at least one frame to play. `join_settings` are the values for JoinKind::begin.
 Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment> segments, const JoinKind& join,
                       std::span<const double> join_settings = {});
 

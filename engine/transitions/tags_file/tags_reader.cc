@@ -101,7 +101,8 @@ struct XmlReader::State {
   XmlPtr<xmlTextReader, xmlFreeTextReader> reader;  // declared after the schema, and therefore destroyed before it
 
   /// The error handler of libxml2. Only the first error is kept, because it may cause the later ones. Warnings count as
-  /// errors, because no tags file causes one. This is a template because libxml2 2.12 made the handler's error const.
+  /// errors, because no valid tags file causes a warning. This is a template because libxml2 2.12 made the handler's
+  /// error const.
   template <typename ErrorPointer>
   static void Complain(void* self, ErrorPointer error) {
     State& state = *static_cast<State*>(self);
