@@ -54,7 +54,7 @@ struct CoachOptions {
   /// True if the player dances as in a mirror: the player's left side follows the coach's right side. The caller must
   /// then mirror the input (CoachSession does so); in the coach, this option only changes what it says.
   bool player_mirrors = false;
-  /// After this number of consecutive mistakes, the coach plays the act `puzzled` in place of the head shake.
+  /// After this number of consecutive mistakes, the coach plays the act `puzzled` in place of head shake or wave.
   int puzzled_after = 3;
   /// The maximum number of corrections of one repetition; then the dance continues.
   int most_corrections = 3;

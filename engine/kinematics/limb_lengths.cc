@@ -84,8 +84,8 @@ class Completer {
       CompleteDirections({chain.middle, chain.wrist, chain.end});
     }
     CompleteDirections({kHead});
-    // Find the midpoints of hips and shoulders from the observed ends. If there are none, each follows from the other
-    // midpoint, from the head, or from `like`.
+    // Find the midpoints of hips and shoulders from the observed ends. Without observed ends, a midpoint follows from
+    // the other midpoint, from the head, or from `like`.
     const LimbPair legs{kLeftLegChain,  kRightLegChain, lengths_.hip_width,
                         lengths_.thigh, lengths_.shank, lengths_.foot};
     const LimbPair arms{kLeftArmChain,      kRightArmChain,   lengths_.shoulder_width,
