@@ -570,7 +570,7 @@ class Mistakes(EtudeCase):
     # Errors of two pixels hide how late a film is from what mends clocks by itself; not that it is.
     def test_a_late_film_of_keypoints_that_err_is_doubted_and_can_be_set(self):
         told, errors, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2)
-        self.assertRegex(told, r"doubtful: cam2: its frames seem (2\.[89]|3\.[012]) frames later than cam1's; --sync 0\.2 would set it")
+        self.assertRegex(told, r"doubtful: cam2: its frames seem (2\.[89]|3\.[012]) frames later than cam1's; --sync 0\.2 would correct it")
         asked, by_sync, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2, more=("--sync", "0.2"))
         self.assertNotIn("doubtful: cam2: its frames", asked)
         self.assertLess(np.median(by_sync), 0.85 * np.median(errors))

@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kOnlyLive = "a session answers back: it has no problem that could be told beforehand";
+constexpr const char* kOnlyLive = "a session depends on the method's answers, so it has no problem that could be written beforehand";
 
 /// The data that all worlds of one condition share.
 struct Rehearsal {
@@ -134,7 +134,7 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
   }
   if (shared.condition.sight.has_cameras && shared.condition.operating_point) {
     return Fail(input.condition.node().place,
-                "'operating_point' needs the skeleton sensor, because cameras show every method something else; use "
+                "'operating_point' needs the skeleton sensor, because with cameras every method has its own skeletons; use "
                 "'threshold'");
   }
   ASSIGN_OR_RETURN(shared.stage, SharedStage(shared.condition.song));
