@@ -221,7 +221,8 @@ void AddCoach(py::module_& module) {
       .def("step", &StepCoach, "positions_m"_a, "states"_a = "", "body_seen"_a = true, "music_s"_a = py::none(),
            py::keep_alive<0, 1>(),  // texts are the dance's
            "Takes the sensor's next frame, at 30 Hz (as RecogniserStream.update does), and gives the CoachFrame to "
-           "show. music_s: what is heard now, seconds into the song. Raises BadInput for another shape, invalid letters, and "
+           "show. music_s: what is heard now, seconds into the song. Raises BadInput for another shape, invalid "
+           "letters, and "
            "what is not finite.");
 }
 

@@ -192,7 +192,8 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
     fields.push_back(
         MethodKey::Number("inferred_weight",
                           Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::inferred_weight),
-                          kShare, "Weight of values that need an inferred joint; values of tracked joints have weight 1.")
+                          kShare,
+                          "Weight of values that need an inferred joint; values of tracked joints have weight 1.")
             .With("weights", {"adaptive"}));
     fields.push_back(MethodKey::Number("threshold", &Method::threshold, kThresholds,
                                        "Lowest evidence at which a move counts as performed.")

@@ -176,8 +176,9 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
 }
 
 void MeasureBeats(const EvaluatedPair& pair, const EvaluationSideData& side, CellResult& result) {
-  const char* why = side.music_beats_s ? "the motion contains no beat of the music or of its own, or a joint is not seen throughout"
-                                       : "needs `music_beats`";
+  const char* why = side.music_beats_s
+                        ? "the motion contains no beat of the music or of its own, or a joint is not seen throughout"
+                        : "needs `music_beats`";
   for (const auto& [id, measure] : {std::pair("beat_alignment@bailando", &BeatAlignmentOfMusic),
                                     {"beat_alignment@mint", &BeatAlignmentOfMotion}}) {
     const auto value = side.music_beats_s ? measure(pair.found, pair.rate_hz, *side.music_beats_s) : std::nullopt;
