@@ -89,7 +89,7 @@ constexpr const char* kCalibrateExamples =
     "  etude calibrate --print board.png                                a board for A4 or Letter, squares of 34 mm\n"
     "  etude calibrate --print board.png --board 8x8x0.1                a board of 80 cm, squares of 10 cm\n"
     "  etude calibrate left/ right/ --board 8x8x0.1 -o rig.yaml         folders of PNG or JPG pictures\n"
-    "  etude calibrate left.mp4 right.mp4 --board 8x8x0.1 -o rig.yaml   films that run alike\n"
+    "  etude calibrate left.mp4 right.mp4 --board 8x8x0.1 -o rig.yaml   films that began together\n"
     "  etude calibrate a.mp4 b.mp4 --board charuco:5x7x0.04 --sync 2 --picture found.png -o rig.yaml\n"
     "  etude calibrate a.mp4 b.mp4 --board charuco:4x5x0.054 -o rig.yaml   a board of OpenCV's, squares counted\n"
     "  etude calibrate pairs.csv --size 1920x1080 -o rig.yaml           measured points";

@@ -116,8 +116,8 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   auto* silhouettes =
       command
           ->add_flag("--silhouettes", options->silhouettes,
-                     "Fit the body to the person's outlines in the films: one person, who moves, and cameras that "
-                     "do not. With --keypoints, too, these determine the limbs' lengths, and front and back")
+                     "Fit the body to the person's outlines in the films; one person moves, and the cameras do not. If "
+                     "--keypoints is given, too, the keypoints determine the limbs' lengths, and front and back")
           ->excludes(marks);
   auto* masks =
       command

@@ -299,7 +299,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
   command->add_option("-o,--output", options->output, "The sensor file to write (YAML)")->required();
   command
       ->add_option("--base", options->base,
-                   "The sensor from which all values are taken that are not fitted: v1, v2 or a sensor file")
+                   "The sensor that gives all values that are not fitted: v1, v2 or a sensor file")
       ->capture_default_str();
   command->add_option("--worlds", options->worlds, "Simulated recordings per step")
       ->check(CLI::Range(1, 10000))

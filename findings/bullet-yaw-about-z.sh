@@ -62,4 +62,4 @@ roll of 0.5
 getEulerYPR of 0.5 about Y: yaw 0.000, pitch 0.500, roll 0.000
 SAID
 diff expected said
-echo 'As stated: the two functions give the same angle to three other axes.'
+echo 'As described: the two functions give the same angle to three other axes.'

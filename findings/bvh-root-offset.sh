@@ -70,4 +70,4 @@ node heights.mjs | tee said
 
 grep -qxF 'three.js r187: hips at 180.000, chest at 220.000' said
 grep -qxF 'Assimp 5.2.5: hips at 90.000, chest at 110.000' said
-echo 'As stated.'
+echo 'The behaviour is as described.'

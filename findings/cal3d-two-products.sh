@@ -47,4 +47,4 @@ z * x : 0.5 -0.5 0.5 0.5
 x * z : 0.5 0.5 0.5 0.5
 X turned by 90 degrees about Z: 0 -1 0
 EXPECTED
-echo 'As stated: the two operators multiply in opposite orders.'
+echo 'As described: the two operators multiply in opposite orders.'

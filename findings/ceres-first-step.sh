@@ -86,4 +86,4 @@ first='iteration 1: cost 2.944659, successful 1, step_norm'
 grep -qxF "$first 0.549087" said-2.1
 grep -qxF "$first 0.000000" said-2.2
 cmp <(sed 1,2d said-2.1) <(sed 1,2d said-2.2)
-echo 'As stated: only the first step has another length.'
+echo 'As described: only the first step has another length.'

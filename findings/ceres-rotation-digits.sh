@@ -57,4 +57,4 @@ check() {  # LARGEST-COMPONENT EXPECTED-COUNT
 check 3 38035
 check 0.001 225
 check 1e-8 36707
-echo 'As stated.'
+echo 'The behaviour is as described.'

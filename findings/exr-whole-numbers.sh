@@ -3,7 +3,7 @@
 #
 # UINT is one of OpenEXR's three pixel types ("Technical Introduction to OpenEXR"), meant for object identifiers and the like: a
 # camera's labels beside its colours. Both readers count no bytes for such a channel when they look for the others, so that what
-# lies behind it comes from the wrong place. The picture has the size and the format it should have; only its values are others.
+# lies behind it comes from the wrong place. The picture has the right size and format; only its values are wrong.
 # OpenEXR's own library, which writes the file here, reads it back as it was.
 #
 # Needs: curl, dpkg-deb, g++, npm and node (18 or later), Debian 12, x86-64. Downloads 6 MB, writes to a temporary folder only.
@@ -99,4 +99,4 @@ labels: the first pixel of each row
   parse-exr 1.0.2 (0.25, 9.81e-45, 1) (0.5, 0.25, 9.81e-45) (1, 0.5, 0.25)
 SAID
 diff expected said
-echo 'As stated.'
+echo 'The behaviour is as described.'

@@ -4,7 +4,7 @@
 # Each key of a curve says how it goes on (KeyAttrFlags: constant, linear, cubic with automatic or given tangents), and the three curves
 # of a rotation go on as angles. The FBX SDK (in FBX2glTF 0.9.7) does so. The other two make a quaternion of each key and turn from
 # one to the next along the shortest arc: a joint that stands still until its next key is half-way there at half the time. Even
-# where all keys are linear, a joint that turns about two axes takes another way. Files with a key in every frame hide it. Nothing is said.
+# where all keys are linear, a joint that turns about two axes takes another path. Files with a key in every frame hide it. There is no warning.
 #
 # Needs: curl, dpkg-deb, npm and node (18 or later), Debian 12 or later, x86-64. Downloads 23 MB, writes to a temporary folder only.
 set -euo pipefail
@@ -193,4 +193,4 @@ cubic with automatic tangents, one axis
   Assimp 5.2.5 : degrees from the FBX SDK's pose, at each quarter of the time: 0.0, 3.1, 0.0, 3.1, 0.0
 SAID
 diff expected said
-echo 'As stated.'
+echo 'The behaviour is as described.'

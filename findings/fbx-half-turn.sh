@@ -188,4 +188,4 @@ keys 170 179 -172
   three.js r187: 0.76 s, at each quarter 170.0, 174.5, 179.0, 183.5, 183.6
 SAID
 diff expected said
-echo 'As stated.'
+echo 'The behaviour is as described.'

@@ -120,4 +120,4 @@ RotationActive 1
   Assimp 5.2.5 : the knee lies towards (0.460, 0.316, -0.830)
 SAID
 diff expected said
-echo 'As stated.'
+echo 'The behaviour is as described.'

@@ -56,4 +56,4 @@ from 10 to 30 degrees, at 0.5: interpolate 32.5, slerp 20.0
 from 10 to 30 degrees, at 1.0: interpolate 55.0, slerp 30.0
 SAID
 diff expected said
-echo 'As stated.'
+echo 'The behaviour is as described.'

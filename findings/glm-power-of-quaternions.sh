@@ -4,7 +4,7 @@
 # Where |w| exceeds cos(1/2) both take the angle from the vector part, to save its digits, and forget the sign of w: below -0.878 the
 # angle is measured from the wrong end. A turn of 344 degrees, the other form of one of -16, becomes one of 16, the opposite turn, and
 # pow(q, 0.5), by which poses are blended, half of that. Products of quaternions have a negative w half the time. axis(q) and slerp are
-# right. The version is Debian 12's and 13's; 1.0.1 has mended angle and not pow.
+# right. The version is Debian 12's and 13's; 1.0.1 corrects angle, but not pow.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 0.2 MB, writes to a temporary folder only.
 set -euo pipefail
@@ -65,4 +65,4 @@ GLM 0.9.9.8
 of 100000 unit quaternions, evenly spread: angle and axis give another rotation for 2355, pow 1 for 2355
 SAID
 diff expected said
-echo 'As stated.'
+echo 'The behaviour is as described.'

@@ -65,4 +65,4 @@ for file in floats packed; do LD_LIBRARY_PATH=$libraries ./keys $file.gltf; done
 grep -q '^floats.gltf: 3 of 3 keys are rotations, the last is 0 0 0.707107 0.707107$' said
 grep -q '^packed.gltf: 0 of 31 keys are rotations' said
 python3 -c "import json; g = json.load(open('packed.gltf')); assert any(a['componentType'] == 5122 and a.get('normalized') for a in g['accessors'])"
-echo 'As stated: no key of the packed file is read as a rotation.'
+echo 'As described: no key of the packed file is read as a rotation.'

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# glTF Transform 4.5.1's meshopt(), as it is by default, makes unit quaternions of rotation splines' tangents: another motion.
+# glTF Transform 4.5.1's meshopt(), as it is by default, turns the tangents of rotation splines into unit quaternions: the motion changes.
 #
 # The output of a CUBICSPLINE sampler holds an in-tangent, a value and an out-tangent for each key (glTF 2.0, appendix C). meshopt()
 # of level "high", the default, sends the whole output through EXT_meshopt_compression's quaternion filter (its appendix B), which keeps
 # unit quaternions only and without their sign. A zero tangent comes back as (1, 0, 0, 0), a turn of 90 degrees that eases in and out
-# stands at 24 degrees after a quarter of its time, for 13, and nothing is said. Level "medium" and samplers of LINEAR keep their motion.
+# stands at 24 degrees after a quarter of its time, instead of 13, without a warning. Level "medium" and samplers of LINEAR keep their motion.
 #
 # Needs: npm and node (18 or later). Downloads 2 MB, writes to a temporary folder only.
 set -euo pipefail
@@ -80,4 +80,4 @@ CUBICSPLINE, default level; errors of the input: 0
   after:  first key's out-tangent 1.00,0.00,0.00,0.00; 24.2 degrees at 0.25 s
 SAID
 diff expected said
-echo 'As stated: the splines that the default level has packed are others.'
+echo 'As described: the default level changes the splines.'

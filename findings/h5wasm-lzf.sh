@@ -63,4 +63,4 @@ gzip: 10 numbers, right
 lzf: 10 numbers, none of them an error, but not those of the file
 EXPECTED
 grep -q "required filter 'lzf' is not registered" trace
-echo 'As stated: HDF5 prints a trace, and the caller gets numbers.'
+echo 'As described: HDF5 prints a trace, and the caller gets numbers.'

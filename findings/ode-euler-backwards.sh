@@ -46,4 +46,4 @@ echo 'ODE 0.16.2 (Debian 12):'
 LD_LIBRARY_PATH=$(echo "$folder"/unpacked/usr/lib/*-linux-gnu) ./turn | tee said
 
 for axis in X Y Z; do echo "0.5 about $axis: Euler -0.500, axis and angle +0.500, quaternion +0.500"; done | diff - said
-echo 'As stated: Euler angles turn backwards.'
+echo 'As described: Euler angles turn backwards.'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # OpenCV 5.0.0's undistort gives other pixels than initUndistortRectifyMap and remap, of which it "is simply a combination".
 #
-# So its documentation says, and in 4.12.0 the pictures are equal. OpenCV 5 interpolates at the place that a map of floats names, where 4.x
+# Its documentation says so, and in 4.12.0 the pictures are equal. OpenCV 5 interpolates at the place that a map of floats names, where 4.x
 # rounded it to 1/32 of a pixel; undistort still makes maps of whole numbers and rounds. Of a chequered picture, seen through an ordinary
 # lens, a tenth of all pixels differ, by up to 4 grey levels at the edges that calibrations measure. Maps of type CV_16SC2 give what
 # undistort gives, and a program that undistorts film by kept maps and still pictures by undistort has two cameras.
@@ -50,4 +50,4 @@ OpenCV 5.0.0
   maps of CV_16SC2: 0 of 19200 pixels differ, by at most 0
 SAID
 diff expected said
-echo 'As stated.'
+echo 'The behaviour is as described.'

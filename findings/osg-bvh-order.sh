@@ -74,4 +74,4 @@ xyz=$(read_as XYZ Xrotation Yrotation Zrotation)
 printf 'channels %s: read %s, meant %s\n' Z,X,Y "$zxy" "$(meant ZXY)" X,Y,Z "$xyz" "$(meant XYZ)"
 
 [ "$zxy" = "$(meant ZXY)" ] && [ "$xyz" = "$zxy" ] && [ "$xyz" != "$(meant XYZ)" ]
-echo 'As stated: the names of the channels make no difference.'
+echo 'As described: the names of the channels make no difference.'

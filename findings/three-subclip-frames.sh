@@ -38,4 +38,4 @@ node cut.mjs | tee said
 grep -qxF '30 Hz: 268 of 589 start late, 273 end late; the first: 17 to 26 gives 18 to 27' said
 grep -qxF '100 Hz: 285 of 589 start late, 284 end late; the first: 1 to 10 gives 2 to 11' said
 grep -qxF '32 Hz: 0 of 589 start late, 0 end late' said
-echo 'As stated.'
+echo 'The behaviour is as described.'

@@ -59,4 +59,4 @@ done
 
 grep -qxF 'tinygltf 2.7.0: loaded 1, callbacks called yes, bytes of the memory' said-2.7.0
 grep -qxF 'tinygltf 2.9.5: loaded 1, callbacks called never, bytes of the disk' said-2.9.5
-echo 'As stated.'
+echo 'The behaviour is as described.'

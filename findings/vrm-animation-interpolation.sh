@@ -4,7 +4,7 @@
 # VRMC_vrm_animation takes "the animations of the glTF core" as they are (its section "Animations"), and a glTF sampler is STEP,
 # LINEAR or CUBICSPLINE (glTF 2.0, appendix C). createVRMAnimationClip makes a new track of the times and values and forgets how to
 # read them: STEP becomes LINEAR, and of a spline's triples (in-tangent, value, out-tangent) the in-tangent is taken for the rotation.
-# three.js itself plays the same file as it is meant. Nothing is said.
+# three.js itself plays the same file correctly. There is no warning.
 #
 # Needs: npm and node (18 or later). Downloads 6 MB, writes to a temporary folder only.
 set -euo pipefail
@@ -86,4 +86,4 @@ STEP (errors of the file: 0): three.js (0.000, 0.000, 0.000, 1.000), three-vrm (
 CUBICSPLINE (errors of the file: 0): three.js (0.115, 0.000, 0.000, 0.993), three-vrm (0.000, 0.000, 0.000, 0.000)
 SAID
 diff expected said
-echo 'As stated.'
+echo 'The behaviour is as described.'

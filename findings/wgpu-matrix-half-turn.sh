@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# wgpu-matrix 3.4.2's quat.rotationTo gives (0, 0, 0, 0) for two opposite directions: not a rotation, where a half turn is asked for.
+# wgpu-matrix 3.4.2's quat.rotationTo gives (0, 0, 0, 0) for two opposite directions: this is not a rotation, although a half turn is asked for.
 #
 # The documentation promises the shortest rotation from one unit vector to another. The library has a branch for opposite vectors, which
 # should turn by 180 degrees about a perpendicular axis, but the axis comes out as zero. A matrix made of that quaternion is the
@@ -32,4 +32,4 @@ X to Y: wgpu-matrix 0.00 0.00 0.71 0.71 turns 1.00 0.00 0.00 to 0.00 1.00 0.00, 
 X to -X: wgpu-matrix 0.00 0.00 0.00 0.00 turns 1.00 0.00 0.00 to 1.00 0.00 0.00, gl-matrix to -1.00 0.00 0.00
 Y to -Y: wgpu-matrix 0.00 0.00 0.00 0.00 turns 0.00 1.00 0.00 to 0.00 1.00 0.00, gl-matrix to 0.00 -1.00 0.00
 EXPECTED
-echo 'As stated: opposite directions give the zero quaternion.'
+echo 'As described: opposite directions give the zero quaternion.'

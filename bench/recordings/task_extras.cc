@@ -27,11 +27,11 @@ static void Describe(RecordFields& fields, TransitionExtras::Point& point) {
 }
 
 static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidate) {
-  fields.Tolerated("point", candidate.point, "index of the transition point that it is for, from 0");
+  fields.Tolerated("point", candidate.point, "index of its transition point, from 0");
   fields.Required("from_frame", candidate.from_frame, "frame of the clip left at that point");
   fields.Required("to_frame", candidate.to_frame, "frame of the clip entered there");
   fields.Required("distance", candidate.distance, "fuzzy distance between the two frames");
-  fields.Tolerated("partials", candidate.partials, "like those of a transition point");
+  fields.Tolerated("partials", candidate.partials, "as at a transition point");
   fields.Tolerated("cost", candidate.cost, "the cost by which the choice ranks; null if that is the distance");
   fields.Tolerated("outcome", candidate.outcome, "`taken`, `too far`, `later` or `worse`");
 }
@@ -45,7 +45,7 @@ static void Describe(RecordFields& fields, TransitionExtras& extras) {
   fields.Tolerated("branch", extras.branch, "the way that was taken: `front half`, `in-between`, …");
   fields.Tolerated("why", extras.why, "why this way was taken, one sentence");
   fields.Tolerated("request_frame", extras.request_frame,
-                   "frame of the request, in the recording; negative: before it begins");
+                   "frame of the request; negative if it is before the recording");
   fields.Tolerated("wait_s", extras.wait_s, "from the request until the wanted clip plays");
   fields.Tolerated("threshold", extras.threshold, "the threshold: frames match if their distance is below it");
   fields.Tolerated("natural_limit_cm", extras.natural_limit_cm, "the largest jump that counts as natural");
@@ -76,7 +76,7 @@ static void Describe(RecordFields& fields, DetectionExtras::Event& event) {
   fields.Required("fault", event.fault, "`none`, or names");
   fields.Required("danced", event.danced, "the move danced; empty if none");
   fields.Required("begin_frame", event.begin_frame, "the first of its window");
-  fields.Required("end_frame", event.end_frame, "the first after its window");
+  fields.Required("end_frame", event.end_frame, "the first frame after its window");
   fields.Required("called_right", event.called_right, "whether the method praised it");
   fields.Required("score", event.score, "the method's confidence that it was right");
   fields.Optional("called_frame", event.called_frame, "the frame in which it was praised; absent if it was not");
@@ -90,7 +90,7 @@ static void Describe(RecordFields& fields, DetectionExtras::Alarm& alarm) {
 static void Describe(RecordFields& fields, DetectionExtras& extras) {
   fields.Format("etude-detection", 1);
   fields.Optional("threshold", extras.threshold, "threshold of judging; absent for the answer of a method outside");
-  fields.List("moves", extras.moves, "those that may be asked for");
+  fields.List("moves", extras.moves, "the moves that may be asked for");
   fields.List("events", extras.events, "the performances asked for, in order of time");
   fields.List("alarms", extras.alarms, "detections of moves that nobody danced");
   fields.List("joint_states", extras.joint_states,
@@ -105,14 +105,14 @@ static void Describe(RecordFields& fields, CoachExtras::Mode& mode) {
 static void Describe(RecordFields& fields, CoachExtras::Performance& performance) {
   fields.Required("move", performance.move, "the move asked for");
   fields.Required("begin_frame", performance.begin_frame, "the first of its window");
-  fields.Required("end_frame", performance.end_frame, "the first after its window");
+  fields.Required("end_frame", performance.end_frame, "the first frame after its window");
   fields.Required("truth", performance.truth, "`right`, `grey` or `wrong`");
   fields.Required("faults", performance.faults, "`none`, or names");
   fields.Required("called", performance.called, "`right`, `wrong` or `unjudged`, by the coach");
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Words& words) {
-  fields.Required("begin_frame", words.begin_frame, "their first frame; they stay until the next");
+  fields.Required("begin_frame", words.begin_frame, "their first frame; they stay until the next words");
   fields.Required("say", words.say, "a short word to the learner");
   fields.Required("hint", words.hint, "what to do better");
   fields.Optional("picture", words.picture, "the key pose that the hint is about, sixty numbers; absent without one");
@@ -134,7 +134,7 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
   fields.List("corrections", extras.corrections, "frames in which a correction was decided on");
   fields.List("transitions", extras.transitions, "the last frames before the coach changes clips");
   fields.List("beats_s", extras.beats_s, "when the music's beats sounded, seconds since the first frame");
-  fields.List("joint_states", extras.joint_states, "like those of `detection`");
+  fields.List("joint_states", extras.joint_states, "as in `detection`");
 }
 
 static void Describe(RecordFields& fields, PlausibilityExtras::Fault& fault) {
@@ -160,11 +160,10 @@ std::string RecordingsAsMarkdown() {
          "## ik\n\nTracks `truth`, `start` and, step by step, `solution`.\n\n" +
          RecordFields::Page<IkExtras>() +
          "\n## transition\n\n"
-         "Tracks: `coach`, from some seconds before the transition to the end of what is judged, and some seconds\n"
-         "after it; `left`, the clip left, in the same frames and up to 0.4 s longer; `wanted`, the wanted clip "
-         "without\n"
-         "the join, from the last of `transition_frames` on; `through`, in the same way a clip played on\n"
-         "the way, from the first of them on. Older runs keep `coach` alone.\n\n" +
+         "Tracks: `coach`, from some seconds before the transition to some seconds after the judged frames; `left`,\n"
+         "the clip that is left, in the same frames and up to 0.4 s longer; `wanted`, the wanted clip without the\n"
+         "join, from the last of `transition_frames` on; `through`, a clip that is played in between, without\n"
+         "joins, from the first of them on. Recordings of older runs hold only `coach`.\n\n" +
          RecordFields::Page<TransitionExtras>() +
          "\n## detection\n\nTracks `truth` and `sensed`, as the recogniser saw it.\n\n" +
          RecordFields::Page<DetectionExtras>() +

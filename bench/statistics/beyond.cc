@@ -182,7 +182,7 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
     return fmt::format("{} of {} differ: too few to exclude rare differences", beyond.differing,
                        CountUnits(beyond.units, unit));
   }
-  if (within) return "the middle is too small to matter, but whether the mean is remains open";
+  if (within) return "the middle is too small to matter, but the mean may not be";
   if (!IsOnOneSide(beyond)) return "the interval contains zero and differences that matter";
   if (!MeanAgrees(beyond))
     return "the middle differs, but the mean does not differ in the same direction: a few outweigh the others";
@@ -192,7 +192,7 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
                : fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", *beyond.test.p, comparisons);
   }
   if (std::abs(*beyond.difference) < metric.practical)
-    return "it differs, but it is open whether by as much as matters";
+    return "it differs, but it is undecided whether enough to matter";
   return "it differs, but neither direction is better";
 }
 

@@ -33,7 +33,7 @@ std::string NoteOnMissing(const Comparison& c) {
 }
 
 std::string NotWithFailures(Verdict of_pairs) {
-  return fmt::format("“{}” where both have a value, but not when failing counts as losing", VerdictName(of_pairs));
+  return fmt::format("“{}” where both have a value, but not if a failure counts as a loss", VerdictName(of_pairs));
 }
 
 /// Returns the numbers of worlds in which the method is better and worse, as text. A median hides differences in fewer
@@ -82,8 +82,8 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
     if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
     return fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", p, comparisons);
   }
-  // Both show a difference, but it is too small, or the metric has no direction.
-  if (std::abs(*c.difference) < metric.practical) return "it differs, but it is open whether by as much as matters";
+  // Both find a difference, but it is too small, or the metric has no direction.
+  if (std::abs(*c.difference) < metric.practical) return "it differs, but it is undecided whether enough to matter";
   return "it differs, but neither direction is better";
 }
 
@@ -252,7 +252,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   std::string detail = fmt::format(
       "difference {:.4g}{} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}", *found.difference, unit,
       100 * expectation.confidence, *found.ci_low, *found.ci_high, *found.p_holm, found.pairs, missing);
-  if (found.verdict != of_pairs) return {outcome, detail + "; it does not hold when failing counts as losing"};
+  if (found.verdict != of_pairs) return {outcome, detail + "; it does not hold if a failure counts as a loss"};
   const double alpha = 1 - expectation.confidence;
   if (outcome == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
     detail += fmt::format("; {} of them differ, and {:.4g} % needs at least {}", found.differing,

@@ -166,7 +166,7 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
     }
   }
   if (channels.others > 0)
-    motion.remark = fmt::format("{} channels that are no positions are left out", channels.others);
+    motion.remark = fmt::format("{} channels that are not positions are left out", channels.others);
   return motion;
 }
 

@@ -182,8 +182,8 @@ std::vector<FaultRule> MakeFaultRules() {
            kTorn_s)},
       {"gaps", "s",
        fmt::format(
-           "For {:g} s, every frame lacks a joint that other frames show; or the file goes on so long before or "
-           "after the frames that show all needed joints.",
+           "For {:g} s, every frame lacks a joint that other frames show; or the file continues for as long before "
+           "or after the frames that show all needed joints.",
            kGap_s)},
       {"passes", "m",
        fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm within that of "

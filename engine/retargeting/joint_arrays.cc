@@ -178,8 +178,8 @@ Result<double> RateOf(const Npz& arrays, const std::string& file) {
       "{}; allowed: one number from {:g} to {:g}, as numpy.savez(…, positions=p, rate_hz=30) writes it, or `rate: "
       "30` in a joint map",
       rate != nullptr || std::ranges::find(arrays.skipped, "rate_hz") != arrays.skipped.end()
-          ? "rate_hz is no such number"
-          : "positions without rate_hz, the frames a second",
+          ? "rate_hz is not such a number"
+          : "positions without rate_hz, the frames per second",
       kMinRate_hz, kMaxRate_hz);
 }
 
@@ -342,7 +342,7 @@ bool IsBodyNpz(const Npz& arrays) {
 
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told) {
   if (!arrays.arrays.contains("positions")) {
-    return Fail({file}, "positions: no plain numbers; allowed: floats and whole numbers");
+    return Fail({file}, "positions: not plain numbers; allowed: floats and whole numbers");
   }
   const NumberArray& positions = arrays.arrays.at("positions");
   const auto& shape = positions.shape;

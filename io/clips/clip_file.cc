@@ -198,12 +198,12 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       ASSIGN_OR_RETURN(auto clip, ReadKimodo(arrays, path));
       file = FileOfOne(ClipFormat::kNpz, std::move(clip));
       file.roles = JointMapOverrides{.joints = {}, .metres_per_unit = 1, .up = UpAxis::kY};
-      file.remarks.push_back("Kimodo's arrays, which tell no rate: 30 Hz is its model's");
+      file.remarks.push_back("Kimodo's arrays, which state no rate: 30 Hz, as its model has");
       return file;
     }
     if (const auto joints = JointsOfSam(arrays)) {
       return FileOfArray(*joints, layout, path, options,
-                         "SAM 3D Body's arrays: the camera's frame, turned to Y up as if it was level");
+                         "SAM 3D Body's arrays in the camera's frame, turned to Y up as if the camera were level");
     }
     ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));

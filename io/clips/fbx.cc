@@ -26,7 +26,7 @@ constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the pr
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
 constexpr std::size_t kMaxGlbBytes = std::size_t{1} << 30;
 constexpr unsigned kMinVersion = 7;
-constexpr const char* kReaderFailed = "a damaged FBX file: its reader gave up";
+constexpr const char* kReaderFailed = "a damaged FBX file: its reader stopped";
 constexpr char kSaidGlb = 'G', kSaidComplaint = 'C';
 
 constexpr std::string_view kBinaryStart = "Kaydara FBX Binary", kTextStart = "; FBX";
@@ -104,7 +104,7 @@ int ReadFilesInChild(int socket) {
   GlbOfFbxBytes* read = nullptr;
   // Load the module once. If that fails, every file gets the same complaint.
   if (void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL); module == nullptr) {
-    missing = std::string("an FBX file, for which assimp is not there (") + ::dlerror() +
+    missing = std::string("an FBX file, but assimp is missing (") + ::dlerror() +
               "); install Debian's libassimp-dev, and build again";
   } else if (const void* symbol = ::dlsym(module, "etude_clips_assimp"); symbol == nullptr) {
     missing = std::string(kModule) + " is not a module of this program";
@@ -160,8 +160,8 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     constexpr double kLong = 0.1;  // seconds; between keys that are closer, every curve is nearly a straight line
     if (const double apart = std::strtod(said->c_str() + name + 1, nullptr); apart > kLong) {
       remarks.push_back(
-          fmt::format("its keys are up to {:.2f} s apart: between them joints go the shortest way at an "
-                      "even speed, whatever curves the file has",
+          fmt::format("its keys are up to {:.2f} s apart: between them joints turn along the shortest "
+                      "arc at a constant speed, whatever curves the file has",
                       apart));
     }
     motion.remark = Join(remarks, "; ");

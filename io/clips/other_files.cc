@@ -18,8 +18,8 @@ struct Mark {
 };
 
 constexpr const char* kOpenSim =
-    "an OpenSim table (.mot, .sto), whose model is another file: write its markers as TRC there";
-constexpr const char* kFilm = "a film, picture or sound, no motion: etude capture finds joints in films";
+    "an OpenSim table (.mot, .sto), whose model is another file: export its markers as TRC from OpenSim";
+constexpr const char* kFilm = "a film, picture or sound, not a motion: etude capture recovers motions from films";
 constexpr const char* kJsonList =
     "a JSON list; write joints with numpy.save, frames × joints × 3; keypoints of pictures are for etude capture";
 constexpr const char* kMaya = "a file of Maya: export FBX there";

@@ -58,7 +58,8 @@ std::vector<std::string> NamesOf(const auto& all,
 void AddMotions(py::module_& module) {
   py::class_<BodyMotion>(module, "Motion", "Frames at a fixed rate: where the twenty joints of `ROLES` are.")
       .def(py::init(&MakeMotion), "positions_m"_a, "rate_hz"_a = 30.0,
-           "positions_m: frames x 20 x 3, metres, Y up. Raises BadInput for another shape or what is not finite.")
+           "positions_m: frames x 20 x 3, metres, Y up. Raises BadInput for another shape or numbers that are not "
+           "finite.")
       .def_readonly("rate_hz", &BodyMotion::rate_hz)
       .def_property_readonly("positions_m", ArraysOf(&BodyMotion::poses), "A copy: frames x 20 x 3, metres, Y up.")
       .def("__len__", [](const BodyMotion& motion) { return motion.poses.size(); });

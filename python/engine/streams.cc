@@ -217,11 +217,12 @@ void AddCoach(py::module_& module) {
            "recogniser: 'whole-body', 'dtw', 'nearest'. dances_at_once: without a clap. mirrors: players dance as in a "
            "mirror. smooths: the stream goes through Kinect's own filter first. right_from: from which evidence on a "
            "performance is right, in (0, 1]; None: the recogniser's. choice, join: of TRANSITION_CHOICES and "
-           "TRANSITION_JOINS. Raises BadInput for a dance that breaks its form and names that there are not.")
+           "TRANSITION_JOINS. Raises BadInput for a dance that is invalid, and for unknown names.")
       .def("step", &StepCoach, "positions_m"_a, "states"_a = "", "body_seen"_a = true, "music_s"_a = py::none(),
            py::keep_alive<0, 1>(),  // the returned texts refer to the dance
            "Takes the sensor's next frame, at 30 Hz (as RecogniserStream.update does), and gives the CoachFrame to "
-           "show. music_s: what is heard now, seconds into the song. Raises BadInput for another shape, letters, and "
+           "show. music_s: what is heard now, seconds into the song. Raises BadInput for another shape, invalid "
+           "letters, and "
            "what is not finite.");
 }
 
@@ -237,7 +238,7 @@ void AddStreams(py::module_& module) {
       "a joint as RecogniserStream.update takes them, per frame whether it saw a body). sensor: 'v1', 'v2' or "
       "the text of a sensor file (docs/sensor.md). strength: a factor on all errors, 0 to 10. distance_m: along the "
       "floor from the middle of where the body moves, 0.5 to 10; turn_rad: about that middle, 0 on its +Z side; "
-      "height_m: 0.1 to 3. The same seed errs the same. Raises BadInput for what is out of range.");
+      "height_m: 0.1 to 3. The same seed errs the same. Raises BadInput for values out of range.");
 }
 
 }  // namespace etude::engine

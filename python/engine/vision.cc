@@ -147,7 +147,8 @@ void AddVision(py::module_& module) {
       "outlines; NaN in frames in which fewer than two cameras show anybody. cameras: two or more that stand "
       "still, pinholes. masks: of each camera, frames x height x width of bool, of the camera's size or smaller "
       "by one whole factor. stature_m: of an average adult, 0.5 to 2.5; or measured: a Motion of this person, of "
-      "which limb lengths are taken. Raises BadInput for what does not go together, and for lenses that bend.");
+      "which limb lengths are taken. Raises BadInput for cameras and masks that do not fit each other, and for lenses "
+      "with distortion.");
 }
 
 }  // namespace etude::engine

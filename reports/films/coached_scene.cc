@@ -48,10 +48,10 @@ Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell) {
   if (facts.learner.poses.size() != facts.coach.poses.size() || facts.sensed.poses.size() != facts.coach.poses.size()) {
     return Fail(place, "its tracks differ in length");
   }
-  if (!extras) return Fail(place, "its extras are no coached session's: {}", extras.error().message);
+  if (!extras) return Fail(place, "its extras are not those of a coached session: {}", extras.error().message);
   static_cast<CoachExtras&>(facts) = *std::move(extras);
   KeepWithin(facts);
-  if (facts.modes.empty() || facts.words.empty()) return Fail(place, "its extras tell of no mode or words");
+  if (facts.modes.empty() || facts.words.empty()) return Fail(place, "its extras hold no mode or words");
   return facts;
 }
 

@@ -128,7 +128,7 @@ PaperTable AngleTable(const char* caption, const AngleFigures& figures) {
 // A cell that keeps one series of errors keeps them all.
 constexpr std::string_view kErrorSeries = "position_error_x_cm";
 
-constexpr std::string_view kNoAxis = "a — stands where the joint has no such axis.";
+constexpr std::string_view kNoAxis = "a dash means that the joint has no such axis.";
 
 using Rows = std::vector<const Row*>;
 /// Reduces the values of a figure in several trials to one value.

@@ -83,10 +83,10 @@ std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condit
     svg += BarSvg(bar, y, axis, words.scale);
     y += kBarStep;
   }
-  const std::string order =
-      budget.is_shapley
-          ? "Shapley values: the error that each stage saves if it is made true, averaged over all orders of the stages"
-          : "stages are made true one after the other, from the top; another order may divide the error differently";
+  const std::string order = budget.is_shapley ? "Shapley values: the error that each stage saves if it is replaced by "
+                                                "the truth, averaged over all orders of the stages"
+                                              : "stages are replaced by the truth one after the other, from the top; "
+                                                "another order may divide the error differently";
   return fmt::format(
       "<figure><figcaption>What each stage costs in {}{}{}: {}. Means of {} worlds; lines are 95 % "
       "intervals.</figcaption>{}</svg></figure>",

@@ -212,9 +212,9 @@ std::string WhatItDoes(const Beyond& beyond, const LeftOut& extreme, double prac
   const double all = *beyond.mean;
   const bool matters = std::abs(all) >= practical;
   const bool still = std::abs(extreme.difference) >= practical && (extreme.difference < 0) == (all < 0);
-  if (matters && !still) return fmt::format("then it no longer matters: it depends on this {}", OneOf(unit));
+  if (matters && !still) return fmt::format("the difference depends on this {}", OneOf(unit));
   if (!matters && std::abs(extreme.difference) >= practical) {
-    return fmt::format("then it would matter: this {} hides the difference", OneOf(unit));
+    return fmt::format("this {} hides a difference that matters", OneOf(unit));
   }
   return fmt::format("the difference does not depend on any single {}", OneOf(unit));
 }

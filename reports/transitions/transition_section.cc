@@ -176,7 +176,7 @@ std::string AllCandidates(const RecordedRequest& world) {
 
 std::string WorldHtml(const RecordedRequest& world) {
   std::string html =
-      fmt::format("<details class=\"transitions\"><summary>Why each transition went where it went: {}, {}</summary>",
+      fmt::format("<details class=\"transitions\"><summary>Why each transition took its frames: {}, {}</summary>",
                   EscapeMarkup(world.Request()), EscapeMarkup(world.Name()));
   html += WaysTable(world) + Distances(world) + AllCandidates(world);
   return html + LeftOutHtml(world.transitions.size(), kMaxMethods, "methods", "the folder recordings") + "</details>";
@@ -267,7 +267,7 @@ std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds) {
 
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds) {
   if (worlds.empty()) return "";
-  std::string text = "\n<details><summary>Why each transition went where it went</summary>\n";
+  std::string text = "\n<details><summary>Why each transition took its frames</summary>\n";
   for (std::size_t i = 0; i < std::min(worlds.size(), kMaxWorlds); ++i) text += WorldMarkdown(worlds[i]);
   const std::string rest = LeftOutWords(worlds.size(), kMaxWorlds, "requests", "the folder recordings");
   return text + (rest.empty() ? "" : "\n" + rest + "\n") + "\n</details>\n";

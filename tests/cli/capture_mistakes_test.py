@@ -539,7 +539,7 @@ class Mistakes(EtudeCase):
         for cameras, noise_px in ((2, 2), (4, 2), (4, 6)) if HEAVY else ((2, 2),):
             with self.subTest(cameras=cameras, noise_px=noise_px):
                 told, _, _ = self.capture(rig, cameras=cameras, pixels=shares, noise_px=noise_px)
-                self.assertRegex(told, r"doubtful: shoulders are 0\.5\d of a leg .* shares of a square about the picture, they are 0\.4|"
+                self.assertRegex(told, r"doubtful: the shoulders' width is 0\.5\d of a leg.* shares of a square about the picture, it is 0\.4|"
                                        r"corrected: keypoints are shares of a square about the picture")
 
     def test_a_camera_that_fits_nobody_is_named(self):
@@ -571,7 +571,7 @@ class Mistakes(EtudeCase):
     # Errors of two pixels hide how late a film is from what mends clocks by itself; not that it is.
     def test_a_late_film_of_keypoints_that_err_is_doubted_and_can_be_set(self):
         told, errors, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2)
-        self.assertRegex(told, r"doubtful: cam2: its frames seem (2\.[89]|3\.[012]) frames later than cam1's; --sync 0\.2 would set it")
+        self.assertRegex(told, r"doubtful: cam2: its frames seem (2\.[89]|3\.[012]) frames later than cam1's; --sync 0\.2 would correct it")
         asked, by_sync, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2, more=("--sync", "0.2"))
         self.assertNotIn("doubtful: cam2: its frames", asked)
         self.assertLess(np.median(by_sync), 0.85 * np.median(errors))

@@ -157,7 +157,7 @@ class Fbx(MotionFileCase):
         for rate, told in ((30, False), (2, True)):
             path, _ = self.fbx("far.fbx", 1, "y", frames=4, rate=rate)
             note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
-            self.assertEqual("its keys are up to 0.50 s apart: between them joints go the shortest way" in note, told, note)
+            self.assertEqual("its keys are up to 0.50 s apart: between them joints turn along the shortest arc" in note, told, note)
 
     def test_fbx_without_an_animation_is_told_so(self):
         path, _ = self.fbx("rest.fbx", 1, "y")

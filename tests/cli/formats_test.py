@@ -82,11 +82,11 @@ class Formats(MotionFileCase):
         body = numpy.load(self.shared_body())
         path = self.folder / "t.npz"
         numpy.savez(path, positions=body["positions"], names=body["names"])
-        self.refused(path, "positions without rate_hz, the frames a second; allowed: one number from 0.1 to 10000, as numpy.savez(")
+        self.refused(path, "positions without rate_hz, the frames per second; allowed: one number from 0.1 to 10000, as numpy.savez(")
         told = self.write("map.yaml", "rate: 50\n")
         self.assertIn("at 50 Hz", self.ends(0, "clip", "info", path, "--map", told).stdout)
         numpy.savez(path, positions=body["positions"], names=body["names"], rate_hz="30")
-        self.refused(path, "rate_hz is no such number")
+        self.refused(path, "rate_hz is not such a number")
         # Of 170 m, or lying on Z: by the options, or by keys.
         z_up = body["positions"][:, :, [0, 2, 1]] * [1, -1, 1]
         for unit, name in (1000, "mm"), (100, "cm"):

@@ -204,7 +204,7 @@ TEST(Page, ExplainsRecordedSwitches) {
   EXPECT_THAT(WritePage(run, {}), Not(HasSubstr("Partial distances")));
   AddTransitions(run);
   const std::string page = WritePage(run, {});
-  EXPECT_THAT(page, HasSubstr("Why each transition went where it went: clap → side kick, trial 7"));
+  EXPECT_THAT(page, HasSubstr("Why each transition took its frames: clap → side kick, trial 7"));
   EXPECT_THAT(page, HasSubstr(".partials"));
 }
 

@@ -96,7 +96,7 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
   }
   if (steps.after_px < steps.before_px) {
     options.listener.print(
-        fmt::format("residual of all films if they ran in step {:.3f} px, with these times {:.3f} px\n",
+        fmt::format("residual of all films without delays {:.3f} px, with these delays {:.3f} px\n",
                     steps.before_px, steps.after_px));
   }
   return SynchronisedViews(search.sightings(), period_s, steps.delay_s);
@@ -124,8 +124,8 @@ void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::
   }
   if (!do_disagree) return;
   options.listener.print(
-      fmt::format("doubtful: each camera alone fits its boards far better than all cameras together. Films may be out "
-                  "of step{}, a\ncamera may have moved, or the board may bend.\n",
+      fmt::format("doubtful: each camera alone fits its boards far better than all cameras together. Films may not "
+                  "be synchronised{}, a\ncamera may have moved, or the board may bend.\n",
                   seen.front().every > 1 ? " (--every 1 would tell)" : ""));
 }
 

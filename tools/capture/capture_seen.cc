@@ -129,9 +129,10 @@ void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptio
   for (std::size_t i = 1; i < views.size(); ++i) {
     const double frames = guessed[i].frames;
     if (!guessed[i].is_told || std::abs(frames) < 1) continue;
-    films.told.Tell(fmt::format("doubtful: {}: its frames seem {:.1f} frames {} than {}'s; --sync {:.1f} would set it",
-                     views[i].camera.name, std::abs(frames), frames > 0 ? "later" : "earlier",
-                     views.front().camera.name, std::ceil(10 * (std::abs(frames) + 2) / recover.rate_hz) / 10));
+    films.told.Tell(
+        fmt::format("doubtful: {}: its frames seem {:.1f} frames {} than {}'s; --sync {:.1f} would correct it",
+                    views[i].camera.name, std::abs(frames), frames > 0 ? "later" : "earlier", views.front().camera.name,
+                    std::ceil(10 * (std::abs(frames) + 2) / recover.rate_hz) / 10));
   }
 }
 

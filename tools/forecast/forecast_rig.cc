@@ -63,7 +63,7 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
   // Minimum of determinant / cameras³; below it, all axes are within about 2° of each other.
   constexpr double kParallel = 1e-3;
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
-    return Fail({file}, "its cameras look in parallel, so they show no common middle; name it: --middle X,Z in m");
+    return Fail({file}, "its cameras are parallel, so they have no common middle; give it by --middle X,Z in m");
   }
   const glm::dvec3 middle = glm::inverse(normal) * right;
   return glm::dvec2(middle.x, middle.z);

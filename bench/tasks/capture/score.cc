@@ -70,11 +70,11 @@ std::string ReasonForNoSkeleton(const CaptureRun& run) {
     return std::ranges::any_of(frame.ends, [](const auto& end) { return end.has_value(); });
   });
   if (!has_end)
-    return "no skeleton: no end effector was ever marked in both pictures, so nothing tells where the body is";
+    return "no skeleton: no end effector was ever marked in both pictures, so the body's position is unknown";
   return "no skeleton: the limbs that were marked fit no body";
 }
 
-constexpr const char* kNoStages = "only a built-in method's stages tell";
+constexpr const char* kNoStages = "only a built-in method has the stages that it measures";
 
 constexpr std::array kStageMetrics = {"reprojection_rms_px",
                                       "iou",

@@ -45,7 +45,7 @@ std::vector<ShownEffect> ShownEffects() {
       {"Tangential distortion, of the corner", &E::tangential_distortion, {0.01, 0.025, 0.05}, "", Detail::kWhole},
       {"Defocus", &E::defocus_px, {0.7, 1.5, 4}, " px", Detail::kDetail},
       {"Vignette, natural = 1", &E::vignette, {0.5, 1, 2.5}, "", Detail::kWhole},
-      {"Dust, share of light kept away", &E::dust, {0.15, 0.4, 0.9}, "", Detail::kWhole},
+      {"Dust, share of light blocked", &E::dust, {0.15, 0.4, 0.9}, "", Detail::kWhole},
       // Effects of the sensor and of its picture file.
       {"Exposure", &E::exposure_ev, {-1.5, -0.5, 1}, " EV", Detail::kWhole},
       {"Drift of the exposure, at this moment", &E::exposure_drift_ev, {0.2, 0.6, 1.5}, " EV", Detail::kWhole},
@@ -163,7 +163,7 @@ class SheetMaker {
 
   SheetRow AsItIs(const Take& take, std::size_t camera) const {
     const View view = Shoot(options_.camera, camera);
-    SheetRow row{fmt::format("Camera {}, as the scenario has it", camera + 1), {}};
+    SheetRow row{fmt::format("Camera {}, as in the scenario", camera + 1), {}};
     row.pictures = {{"picture", view.colour, {}},
                     {"labels", PictureOfLabels(view.labels), {}},
                     {"depth: white is nearest", PictureOfDepth(view.depth), {}}};

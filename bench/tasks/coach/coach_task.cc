@@ -15,7 +15,8 @@
 namespace etude {
 namespace {
 
-constexpr const char* kOnlyLive = "a session answers back: it has no problem that could be told beforehand";
+constexpr const char* kOnlyLive =
+    "a session depends on the method's answers, so it has no problem that could be written beforehand";
 
 /// The data that all worlds of one condition share.
 struct Rehearsal {
@@ -135,9 +136,10 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
                 methods[i].name);
   }
   if (shared.condition.sight.has_cameras && shared.condition.operating_point) {
-    return Fail(input.condition.node().place,
-                "'operating_point' needs the skeleton sensor, because cameras show every method something else; use "
-                "'threshold'");
+    return Fail(
+        input.condition.node().place,
+        "'operating_point' needs the skeleton sensor, because with cameras every method has its own skeletons; use "
+        "'threshold'");
   }
   // Set the stage, and check that every recogniser can be taught.
   ASSIGN_OR_RETURN(shared.stage, SharedStage(shared.condition.song));

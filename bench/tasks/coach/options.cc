@@ -77,7 +77,8 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
         Key::Name("learning", Path(&Condition::learner, &LearnerOptions::law), LearningLawNames(), FindLearningLaw,
                   "The law by which the learner learns and forgets."),
         Key::Number("guidance", Path(&Condition::learner, &LearnerOptions::guidance), kShare,
-                    "Cost of frequent feedback: 0: none; 1: what is taught after every performance does not last."),
+                    "Cost of frequent feedback: 0 is none; with 1, learning from feedback after every performance does "
+                    "not last."),
         Key::Number("skill", Path(&Condition::learner, &LearnerOptions::skill), kShare, "Initial value of every skill.")
             .WhenAbsent("(by the kind of people)"),
         Key::Number("severity", Path(&Condition::learner, &LearnerOptions::severity), kShare,

@@ -152,7 +152,7 @@ void MeasureCorrections(const CoachedSession& session, CellResult& result) {
   result.Measure("corrections_unneeded_per_min", tally.unneeded / session.Minutes());
   result.Measure("wrong_praise_per_min", tally.wrong_praise / session.Minutes());
   result.MeasureOr("decision_delay_s", DecisionDelaySeconds(session),
-                   tally.due == 0 ? no_mistake : "fewer than half of the mistakes were called so");
+                   tally.due == 0 ? no_mistake : "fewer than half of the mistakes were recognised");
   result.MeasureOr("feedback_delay_s", FeedbackDelaySeconds(session),
                    tally.given == 0 ? "nothing was corrected" : "fewer than half of the acts began");
   result.MeasureOr("feedback_delay_max_s", MaxFeedbackDelaySeconds(session),

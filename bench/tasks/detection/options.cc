@@ -59,7 +59,7 @@ const FieldTable<OperatingPoint>& OperatingPointFields() {
       {Key::Number("false_alarms_per_min", &OperatingPoint::false_alarms_per_min, {0.01, 60},
                    "Allowed number of false alarms a minute when moves are spotted without being asked for."),
        Key::Number("recall", &OperatingPoint::recall, {0.01, 1},
-                   "Share of the right performances asked for that shall be called right."),
+                   "Share of the right performances of requested moves that must be called right."),
        Key::Number("sessions", &OperatingPoint::sessions, {1, 1000},
                    "Number of sessions of other people on which the thresholds are set.")}};
   return table;
@@ -178,7 +178,7 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
     Append(FilterFields(), fields);
     fields.push_back(
         MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
-                         "What is replaced by the truth: the sensed skeletons, which shows what the sensor costs."));
+                         "What is replaced by the truth: the sensed skeletons, to show what the sensor costs."));
     fields.push_back(CaptureField<Method>(&Method::capture));
     // The stages from skeletons to verdicts.
     fields.push_back(MethodKey::Name("recogniser", Path(&Method::recogniser, &RecogniserOptions::kind),
@@ -188,11 +188,12 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
     fields.push_back(
         MethodKey::Name("weights", Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::weighting),
                         {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
-                        "Weights of what is seen: all equal, or by how well its joints are seen."));
+                        "Weights of the sensed values: all equal, or by how well their joints are seen."));
     fields.push_back(
         MethodKey::Number("inferred_weight",
                           Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::inferred_weight),
-                          kShare, "Weight of what needs an inferred joint; that of tracked joints is 1.")
+                          kShare,
+                          "Weight of values that need an inferred joint; values of tracked joints have weight 1.")
             .With("weights", {"adaptive"}));
     fields.push_back(MethodKey::Number("threshold", &Method::threshold, kThresholds,
                                        "Lowest evidence at which a move counts as performed.")

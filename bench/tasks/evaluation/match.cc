@@ -176,7 +176,7 @@ bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
 }
 
-/// Describes a time shift that was removed: "the answer is 40.20 ms late (95 %: 39.80 to 40.60), taken out".
+/// Returns "the answer is 40.2 ms late (39.8 to 40.6), which was removed".
 std::string NoteOn(const TimeShift& lag) {
   constexpr double kToMs = 1000;
   const double ms = kToMs * lag.shift_s;
@@ -185,7 +185,7 @@ std::string NoteOn(const TimeShift& lag) {
     const double half = kToMs * *lag.half_width_s, low = std::abs(ms) - half, high = std::abs(ms) + half;
     range = fmt::format(" (95 %: {:.2f} to {:.2f})", low, high);
   }
-  return fmt::format("the answer is {:.2f} ms {}{}, taken out", std::abs(ms), ms < 0 ? "early" : "late", range);
+  return fmt::format("the answer is {:.2f} ms {}{}, which was removed", std::abs(ms), ms < 0 ? "early" : "late", range);
 }
 
 /// Describes which joints are the roots; "" if one of the motions has no root.

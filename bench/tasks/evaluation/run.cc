@@ -102,13 +102,13 @@ void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
 void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
   result.MeasureOr("skating_ratio@gmd", SkatingRatio(pair.feet, pair.rate_hz), kNoFeet);
   result.MeasureOr("skate_from_height_mps@kimodo", SkateFromHeight(pair.feet, pair.rate_hz), kNoFeet);
-  const char* no_contacts = pair.found_contacts.empty() ? "the answer's file says nothing of contacts" : kNoFeet;
+  const char* no_contacts = pair.found_contacts.empty() ? "the answer's file has no contacts" : kNoFeet;
   result.MeasureOr("skate_from_contacts_mps@kimodo", SkateFromContacts(pair.feet, pair.found_contacts, pair.rate_hz),
                    no_contacts);
   const bool have_contacts = !pair.found_contacts.empty() && !pair.true_contacts.empty();
   result.MeasureOr(
       "contact_f1", ContactF1(pair.found_contacts, pair.true_contacts),
-      have_contacts ? "neither foot ever touches the floor" : "one of both files says nothing of contacts");
+      have_contacts ? "neither foot ever touches the floor" : "one of the two files has no contacts");
   result.MeasureOr("pfc@edge", PhysicalFootContact(pair.feet, pair.found_root, pair.rate_hz),
                    "the answer lacks ankles, toes, root or three frames, or its root does not accelerate");
   const FloorErrors floor = MeasureFloor(pair.found);
@@ -130,7 +130,7 @@ void MeasureAngles(const MatchedMotions& matched, CellResult& result) {
       result.series.push_back({matched.true_angles.names[column], kAgreementAxis, EncodeSums(sums)});
     }
   }
-  constexpr const char* kNoAngles = "one of both files has no rotations of two neighbouring segments";
+  constexpr const char* kNoAngles = "one of the two files lacks rotations of two neighbouring segments";
   result.MeasureOr("angle_rmse_deg", MeanOfSeen(rms), kNoAngles);
   result.MeasureOr("angle_bias_deg", MeanOfSeen(biases), kNoAngles);
   result.MeasureOr("angle_icc_a1", MeanOfSeen(iccs), kNoAngles);
@@ -138,7 +138,7 @@ void MeasureAngles(const MatchedMotions& matched, CellResult& result) {
 
 /// Measures the metrics of LAFAN1's code.
 void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData& side, CellResult& result) {
-  constexpr const char* kNoRotations = "one of both files has no rotations";
+  constexpr const char* kNoRotations = "one of the two files has no rotations";
   const auto rotations = RotationsOf(matched.pair);
   result.MeasureOr("l2q@lafan1", rotations ? MeanChannelDistance(rotations->found, rotations->truth) : std::nullopt,
                    rotations ? "no frame shows every joint in both" : kNoRotations);
@@ -178,8 +178,9 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
 }
 
 void MeasureBeats(const EvaluatedPair& pair, const EvaluationSideData& side, CellResult& result) {
-  const char* why = side.music_beats_s ? "no beat of music or motion lies within it, or a joint is not seen throughout"
-                                       : "needs `music_beats`";
+  const char* why = side.music_beats_s
+                        ? "the motion contains no beat of the music or of its own, or a joint is not seen throughout"
+                        : "needs `music_beats`";
   for (const auto& [id, measure] : {std::pair("beat_alignment@bailando", &BeatAlignmentOfMusic),
                                     {"beat_alignment@mint", &BeatAlignmentOfMotion}}) {
     const auto value = side.music_beats_s ? measure(pair.found, pair.rate_hz, *side.music_beats_s) : std::nullopt;
@@ -242,7 +243,7 @@ CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& 
   MeasureBeats(matched.pair, side, result);
   constexpr double kToMs = 1000;
   result.MeasureOr("lag_ms", matched.lag ? std::optional(kToMs * matched.lag->shift_s) : std::nullopt,
-                   "is sought with `lag: find` alone");
+                   "is measured only with `lag: find`");
   result.MeasureOr("seen_share", SeenShare(matched.pair), "the truth shows no joint");
   return result;
 }

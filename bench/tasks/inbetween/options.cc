@@ -55,10 +55,12 @@ const FieldTable<InbetweenMethod>& InbetweenMethodFields() {
   static const FieldTable<Method> table = [] {
     NamedValues<const Filler*> values;
     for (const Filler& filler : AllFillers()) values.emplace_back(filler.name, &filler);
-    FieldTable<Method> made{{Key::Name("filler", &Method::filler, values, "How the hidden frames are filled in.")
-                                 .WhenAbsent("(none: it must stand, unless `oracle` does)"),
-                             Key::Flags("oracle", {{"frames", &Method::knows_frames}},
-                                        "`frames`: the hidden frames themselves, what the metrics give the truth.")}};
+    FieldTable<Method> made{
+        {Key::Name("filler", &Method::filler, values, "How the hidden frames are filled in.")
+             .WhenAbsent("(required, unless `oracle` is given)"),
+         Key::Flags(
+             "oracle", {{"frames", &Method::knows_frames}},
+             "`frames`: the answer is the hidden frames themselves, to show the metrics' values of the truth.")}};
     for (const Key& key : SettingFields<Method>("filler", AllFillers(), &Method::settings)) made.fields.push_back(key);
     made.check = [](Fields& fields, Method& method) {
       if (method.knows_frames == (method.filler != nullptr))

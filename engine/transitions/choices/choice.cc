@@ -46,7 +46,7 @@ PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& re
 std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool is_rear, const PairSurvey& survey,
                      const MatchRules& rules) {
   if (rules.pick == Pick::kFirst) {
-    return fmt::format("first match: {}, d = {:.2f} < {:g}; of {} matching pairs {} nearer ones came later", pair,
+    return fmt::format("first match: {}, d = {:.2f} < {:g}; of {} matching pairs {} that are nearer come later", pair,
                        point.distance.value, rules.threshold, survey.matching, survey.nearer);
   }
   return fmt::format("smallest distance{}: {}, d = {:.2f} < {:g}, of {} matching pairs",

@@ -101,7 +101,7 @@ TEST(JudgeFamily, SaysWhyADifferenceIsNotYetAVerdict) {
   for (double& difference : small) difference = dice.Normal(-0.95, 0.6);
   const Comparison open = JudgedAmong(1, Compared(small, "jump_cm"));
   EXPECT_EQ(open.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(open.why_open, "it differs, but it is open whether by as much as matters");
+  EXPECT_EQ(open.why_open, "it differs, but it is undecided whether enough to matter");
 }
 
 TEST(JudgeFamily, TellsATestThatFoundSomethingFromOneThatDidNot) {
@@ -148,7 +148,7 @@ TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
   EXPECT_EQ(judged(20, 0).verdict, Verdict::kBetter);
   const Comparison open = judged(0, 12);
   EXPECT_EQ(open.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(open.why_open, "“better” where both have a value, but not when failing counts as losing");
+  EXPECT_EQ(open.why_open, "“better” where both have a value, but not if a failure counts as a loss");
   EXPECT_GT(*open.p_holm, 0.05);
   EXPECT_DOUBLE_EQ(*open.difference, *Compared(Falling(20)).difference);
 }

@@ -53,7 +53,7 @@ TEST(MotionBids, OfOthersHasItsUnitsItsOrderAndItsGaps) {
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->frames[0][0], glm::dvec3(1, 2, 0.5));
   EXPECT_FALSE(read->frames[1][0]);
-  EXPECT_EQ(read->remark, "1 channels that are no positions are left out");
+  EXPECT_EQ(read->remark, "1 channels that are not positions are left out");
 }
 
 TEST(MotionBids, SaysWhatIsWrong) {

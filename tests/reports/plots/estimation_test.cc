@@ -162,7 +162,7 @@ TEST(LeftOutStrip, NamesTheClipThatCarriesTheDifference) {
   EXPECT_EQ(WithoutEachUnit(Differing(-4, {-0.3, -5, -6.7}), SamplingUnit::kClip),
             "“adaptive” against “fixed”, mean difference if each clip in turn is left out: −6.70 mm to −0.300 mm. "
             "Without “a” it is −0.300 "
-            "mm: then it no longer matters: it depends on this clip.");
+            "mm: the difference depends on this clip.");
   // Nearer to the whole, and yet the one that counts, though another is farther off on the other side.
   EXPECT_THAT(WithoutEachUnit(Differing(2.4, {0.7, 2.2, 9}), SamplingUnit::kClip),
               HasSubstr("Without “a” it is 0.700 mm"));

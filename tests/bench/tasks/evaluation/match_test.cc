@@ -188,7 +188,7 @@ TEST(Match, FindsALagToAFractionOfAFrame) {
         EXPECT_GT(ValueIn(without, "mpjpe_take_scaled_mm"), 20);
       }
       EXPECT_NEAR(ValueIn(with, "lag_ms"), 1000 * matched->lag->shift_s, 1e-9);
-      EXPECT_THAT(with.reason, HasSubstr("taken out"));
+      EXPECT_THAT(with.reason, HasSubstr("which was removed"));
     }
   }
 }

@@ -53,7 +53,7 @@ TEST(FuzzyBridge, TellsOfThePairsItDidNotTake) {
   expect(4, 3, 0, 0.05, CandidateOutcome::kLater);
   EXPECT_EQ(record.why,
             "first match: still frame 0 (0.00 s after the request) and between frame 0, d = 0.05 < 0.4; of 15 "
-            "matching pairs 1 nearer ones came later");
+            "matching pairs 1 that are nearer come later");
 }
 
 TEST(FuzzyBridge, TakesTheSmallestDistanceWhenToldTo) {
