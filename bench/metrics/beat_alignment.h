@@ -8,6 +8,9 @@
 
 namespace etude {
 
+/// Returns the times of the motion beats of BeatAlignmentOfMusic, seconds; none if a joint is not seen throughout.
+std::vector<double> MotionBeats(const PointTracks& found, double rate_hz);
+
 /// Returns the mean over *music* beats of exp(−d² / 18), d: frames from a music beat to the nearest motion beat, as
 /// Bailando's code computes it. Motion beats are the strict minima of the joints' mean speed,
 /// smoothed by a Gaussian of 5 frames. Both are whole frames. Nothing without a music beat or a motion beat within the

@@ -63,9 +63,10 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
   std::set<fs::path> files = {"manifest.json", "host.json", "summary.json", kOtherLibrariesFile,
                               kSealFile,       kSignedFile, kSignatureFile, kLockFile};
   ASSIGN_OR_RETURN(const auto scenarios, ScenariosOf(folder));
-  if (!run.data.source) files.insert({kCellsFile, kTimingsFile});
+  const bool has_columns = Exists(folder / kColumnsFolder);
+  if (!has_columns) files.insert({kCellsFile, kTimingsFile});
   for (const Scenario& scenario : scenarios) {
-    if (run.data.source) {
+    if (has_columns) {
       ASSIGN_OR_RETURN(const auto index, ReadColumnIndex(folder / kColumnsFolder / scenario.name));
       files.merge(FilesOfColumns(index));
     } else {
@@ -131,10 +132,11 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
 }
 
 /// Compares the lines of timings.jsonl with those of the rows, except their times and memory, which no run repeats.
-Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, Verified& verified) {
+Result<void> CompareTimings(const FilePath& file, const RunData& run, Verified& verified) {
   std::size_t row = 0;
+  const std::size_t rows = CountRows(run);
   const auto line_of = [&](std::string_view line) -> Result<std::string> {
-    if (row == rows.size()) return std::string();
+    if (row == rows) return std::string();
     ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(line), file.string()));
     CellUsage usage;
     for (const auto& [key, number] : {std::pair{"wall_s", &usage.wall_s},
@@ -144,10 +146,10 @@ Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, 
                                       {"world_cpu_s", &usage.world_cpu_s}}) {
       if (json.contains(key) && json.at(key).is_number()) *number = json.at(key).get<double>();
     }
-    return WriteJson(EncodeUsage(rows[row++].Id(), usage));
+    return WriteJson(EncodeUsage(RowAt(run, row++).Id(), usage));
   };
   RETURN_IF_ERROR(CompareLines(file, line_of, verified));
-  if (row < rows.size()) verified.differences.push_back(fmt::format("{} ends after {} lines", file.string(), row));
+  if (row < rows) verified.differences.push_back(fmt::format("{} ends after {} lines", file.string(), row));
   return {};
 }
 
@@ -156,9 +158,10 @@ Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, 
 Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"texts: only those that this program reads", {}};
   // Keys must not occur twice.
+  const bool has_columns = Exists(folder / kColumnsFolder);
   std::vector<FilePath> files = {folder / "manifest.json", folder / "host.json"};
   for (const FinishedScenario& scenario : run.scenarios) {
-    if (run.data.source) files.push_back(folder / kColumnsFolder / scenario.study.scenario / kIndexFile);
+    if (has_columns) files.push_back(folder / kColumnsFolder / scenario.study.scenario / kIndexFile);
   }
   for (const FilePath& file : files) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
@@ -166,16 +169,17 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
     if (const auto key = ParseJsonText(text).repeated_key)
       verified.differences.push_back(fmt::format("{}: '{}' appears twice", file.string(), *key));
   }
-  if (run.data.source) return verified;
+  if (has_columns) return verified;
   // Every line of the rows, then of the curves, must be as a run writes it.
-  std::size_t row = 0, curves = 0;
+  std::size_t row = 0;
+  const std::size_t rows = CountRows(run.data);
   RETURN_IF_ERROR(CompareLines(
       folder / kCellsFile,
       [&](std::string_view) -> Result<std::string> {
-        return row < run.data.rows.size() ? WriteJson(EncodeRow(run.data.rows[row++])) : std::string();
+        return row < rows ? WriteJson(EncodeRow(RowAt(run.data, row++))) : std::string();
       },
       verified));
-  RETURN_IF_ERROR(CompareTimings(folder / kTimingsFile, run.data.rows, verified));
+  RETURN_IF_ERROR(CompareTimings(folder / kTimingsFile, run.data, verified));
   std::size_t of_row = 0;
   for (const FinishedScenario& scenario : run.scenarios) {
     const FilePath file = folder / "series" / (scenario.study.scenario + ".jsonl");
@@ -183,12 +187,11 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
     RETURN_IF_ERROR(CompareLines(
         file,
         [&](std::string_view) -> Result<std::string> {
-          if (curves == run.data.series.size()) return std::string();
-          const CellSeries& of_cell = run.data.series[curves++];
-          while (of_row < run.data.rows.size() && run.data.rows[of_row].Id() != of_cell.cell) ++of_row;
-          if (of_row == run.data.rows.size()) return std::string();  // no such row, or its curves are a duplicate
-          ++of_row;
-          return WriteJson(EncodeSeriesLine(of_cell.cell, of_cell.series));
+          // The curves of the next row that has any; a line of no such row, or of a row's curves again, is none of these.
+          std::vector<Series> series;
+          while (of_row < rows && (series = run.data.source->SeriesOf(of_row)).empty()) ++of_row;
+          if (of_row == rows) return std::string();
+          return WriteJson(EncodeSeriesLine(RowAt(run.data, of_row++).Id(), series));
         },
         verified));
   }
@@ -279,7 +282,7 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
 
 Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   const FilePath folder = Inside(options.folder);
-  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored));
+  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored, Held::kOutline));
   // The rows come first: without them, no other check makes sense.
   VerifyOutcome outcome;
   std::vector<Verified>& all = outcome.checks;
@@ -290,7 +293,7 @@ Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyFiles(folder, run));
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyText(folder, run));
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyHost(folder));
-  if (run.data.source) {
+  if (Exists(folder / kColumnsFolder)) {
     ASSIGN_OR_RETURN(all.emplace_back(), VerifyColumns(folder, run));
   }
   ASSIGN_OR_RETURN(all.emplace_back(), VerifySummary(folder, run, WorkerCount(options.jobs)));

@@ -69,6 +69,9 @@ enum class Sealing {
 /// not ended, if the seal is broken, or if another run replaced the folder meanwhile (CheckStillThere).
 Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
+/// Reads a result folder without holding its rows, curves and recordings in memory: `source` reads them one by one.
+Result<RunData> LoadRunRowByRow(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
+
 /// Reads all but rows, series and recordings.
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 

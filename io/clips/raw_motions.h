@@ -21,7 +21,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
 /// a file refers to (buffers of .gltf, skeletons of .amc) do not count. Fails if the file cannot be read.
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options);
 
-/// Reads one motion: arrays of positions by ReadRawNpz, any other as ReadOneClip does.
-Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options);
+/// Reads one motion: arrays of positions by ReadRawNpz, any other as ReadOneClip does. `keeps_rig` as in RawMotionOf.
+Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options, bool keeps_rig = false);
 
 }  // namespace etude
