@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "bench/finished_runs/finished_runs.h"
@@ -79,6 +80,7 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
   }
   std::map<std::string, const RecordingSelection*> recorded;
   for (const Scenario& scenario : scenarios) recorded[scenario.name] = &scenario.recordings;
+  if (!Exists(folder / "recordings")) return files;
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
     const auto kept = recorded.find(row.scenario);
     if (kept == recorded.end() || !kept->second->KeepsTrial(row.trial) || !kept->second->KeepsMethod(row.method))
@@ -131,12 +133,11 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   });
 }
 
-/// Compares the lines of timings.jsonl with those of the rows, except their times and memory, which no run repeats.
-Result<void> CompareTimings(const FilePath& file, const RunData& run, Verified& verified) {
+/// Compares the lines of timings.jsonl with those of the cells, except their times and memory, which no run repeats.
+Result<void> CompareTimings(const FilePath& file, std::span<const std::string> cells, Verified& verified) {
   std::size_t row = 0;
-  const std::size_t rows = CountRows(run);
   const auto line_of = [&](std::string_view line) -> Result<std::string> {
-    if (row == rows) return std::string();
+    if (row == cells.size()) return std::string();
     ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(line), file.string()));
     CellUsage usage;
     for (const auto& [key, number] : {std::pair{"wall_s", &usage.wall_s},
@@ -146,10 +147,10 @@ Result<void> CompareTimings(const FilePath& file, const RunData& run, Verified& 
                                       {"world_cpu_s", &usage.world_cpu_s}}) {
       if (json.contains(key) && json.at(key).is_number()) *number = json.at(key).get<double>();
     }
-    return WriteJson(EncodeUsage(RowAt(run, row++).Id(), usage));
+    return WriteJson(EncodeUsage(cells[row++], usage));
   };
   RETURN_IF_ERROR(CompareLines(file, line_of, verified));
-  if (row < rows) verified.differences.push_back(fmt::format("{} ends after {} lines", file.string(), row));
+  if (row < cells.size()) verified.differences.push_back(fmt::format("{} ends after {} lines", file.string(), row));
   return {};
 }
 
@@ -171,15 +172,18 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   }
   if (has_columns) return verified;
   // Every line of the rows, then of the curves, must be as a run writes it.
-  std::size_t row = 0;
+  std::vector<std::string> cells;
   const std::size_t rows = CountRows(run.data);
   RETURN_IF_ERROR(CompareLines(
       folder / kCellsFile,
       [&](std::string_view) -> Result<std::string> {
-        return row < rows ? WriteJson(EncodeRow(RowAt(run.data, row++))) : std::string();
+        if (cells.size() == rows) return std::string();
+        const Row row = RowAt(run.data, cells.size());
+        cells.push_back(row.Id());
+        return WriteJson(EncodeRow(row));
       },
       verified));
-  RETURN_IF_ERROR(CompareTimings(folder / kTimingsFile, run.data, verified));
+  RETURN_IF_ERROR(CompareTimings(folder / kTimingsFile, cells, verified));
   std::size_t of_row = 0;
   for (const FinishedScenario& scenario : run.scenarios) {
     const FilePath file = folder / "series" / (scenario.study.scenario + ".jsonl");
@@ -187,11 +191,11 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
     RETURN_IF_ERROR(CompareLines(
         file,
         [&](std::string_view) -> Result<std::string> {
-          // The curves of the next row that has any; a line of no such row, or of a row's curves again, is none of these.
+          // Expect the curves of the next row that has any; a line of another row, or a duplicate, differs from them.
           std::vector<Series> series;
-          while (of_row < rows && (series = run.data.source->SeriesOf(of_row)).empty()) ++of_row;
-          if (of_row == rows) return std::string();
-          return WriteJson(EncodeSeriesLine(RowAt(run.data, of_row++).Id(), series));
+          while (of_row < cells.size() && (series = run.data.source->SeriesOf(of_row)).empty()) ++of_row;
+          if (of_row == cells.size()) return std::string();
+          return WriteJson(EncodeSeriesLine(cells[of_row++], series));
         },
         verified));
   }
