@@ -208,7 +208,7 @@ void PrintTable(const ScenarioSummary& summary) {
 
 /// What rows say of pairs, lines "METHOD, PAIR: reason".
 struct PairNotes {
-  std::vector<std::string> judged;      ///< once for each method and condition: what was judged, how answers were changed
+  std::vector<std::string> judged;  ///< once for each method and condition: what was judged, how answers were changed
   std::vector<std::string> not_judged;  ///< every pair that could not be judged
 };
 

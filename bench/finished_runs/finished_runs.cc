@@ -219,8 +219,7 @@ Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Hel
   ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(Inside(folder) / "manifest.json"));
   RETURN_IF_ERROR(CheckStillThere(folder, run.data));
   RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
-  const bool has_times =
-      CountRows(run.data) > 0 && CpuSecondsOf(run.data, RowAt(run.data, 0), 0).has_value();
+  const bool has_times = CountRows(run.data) > 0 && CpuSecondsOf(run.data, RowAt(run.data, 0), 0).has_value();
   if (!has_times && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
     return Fail({(folder / "timings.jsonl").string(), 0, 0}, "contains no times, which a gate of this run needs");
   }

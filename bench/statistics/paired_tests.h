@@ -25,8 +25,8 @@ double RankBiserial(std::span<const double> differences);
 /// The sign-flip permutation test (Fisher 1935) of the differences' median or mean. With up to 16 non-zero differences
 /// it is exact, by enumeration. For a mean of differences of one sign it is exact, 2 / 2ⁿ, and of equal size, by the
 /// binomial (for shares this is McNemar's exact test). Otherwise it draws 9,999 sign vectors from a stream keyed by
-/// `seed` and `purpose`, p = (b + 1) / (m + 1) (Phipson & Smyth 2010). With more than kMaxResampled differences it is the
-/// normal approximation; for a median, that of the sign test.
+/// `seed` and `purpose`, p = (b + 1) / (m + 1) (Phipson & Smyth 2010). With more than kMaxResampled differences it is
+/// the normal approximation; for a median, that of the sign test.
 PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate, std::uint64_t seed,
                         const std::string& purpose);
 

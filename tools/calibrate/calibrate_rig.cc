@@ -93,8 +93,8 @@ Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
     const glm::dvec2& p = pair.pixel;
     const bool is_inside = p.x >= -0.5 && p.y >= -0.5 && p.x <= of.width - 0.5 && p.y <= of.height - 0.5;
     if (is_inside) continue;
-    return Fail({file}, "camera {}: the pixel ({:g}, {:g}) is outside of its picture of {}x{}; is the size right?", of.name,
-                p.x, p.y, of.width, of.height);
+    return Fail({file}, "camera {}: the pixel ({:g}, {:g}) is outside of its picture of {}x{}; is the size right?",
+                of.name, p.x, p.y, of.width, of.height);
   }
   return {};
 }
@@ -102,7 +102,8 @@ Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
 /// Finds the pair that disagrees with the others: calibrating without it lowers the squared error by more than chance
 /// would in one of 100 calibrations (F test for one pair, Bonferroni over all), and the others place it a pixel or more
 /// away. Of many pairs, those with the largest residuals are tried.
-std::optional<DisagreeingPair> FindDisagreeing(const CameraPairs& of, const RefinedRig& all, const RefineOptions& options) {
+std::optional<DisagreeingPair> FindDisagreeing(const CameraPairs& of, const RefinedRig& all,
+                                               const RefineOptions& options) {
   constexpr std::size_t kMaxTried = 20;
   constexpr double kMinError_px = 1, kMaxChance = 0.01;
   const std::size_t count = of.pairs.size();

@@ -21,10 +21,10 @@ std::vector<bool> ContactsByMotion(const RawMotion& motion) {
     if (joint < 0) return {};
     for (std::size_t f = 0; f < frames; ++f) {
       const std::size_t from = f < reach ? 0 : f - reach, to = std::min(f + reach, frames - 1);
-      const glm::dvec3 way = motion.At(to, static_cast<std::size_t>(joint)) -
-                             motion.At(from, static_cast<std::size_t>(joint));
+      const glm::dvec3 way =
+          motion.At(to, static_cast<std::size_t>(joint)) - motion.At(from, static_cast<std::size_t>(joint));
       const double seconds = static_cast<double>(to - from) / motion.rate_hz;
-      const bool is_slow = std::hypot(way.x, way.z) < kSlow_m_s * seconds;  // false for NaN
+      const bool is_slow = glm::length(glm::dvec2(way.x, way.z)) < kSlow_m_s * seconds;  // false for NaN
       const bool is_low = motion.At(f, static_cast<std::size_t>(joint)).y < (k % 2 == 0 ? kAnkle_m : kToes_m);
       contacts[f * kFootContacts + k] = is_slow && is_low;
     }

@@ -12,8 +12,8 @@ namespace etude {
 /// ankles and toes has none.
 std::vector<bool> ContactsByMotion(const RawMotion& motion);
 
-/// Returns `given`, completed by what the truth's own motion yields: its beats (MotionBeats), and the mean and deviation
-/// (at least 1 cm) of each judged joint.
+/// Returns `given`, completed by what the truth's own motion yields: its beats (MotionBeats), and the mean and
+/// deviation (at least 1 cm) of each judged joint.
 EvaluationSideData SideDataOf(const MatchedMotions& matched, EvaluationSideData given);
 
 /// Hides the share of the joints, over all frames, that are farthest from the truth's. Both have the same joints and

@@ -24,8 +24,8 @@ struct Spoiler {
   bool operator==(const Spoiler&) const = default;
 };
 
-/// Returns a truth spoilt, with nothing hidden. The noise depends on `seed_name` alone. Rotations are spoilt, too: noise
-/// of 10 mm turns each joint by 1.9° about each axis, as it turns a segment of 42 cm.
+/// Returns a truth spoilt, with nothing hidden. The noise depends on `seed_name` alone. Rotations are spoilt, too:
+/// noise of 10 mm turns each joint by 1.9° about each axis, as it turns a segment of 42 cm.
 RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::string& seed_name);
 
 }  // namespace etude

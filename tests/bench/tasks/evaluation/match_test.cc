@@ -269,8 +269,9 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   const CellResult later = Judged(truth, moved(begins(11, 30), 1));
   EXPECT_NEAR(ValueIn(later, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_EQ(ValueIn(later, "seen_share"), 0.5);
-  EXPECT_THAT(later.reason, HasSubstr("the truth begins at 10 s, the answer begins at 11 s: judged by these clocks, 30 of "
-                                      "them outside the answer"));
+  EXPECT_THAT(later.reason,
+              HasSubstr("the truth begins at 10 s, the answer begins at 11 s: judged by these clocks, 30 of "
+                        "them outside the answer"));
   // It begins before the truth, by a fraction of a frame, and at another rate.
   EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(9.5, 90), -0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   const CellResult between = Judged(truth, moved(begins(10.01, 60), 0.01));
@@ -280,8 +281,9 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   // Where a clock is missing, or the two never show one time, the first frames belong together.
   const CellResult none = Judged(truth, Gliding(30, 60));
   EXPECT_NEAR(ValueIn(none, "mpjpe_unaligned_mm"), 0, 1e-9);
-  EXPECT_THAT(none.reason, HasSubstr("the truth begins at 10 s, the answer states no clock: their first frames are taken "
-                                     "as one time"));
+  EXPECT_THAT(none.reason,
+              HasSubstr("the truth begins at 10 s, the answer states no clock: their first frames are taken "
+                        "as one time"));
   const CellResult apart = Judged(truth, begins(0, 60));
   EXPECT_NEAR(ValueIn(apart, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_THAT(apart.reason, HasSubstr("begins at 0 s: their first frames are taken as one time"));

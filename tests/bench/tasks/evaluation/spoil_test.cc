@@ -146,7 +146,8 @@ TEST(Spoilt, RotationsAreSpoiltLikePositions) {
   EXPECT_NEAR(Apart(mirrored[at(60, 1)], glm::angleAxis(-0.6, glm::dvec3(0, 0, 1))), 0, 1e-6);
   RawMotion once = truth;
   once.rotations = mirrored;
-  EXPECT_NEAR(Apart(Spoilt(once, {.mirrored_share = 1}, "a").rotations[at(60, 0)], truth.rotations[at(60, 0)]), 0, 1e-6);
+  EXPECT_NEAR(Apart(Spoilt(once, {.mirrored_share = 1}, "a").rotations[at(60, 0)], truth.rotations[at(60, 0)]), 0,
+              1e-6);
   // Noise of 10 mm turns by √2 · 10 / 420 about each axis.
   const auto noisy = spoilt({.noisy_mm = 10});
   double square = 0;
@@ -159,7 +160,8 @@ TEST(HideWorst, HidesTheFarthestJointsAndNoMore) {
   RawMotion answer = truth;
   for (std::size_t i = 0; i < 50; ++i) answer.positions[7 * i].x += 0.1;
   HideWorst(answer, truth, 10);  // 50 of 500
-  for (std::size_t i = 0; i < answer.positions.size(); ++i) EXPECT_EQ(IsSeen(answer.positions[i]), i % 7 != 0 || i >= 350);
+  for (std::size_t i = 0; i < answer.positions.size(); ++i)
+    EXPECT_EQ(IsSeen(answer.positions[i]), i % 7 != 0 || i >= 350);
 }
 
 TEST(ContactsByMotion, AreOfFeetThatAreLowAndSlow) {
@@ -170,7 +172,8 @@ TEST(ContactsByMotion, AreOfFeetThatAreLowAndSlow) {
   for (const Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) motion.roles[Index(role)] = joint++;
   motion.joints = {"la", "lf", "ra", "rf"};
   for (int f = 0; f < 30; ++f) {
-    for (const glm::dvec3& p : {glm::dvec3(0.006 * f, 0.1, 0), {0.006 * f, 0.04, 0}, {0.007 * f, 0.1, 0}, {0, 0.06, 0}}) {
+    for (const glm::dvec3& p :
+         {glm::dvec3(0.006 * f, 0.1, 0), {0.006 * f, 0.04, 0}, {0.007 * f, 0.1, 0}, {0, 0.06, 0}}) {
       motion.positions.push_back(p);  // 0.18 m/s, 0.21 m/s, and toes that are too high
     }
   }
