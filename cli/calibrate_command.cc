@@ -33,11 +33,17 @@ Json FactsOf(const Calibrated& rig) {
                 {"principal_px", {in.cx, in.cy}},
                 {"focal_deviation_px", nullptr},
                 {"principal_deviation_px", nullptr},
+                {"disagreeing_pair", nullptr},
                 {"lens", {{"k1", d.k1}, {"k2", d.k2}, {"p1", d.p1}, {"p2", d.p2}, {"k3", d.k3}}},
                 {"place_m", {camera.p_WC.x, camera.p_WC.y, camera.p_WC.z}}};
     if (const auto& deviation = rig.deviations[i]) {
       one["focal_deviation_px"] = {deviation->fx, deviation->fy};
       one["principal_deviation_px"] = {deviation->cx, deviation->cy};
+    }
+    if (i < rig.disagreeing.size() && rig.disagreeing[i]) {
+      const DisagreeingPair& pair = *rig.disagreeing[i];
+      one["disagreeing_pair"] = {
+          {"pair", pair.index + 1}, {"error_px", pair.error_px}, {"rms_without_px", pair.rms_without_px}};
     }
     cameras.push_back(std::move(one));
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "bench/metrics/catalogue.h"
@@ -205,30 +206,40 @@ void PrintTable(const ScenarioSummary& summary) {
   }
 }
 
-/// Prints, once for each method, notes on what was judged and how answers were changed; then the files that could not
-/// be judged. Rows are read one by one.
-Result<void> PrintNotes(const std::filesystem::path& folder) {
-  constexpr std::size_t kMaxFailures = 10;
-  std::vector<std::string> told, failures;
-  std::size_t failed = 0;
+/// What rows say of pairs, lines "METHOD, PAIR: reason".
+struct PairNotes {
+  std::vector<std::string> judged;  ///< once for each method and condition: what was judged, how answers were changed
+  std::vector<std::string> not_judged;  ///< every pair that could not be judged
+};
+
+/// Reads the rows one by one.
+Result<PairNotes> ReadNotes(const std::filesystem::path& folder) {
+  PairNotes notes;
+  std::vector<std::string> told;
   RETURN_IF_ERROR(WriteRows(folder, Sealing::kRequired, [&](std::string_view text) -> Result<void> {
     ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(text), folder.string()));
     ASSIGN_OR_RETURN(const auto row, DecodeRow(json, {folder.string()}));
     const std::string under = row.condition.empty() ? "" : ", " + ConditionLabel(row.condition);
     const std::string line = fmt::format("{}, {}{}: {}", row.method, row.clip, under, row.result.reason);
     if (row.result.status != Status::kOk) {
-      if (++failed <= kMaxFailures) failures.push_back(line);
+      notes.not_judged.push_back(line);
     } else if (std::ranges::find(told, row.method + under) == told.end()) {
       told.push_back(row.method + under);
-      fmt::print("  {}\n", line);
+      notes.judged.push_back(line);
     }
     return {};
   }));
-  if (failed == 0) return {};
-  fmt::print("{} not judged:\n", failed);
-  for (const std::string& line : failures) fmt::print("  {}\n", line);
-  if (failed > failures.size()) fmt::print("  and {} more: etude rows\n", failed - failures.size());
-  return {};
+  return notes;
+}
+
+void PrintNotes(const PairNotes& notes) {
+  constexpr std::size_t kMaxFailures = 10;
+  for (const std::string& line : notes.judged) fmt::print("  {}\n", line);
+  const std::span all(notes.not_judged);
+  if (all.empty()) return;
+  fmt::print("{} not judged:\n", all.size());
+  for (const std::string& line : all.first(std::min(all.size(), kMaxFailures))) fmt::print("  {}\n", line);
+  if (all.size() > kMaxFailures) fmt::print("  and {} more: etude rows\n", all.size() - kMaxFailures);
 }
 
 constexpr const char* kScenarioFile = "evaluate.yaml";
@@ -274,7 +285,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   // Hours of motion give many rows, so load the rows only if the summary lacks the needed data.
   ASSIGN_OR_RETURN(auto data, LoadRunOutline(outcome->folder));
   if (options.alone.is_alone || HasAngles(data.scenarios.front())) {
-    ASSIGN_OR_RETURN(data, LoadRun(outcome->folder));
+    ASSIGN_OR_RETURN(data, LoadRunRowByRow(outcome->folder));
   }
   const ScenarioSummary& summary = data.scenarios.front();
   // A pair that is not judged must not pass unnoticed. Among motions without a truth, clips that cannot be judged are
@@ -288,8 +299,15 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();
   const std::vector<AngleAgreement> angles = AgreementByAngle(data);
+  PairNotes notes;
+  if (!options.alone.is_alone) {
+    ASSIGN_OR_RETURN(notes, ReadNotes(outcome->folder));
+  }
   if (options.as_json) {
     Json facts = FactsOf(summary, angles, folder);
+    facts["judged"] = notes.judged;
+    facts["not_judged"] = options.alone.is_alone ? triage.not_judged : notes.not_judged;
+    if (options.alone.is_alone) facts["with_faults"] = triage.faulty;
     if (triage.has_limits) facts["beyond_limits"] = triage.beyond_limits;
     RETURN_IF_ERROR(PrintFacts("evaluate", std::move(facts)));
     return code;
@@ -299,7 +317,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   } else {
     PrintTable(summary);
     PrintAngles(summary, angles);
-    RETURN_IF_ERROR(PrintNotes(outcome->folder));
+    PrintNotes(notes);
   }
   fmt::print("{} of {} cells ok, all {} metrics in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
              FindTaskKind(summary.task)->metrics.size(), folder, folder);

@@ -49,6 +49,7 @@ std::string VerdictBadge(const std::optional<Verdict>& verdict) {
 }
 
 std::string VerdictBadges(const MethodFinding& finding) {
+  if (!finding.is_compared) return "";
   const std::string_view others = OtherUnits(finding.unit);
   const auto badge = [](const std::optional<Verdict>& verdict, const std::string& words) {
     return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>", VerdictClass(verdict),
@@ -58,7 +59,6 @@ std::string VerdictBadges(const MethodFinding& finding) {
     return badge(finding.verdict, fmt::format("{} and others", finding.Words()));
   }
   std::string here = badge(finding.verdict, finding.Words());
-  if (!finding.is_compared) return here;
   if (finding.beyond.on_these_only) {
     return here + fmt::format(" <span class=\"badge none\">no verdict for {}</span>", others);
   }

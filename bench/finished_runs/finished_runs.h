@@ -33,9 +33,15 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
 /// Runs all cells of the rehearsal under `seed`.
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed);
 
-/// Reads a result folder with its scenarios and processor times. For a run that has not ended or was interrupted, the
-/// result holds the reason and no data. Fails where LoadRun fails, and if cells.jsonl has a duplicate row or a row that
-/// the manifest does not list.
-Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
+/// What a loaded run holds in memory.
+enum class Held {
+  kAll,      ///< as LoadRun
+  kOutline,  ///< as LoadRunRowByRow
+};
+
+/// Reads a result folder with its scenarios and times. A run that has not ended or was interrupted has no data, only
+/// the reason. Fails like LoadRun, and if cells.jsonl has a duplicate row or a row that the manifest does not list.
+Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired,
+                                    Held held = Held::kAll);
 
 }  // namespace etude

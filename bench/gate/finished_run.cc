@@ -92,11 +92,14 @@ std::vector<std::string> CellsOf(const Study& study) {
 }
 
 Result<void> CheckRows(FinishedRun& run, const Place& place) {
-  if (run.data.source) return CheckRowsInOrder(run, place);
+  constexpr std::size_t kMaxNames = 100'000;  // of cells, that are held in memory
+  if (CountRows(run.data) > kMaxNames) return CheckRowsInOrder(run, place);
   std::set<std::string> rows;
-  for (const Row& row : run.data.rows) {
-    if (!rows.insert(row.Id()).second) return Fail(place, "contains the cell {} twice", row.Id());
-  }
+  std::string twice;
+  ForEachRow(run.data, [&](const Row& row, std::size_t) {
+    if (!rows.insert(row.Id()).second && twice.empty()) twice = row.Id();
+  });
+  if (!twice.empty()) return Fail(place, "contains the cell {} twice", twice);
   for (const FinishedScenario& one : run.scenarios) {
     const std::vector<std::string> wanted = CellsOf(one.study);
     std::vector<std::string> missing;

@@ -89,10 +89,21 @@ std::optional<double> MeanNearness(std::span<const std::ptrdiff_t> ours, std::sp
   return sum / static_cast<double>(ours.size());
 }
 
+constexpr double kSmoothing = 5;  // frames
+
 }  // namespace
 
+std::vector<double> MotionBeats(const PointTracks& found, double rate_hz) {
+  const auto lengths = StepLengths(found);
+  if (!lengths || lengths->empty()) return {};
+  std::vector<double> beats_s;
+  for (const std::ptrdiff_t frame : Minima(Smoothed(*lengths, kSmoothing), 1)) {
+    beats_s.push_back(static_cast<double>(frame) / rate_hz);
+  }
+  return beats_s;
+}
+
 std::optional<double> BeatAlignmentOfMusic(const PointTracks& found, double rate_hz, std::span<const double> beats_s) {
-  constexpr double kSmoothing = 5;  // frames
   const auto lengths = StepLengths(found);
   if (!lengths || lengths->empty()) return std::nullopt;
   return MeanNearness(FramesOf(beats_s, rate_hz, lengths->size()), Minima(Smoothed(*lengths, kSmoothing), 1));

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "bench/finished_runs/finished_runs.h"
@@ -65,10 +66,10 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
   std::set<fs::path> files = {"manifest.json", "host.json", "summary.json", kOtherLibrariesFile,
                               kSealFile,       kSignedFile, kSignatureFile, kLockFile};
   ASSIGN_OR_RETURN(const auto scenarios, ScenariosOf(folder));
-  if (!run.data.source) files.insert({kCellsFile, kTimingsFile});
-  // Add the files of each scenario: its columns or curves, and the standard error of its programs.
+  const bool has_columns = Exists(folder / kColumnsFolder);
+  if (!has_columns) files.insert({kCellsFile, kTimingsFile});
   for (const Scenario& scenario : scenarios) {
-    if (run.data.source) {
+    if (has_columns) {
       ASSIGN_OR_RETURN(const auto index, ReadColumnIndex(folder / kColumnsFolder / scenario.name));
       files.merge(FilesOfColumns(index));
     } else {
@@ -82,6 +83,7 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
   // Add the recordings of the cells that keep their motions.
   std::map<std::string, const RecordingSelection*> recorded;
   for (const Scenario& scenario : scenarios) recorded[scenario.name] = &scenario.recordings;
+  if (!Exists(folder / "recordings")) return files;
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
     const auto kept = recorded.find(row.scenario);
     if (kept == recorded.end() || !kept->second->KeepsTrial(row.trial) || !kept->second->KeepsMethod(row.method))
@@ -134,12 +136,11 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   });
 }
 
-/// Compares the lines of timings.jsonl with the lines of the rows. Times and memory are not compared, because no second
-/// run can repeat them.
-Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, Verified& verified) {
+/// Compares the lines of timings.jsonl with those of the cells, except their times and memory, which no run repeats.
+Result<void> CompareTimings(const FilePath& file, std::span<const std::string> cells, Verified& verified) {
   std::size_t row = 0;
   const auto line_of = [&](std::string_view line) -> Result<std::string> {
-    if (row == rows.size()) return std::string();
+    if (row == cells.size()) return std::string();
     ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(line), file.string()));
     CellUsage usage;
     for (const auto& [key, number] : {std::pair{"wall_s", &usage.wall_s},
@@ -149,10 +150,10 @@ Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, 
                                       {"world_cpu_s", &usage.world_cpu_s}}) {
       if (json.contains(key) && json.at(key).is_number()) *number = json.at(key).get<double>();
     }
-    return WriteJson(EncodeUsage(rows[row++].Id(), usage));
+    return WriteJson(EncodeUsage(cells[row++], usage));
   };
   RETURN_IF_ERROR(CompareLines(file, line_of, verified));
-  if (row < rows.size()) verified.differences.push_back(fmt::format("{} ends after {} lines", file.string(), row));
+  if (row < cells.size()) verified.differences.push_back(fmt::format("{} ends after {} lines", file.string(), row));
   return {};
 }
 
@@ -160,10 +161,11 @@ Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, 
 /// additional rows or curves.
 Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"texts: only those that this program reads", {}};
-  // Check that no key occurs twice in an object.
+  // Keys must not occur twice.
+  const bool has_columns = Exists(folder / kColumnsFolder);
   std::vector<FilePath> files = {folder / "manifest.json", folder / "host.json"};
   for (const FinishedScenario& scenario : run.scenarios) {
-    if (run.data.source) files.push_back(folder / kColumnsFolder / scenario.study.scenario / kIndexFile);
+    if (has_columns) files.push_back(folder / kColumnsFolder / scenario.study.scenario / kIndexFile);
   }
   for (const FilePath& file : files) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
@@ -171,16 +173,20 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
     if (const auto key = ParseJsonText(text).repeated_key)
       verified.differences.push_back(fmt::format("{}: '{}' appears twice", file.string(), *key));
   }
-  if (run.data.source) return verified;
-  // Check that every line of the rows, and then of the curves, is exactly as a run writes it.
-  std::size_t row = 0, curves = 0;
+  if (has_columns) return verified;
+  // Every line of the rows, then of the curves, must be as a run writes it.
+  std::vector<std::string> cells;
+  const std::size_t rows = CountRows(run.data);
   RETURN_IF_ERROR(CompareLines(
       folder / kCellsFile,
       [&](std::string_view) -> Result<std::string> {
-        return row < run.data.rows.size() ? WriteJson(EncodeRow(run.data.rows[row++])) : std::string();
+        if (cells.size() == rows) return std::string();
+        const Row row = RowAt(run.data, cells.size());
+        cells.push_back(row.Id());
+        return WriteJson(EncodeRow(row));
       },
       verified));
-  RETURN_IF_ERROR(CompareTimings(folder / kTimingsFile, run.data.rows, verified));
+  RETURN_IF_ERROR(CompareTimings(folder / kTimingsFile, cells, verified));
   std::size_t of_row = 0;
   for (const FinishedScenario& scenario : run.scenarios) {
     const FilePath file = folder / "series" / (scenario.study.scenario + ".jsonl");
@@ -188,12 +194,11 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
     RETURN_IF_ERROR(CompareLines(
         file,
         [&](std::string_view) -> Result<std::string> {
-          if (curves == run.data.series.size()) return std::string();
-          const CellSeries& of_cell = run.data.series[curves++];
-          while (of_row < run.data.rows.size() && run.data.rows[of_row].Id() != of_cell.cell) ++of_row;
-          if (of_row == run.data.rows.size()) return std::string();  // no such row, or its curves are a duplicate
-          ++of_row;
-          return WriteJson(EncodeSeriesLine(of_cell.cell, of_cell.series));
+          // Expect the curves of the next row that has any; a line of another row, or a duplicate, differs from them.
+          std::vector<Series> series;
+          while (of_row < cells.size() && (series = run.data.source->SeriesOf(of_row)).empty()) ++of_row;
+          if (of_row == cells.size()) return std::string();
+          return WriteJson(EncodeSeriesLine(cells[of_row++], series));
         },
         verified));
   }
@@ -284,8 +289,8 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
 
 Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   const FilePath folder = Inside(options.folder);
-  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored));
-  // Check the rows first, because the other checks make no sense if the rows are wrong.
+  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored, Held::kOutline));
+  // The rows come first: without them, no other check makes sense.
   VerifyOutcome outcome;
   std::vector<Verified>& all = outcome.checks;
   all.push_back({"seal.json: every file is unchanged since it was sealed", {}});
@@ -295,7 +300,7 @@ Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyFiles(folder, run));
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyText(folder, run));
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyHost(folder));
-  if (run.data.source) {
+  if (Exists(folder / kColumnsFolder)) {
     ASSIGN_OR_RETURN(all.emplace_back(), VerifyColumns(folder, run));
   }
   ASSIGN_OR_RETURN(all.emplace_back(), VerifySummary(folder, run, WorkerCount(options.jobs)));

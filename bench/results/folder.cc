@@ -12,6 +12,7 @@
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
 #include "bench/results/summary_json.h"
+#include "bench/results/text_rows.h"
 #include "engine/base/digest.h"
 #include "engine/base/named.h"
 #include "sim/random/seed.h"
@@ -313,6 +314,14 @@ Result<void> ReadRows(const fs::path& folder, Sealing sealing,
 Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
   const FolderBegun begun(folder);
   return begun.Tell(ReadRun(folder, sealing));
+}
+
+Result<RunData> LoadRunRowByRow(const fs::path& folder, Sealing sealing) {
+  ASSIGN_OR_RETURN(auto run, LoadRunOutline(folder, sealing));
+  if (!run.source) {
+    ASSIGN_OR_RETURN(run.source, OpenTextRows(folder, NamesOf(run.scenarios)));
+  }
+  return run;
 }
 
 Result<void> WriteRows(const fs::path& folder, Sealing sealing,

@@ -201,6 +201,12 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   const std::size_t differing = sizes.size() - zeros;
   if (differing == 0) return {1.0, "exact"};
   const double largest = sizes.back();
+  // If all have one sign, no other signs but their opposites give a mean as far from zero. Drawn signs could not show
+  // how small this p is, so that Holm's correction would reject it among many comparisons.
+  constexpr std::size_t kMaxExponent = 1000;
+  if (aggregate == Aggregate::kMean && (negatives == 0 || negatives == differing) && differing <= kMaxExponent) {
+    return {SmallestP(static_cast<int>(differing)), "exact"};
+  }
   if (aggregate == Aggregate::kMean && sizes[zeros] == largest) {
     const auto more = static_cast<int>(std::max(negatives, differing - negatives));
     return {std::min(1.0, KeepThirtyBits(2 * FairCoinUpperTail(more, static_cast<int>(differing)))), "exact"};

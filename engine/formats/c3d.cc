@@ -51,14 +51,17 @@ std::map<std::string, double> BodySizes(const C3dParameters& parameters) {
   return sizes;
 }
 
+/// Returns a frame number that TRIAL states in two words.
+std::optional<double> TrialField(const C3dParameters& parameters, const char* name) {
+  const auto low = parameters.Number(name, 0), high = parameters.Number(name, 1);
+  return low && high ? std::optional(*low + 65536 * *high) : std::nullopt;
+}
+constexpr const char* kStartField = "TRIAL:ACTUAL_START_FIELD";
+
 std::size_t CountFrames(const C3dBytes& bytes, const C3dParameters& parameters) {
   const double first = bytes.Word(6), last = bytes.Word(8);
   double frames = last - first + 1;
-  const auto field = [&](const char* name) -> std::optional<double> {
-    const auto low = parameters.Number(name, 0), high = parameters.Number(name, 1);
-    return low && high ? std::optional(*low + 65536 * *high) : std::nullopt;
-  };
-  const auto begin = field("TRIAL:ACTUAL_START_FIELD"), end = field("TRIAL:ACTUAL_END_FIELD");
+  const auto begin = TrialField(parameters, kStartField), end = TrialField(parameters, "TRIAL:ACTUAL_END_FIELD");
   if (begin && end && *end >= *begin) frames = *end - *begin + 1;
   // If the number of frames does not fit into the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES as a
   // float.
@@ -126,6 +129,8 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
     read.is_up_negative = screen.front()[0] == '-';
   }
   read.markers.metres_per_unit = *metres;
+  // Frame 1 has time 0.
+  read.markers.start_s = std::max(TrialField(parameters, kStartField).value_or(all.Word(6)) - 1, 0.0) / rate;
   constexpr double kSameRate = 0.01;
   if (const double header_hz = all.Float(20); header_hz > 0 && std::abs(header_hz / rate - 1) > kSameRate) {
     read.markers.remark =

@@ -222,6 +222,7 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
                                           rows.rate_name, *told, grid->rate_hz));
   }
   markers.rate_hz = grid->rate_hz;
+  if (rows.has_clock) markers.start_s = rows.times_s[grid->frames.front().row];
   AddRemark(markers.remark, grid->remark);
   if (grid->is_even) return std::move(markers);
   // Interpolate each marker that both rows show. Some programs write zeros for a gap, so zeros are only interpolated
@@ -245,7 +246,8 @@ Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file) {
   MarkerRows rows{.markers = {.names = {}, .frames = {}}, .times_s = csv.times_s, .lines = csv.lines};
   for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
   for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
-  if (!csv.rate_hz) rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
+  rows.has_clock = csv.rate_hz.has_value();
+  if (!rows.has_clock) rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
   return LayOnClock(std::move(rows), file);
 }
 

@@ -48,6 +48,7 @@ struct MarkerRows {
   MarkerMotion markers;
   std::vector<double> times_s;  ///< one per row; NaN if the row gives none
   std::vector<int> lines;       ///< line of each row, from 1
+  bool has_clock = true;        ///< false: the times were made from frame numbers
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
 };
 /// Places markers on frames by their times; in a hole, no marker was seen. The remark says what was changed. Fails like

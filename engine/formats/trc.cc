@@ -177,6 +177,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
     rows.times_s = TimesOfNumbers(numbers, header.rate_hz);
+    rows.has_clock = false;
   }
   return rows;
 }

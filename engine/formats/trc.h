@@ -26,6 +26,7 @@ struct MarkerMotion {
   std::string remark = "";     ///< a message of the reader for the user
   double metres_per_unit = 1;  ///< metres per unit of the file; the positions here are in metres
   std::map<std::string, double> sizes_m = {};  ///< sizes of the body that the file states: "LKNEEWIDTH"
+  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
 };
 
 /// Writes markers as a TRC file. The cells of a marker that was not seen are empty, as OpenSim expects.

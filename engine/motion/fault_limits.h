@@ -20,7 +20,8 @@ inline constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.0
 // Skates: limits for steps of the velocity, for a velocity that standing feet share, and for one foot.
 inline constexpr double kStep_m_s = 0.12, kMinCarried_s = 0.25, kMaxCarried_s = 20;
 inline constexpr double kGlide_m_s = 0.14, kGlide_s = 0.5;
-inline constexpr double kFootSkate_s = 0.4, kEvenFootSkate_s = 0.25;  ///< one foot, at any or at constant velocity
+inline constexpr double kFootSkate_m_s = 0.14, kFootSkate_s = 0.4,
+                        kEvenFootSkate_s = 0.25;  ///< one foot; at one velocity
 
 // Jumps and pops.
 inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;

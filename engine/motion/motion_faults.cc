@@ -143,11 +143,10 @@ std::vector<FaultRule> MakeFaultRules() {
        fmt::format(
            "Feet that should stand share a velocity along the floor of {}/s or more for {:g} s, and few of them "
            "rest; or {} change their velocity by {}/s from one frame to the next and back after {:g} to {:g} s, "
-           "while low feet move with them; or ankle and toes of one foot rest and move alike along the floor for {:g} "
-           "s ({:g} "
-           "s at one velocity).",
-           cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kMinCarried_s, kMaxCarried_s, kFootSkate_s,
-           kEvenFootSkate_s)},
+           "while low feet move with them; or ankle and toes of one low foot move alike along the floor, faster than "
+           "{}/s, for {:g} s ({:g} s at one velocity).",
+           cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kMinCarried_s, kMaxCarried_s, cm(kFootSkate_m_s),
+           kFootSkate_s, kEvenFootSkate_s)},
       {"jumps", "m",
        fmt::format(
            "{} are displaced alike from one frame to the next (by third differences of positions): by more than "

@@ -21,6 +21,7 @@ constexpr std::size_t kFootContacts = 4;
 struct RawMotion {
   std::string name;  ///< the name under which the file was requested
   double rate_hz = 30;
+  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
   std::vector<std::string> joints;  ///< names
   /// Indices of joints that the file does not name: BVH's End Sites, and the hip centre that its reader adds.
   std::vector<int> added;

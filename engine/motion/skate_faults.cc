@@ -158,7 +158,7 @@ std::vector<bool> FindCarried(const GroundView& ground, std::vector<MotionFault>
 /// Appends the stretches in which one foot glides over the floor: its toes and ankle are low and move alike, for a long
 /// time or at constant velocity. Stretches within known skates are skipped.
 void FindFootSkates(const GroundView& ground, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
-  constexpr double kLow = 0.04, kLevel = 0.3, kMinSpeed = 0.14, kNear = 0.07, kNearShare = 0.2;
+  constexpr double kLow = 0.04, kLevel = 0.3, kNear = 0.07, kNearShare = 0.2;
   constexpr double kConstant = 0.15;
   const std::size_t known = faults.size();
   const double rate = ground.motion().rate_hz;
@@ -174,7 +174,7 @@ void FindFootSkates(const GroundView& ground, std::span<const JointSet> unseen, 
       const glm::dvec3 a = ground.Velocity(f, ankle), b = ground.Velocity(f, toes);
       velocities[f] = 0.5 * glm::dvec2(a.x + b.x, a.z + b.z);
       const double speed = glm::length(velocities[f]), apart = glm::length(glm::dvec2(a.x - b.x, a.z - b.z));
-      glides[f] = std::abs(a.y) < kLevel && std::abs(b.y) < kLevel && speed > kMinSpeed &&
+      glides[f] = std::abs(a.y) < kLevel && std::abs(b.y) < kLevel && speed > fault_limits::kFootSkate_m_s &&
                   apart < std::max(kNear, kNearShare * speed);
     }
     for (const FrameRange& span : RangesOf(glides)) {
@@ -194,7 +194,7 @@ void FindFootSkates(const GroundView& ground, std::span<const JointSet> unseen, 
                                                  fault.to_s * rate >= span.first;
                                         });
       if (is_known || seconds < (is_constant ? fault_limits::kEvenFootSkate_s : fault_limits::kFootSkate_s) ||
-          glm::length(middle) < kMinSpeed)
+          glm::length(middle) < fault_limits::kFootSkate_m_s)
         continue;
       faults.push_back(ground.FaultOf(FaultKind::kSkates, span, glm::length(middle)));
       faults.back().joint = toes;

@@ -99,8 +99,8 @@ std::span<const RecogniserKind> AllRecognisers() {
           MakeDtwRecogniser,
           {{{"half_at_cm", &DtwOptions::half_at_cm, 1, 100, "The distance at which the evidence is one half."}}}),
       {.name = "nearest",
-       .description = "nearest neighbour of joints: examples compared with their mirror image, their first half, other "
-                      "moves and standing",
+       .description = "nearest neighbour of joints: examples compared with their mirror image, half their "
+                      "amplitude, other moves and standing",
        .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught,
                    const RecogniserOptions& options) { return MakeNearestRecogniser(taught, options.weights); }},

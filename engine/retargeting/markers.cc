@@ -185,6 +185,7 @@ UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, co
 MarkerMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet& set, const MarkerColumns& columns,
                      const std::vector<JointPositions>& seen, const glm::dvec3& up) {
   MarkerMotion shown{.rate_hz = markers.rate_hz, .names = {}, .frames = {}, .remark = set.name};
+  shown.start_s = markers.start_s;
   if (scale != 1)
     shown.remark += fmt::format("; its unit is taken to be {:g} times the file's, by the body's stature", scale);
   if (!markers.remark.empty()) shown.remark += "; " + markers.remark;

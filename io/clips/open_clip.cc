@@ -163,7 +163,10 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const bool is_recording = file.format == ClipFormat::kRecording;
   if (!is_recording && options.roles && options.roles->rate_hz) {
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
-    for (MarkerMotion& shown : file.shown) shown.rate_hz = *options.roles->rate_hz;
+    for (MarkerMotion& shown : file.shown) {
+      shown.rate_hz = *options.roles->rate_hz;
+      shown.start_s.reset();  // the file's clock runs at another rate
+    }
   } else if (!file.has_rate) {
     for (MadeBody& body : file.bodies) {
       body.changes.push_back(fmt::format("the file states no rate; {:g} Hz is assumed", kJudgedRateHz));

@@ -19,6 +19,7 @@ namespace {
 RawMotion OfMarkers(const MarkerMotion& shown) {
   RawMotion raw;
   raw.rate_hz = shown.rate_hz;
+  raw.start_s = shown.start_s;
   raw.joints = shown.names;
   for (const Role role : AllRoles()) {
     const auto found = std::ranges::find(shown.names, RoleName(role));
@@ -180,7 +181,7 @@ Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions
   return digest.Hex();
 }
 
-Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options) {
+Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options, bool keeps_rig) {
   if (BeginsAsZip(reference)) {
     ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(reference, kMaxClipFileBytes));
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, reference));
@@ -189,7 +190,7 @@ Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions&
   OpenOptions how = options;
   how.keeps_shown = true;
   ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, how));
-  return RawMotionOf(std::move(clip), options);
+  return RawMotionOf(std::move(clip), options, keeps_rig);
 }
 
 }  // namespace etude

@@ -23,7 +23,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
 /// read.
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options);
 
-/// Reads one motion: arrays of positions with ReadRawNpz, any other file with ReadOneClip.
-Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options);
+/// Reads one motion: arrays of positions by ReadRawNpz, any other as ReadOneClip does. `keeps_rig` as in RawMotionOf.
+Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options, bool keeps_rig = false);
 
 }  // namespace etude

@@ -1,6 +1,7 @@
 """Judges motions, in files or arrays, by their truth (`etude evaluate`)."""
 import array
 import io
+import itertools
 import json
 import os
 import pathlib
@@ -23,12 +24,13 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     does not point up. Arrays are kept as .npz files in the folder `output` + ".motions". pairs: a CSV file of pairs,
     given instead. joints, people, lag, statistics, music_beats, metrics: as the options of `etude evaluate`. alone:
     there is no truth; floor and limits are then the options of `etude evaluate --alone`, and the metric within_limits
-    says which clips keep the limits.
+    says which clips keep the limits. output: the result folder; by default the first free one of out/evaluate-1,
+    out/evaluate-2, …
 
     Raises EtudeError, also if a method has no answer that can be judged; its `run` is then set. Warns of pairs that are
     not judged.
     """
-    output = pathlib.Path("out/evaluate-1" if output is None else output)
+    output = _free_folder(overwrite) if output is None else pathlib.Path(output)
     if alone and (truth is not None or pairs is not None or not answers):
         raise TypeError("evaluate(alone=True) needs motions by name, and no truth")
     if not alone and ((truth is None) != (pairs is not None) or (pairs is None) != bool(answers)):
@@ -73,6 +75,14 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
         if missed and not alone:
             warnings.warn(f"{len(missed)} of {len(rows)} pairs are not judged: {said_of[0]}", stacklevel=2)
     return found
+
+
+def _free_folder(overwrite):
+    """Returns the first of out/evaluate-1, … that holds no run; with overwrite, the first."""
+    numbers = itertools.count(1)
+    while (folder := pathlib.Path(f"out/evaluate-{next(numbers)}")).exists() and not overwrite:
+        pass
+    return folder
 
 
 def _npz(positions, names, rate_hz, said, title):

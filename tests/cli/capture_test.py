@@ -2,6 +2,7 @@
 motion."""
 import json
 import math
+import random
 import re
 import shutil
 import struct
@@ -122,6 +123,34 @@ class Capture(EtudeCase):
         self.assertIn("--board 2x2x1: not a board; allowed: 3 to 16 squares", self.refusal("calibrate", "x", "--board", "2x2x1", "-o", self.rig))
         self.assertIn("no such file", self.refusal("calibrate", "nothing.mp4", "-o", self.rig))
         self.assertFalse((self.folder / "rig.yaml").exists(), "nothing is written")
+
+    def test_names_the_click_that_disagrees_and_a_size_or_a_unit_that_cannot_be(self):
+        size = f"{WIDTH}x{HEIGHT}"
+        heading, *lines = self.pairs.read_text().splitlines()
+        dice = random.Random(7)
+        noisy = []
+        for line in lines:
+            name, x, y, z, u, v = line.split(",")
+            noisy.append([name, x, y, z, float(u) + dice.gauss(0, .3), float(v) + dice.gauss(0, .3)])
+        def written(rows, factor=1):
+            return self.write("clicks.csv", "\n".join([heading, *(",".join(map(str, [r[0], *(factor * float(p) for p in r[1:4]), *r[4:]])) for r in rows)]) + "\n")
+        def told(table, *arguments):
+            return self.facts("calibrate", table, "--size", size, "--lens", "none", "--overwrite", "-o", self.rig, *arguments)["cameras"]
+        self.assertEqual([camera["disagreeing_pair"] for camera in told(written(noisy))], [None] * 3, "noise alone is no bad click")
+        bad = [list(row) for row in noisy]
+        fifth = [row for row in bad if row[0] == "middle"][4]
+        fifth[4] += 12
+        found = {camera["camera"]: camera["disagreeing_pair"] for camera in told(written(bad))}
+        self.assertEqual((found["left"], found["right"]), (None, None))
+        self.assertEqual(found["middle"]["pair"], 5)
+        self.assertAlmostEqual(found["middle"]["error_px"], 12, delta=2)
+        self.assertLess(found["middle"]["rms_without_px"], .6)
+        said = self.ends(0, "calibrate", written(bad), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
+        self.assertRegex(said, r"pair 5 disagrees with the others, which place \(.*\) 1[0-4]\.\d px from its pixel")
+        millimetres = self.ends(0, "calibrate", written(noisy, 1000), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
+        self.assertRegex(millimetres, r"middle: \d{4} m from its first point; points are metres: are these millimetres\?")
+        self.assertRegex(self.refusal("calibrate", self.pairs, "--size", "160x120", "--overwrite", "-o", self.rig),
+                         r"camera left: the pixel \(.*\) is outside of its picture of 160x120; is the size right\?")
 
     def test_tells_programs_what_was_calibrated(self):
         told = self.facts("calibrate", self.pairs, "--size", f"{WIDTH}x{HEIGHT}", "--lens", "none", "--overwrite", "-o", self.rig)

@@ -199,6 +199,24 @@ class Evaluate(EtudeCase):
             self.assertIn(", root midway between the hips" if answer == torso else ", root Hips of the truth, hip_centre of the answer",
                           self.rows(out)[0]["reason"])
 
+    def test_files_that_state_their_times_are_judged_by_them(self):
+        def from_ten(name, frames, late=0):  # as exported by a program that keeps the take's clock
+            path = self.trc_file(name, frames)
+            head, body = path.read_text().split("\n\n")
+            rows = [row.split("\t", 2) for row in body.splitlines()]
+            path.write_text(head + "\n\n" + "".join(f"{n}\t{float(t) + 10 + late:.5f}\t{rest}\n" for n, t, rest in rows))
+            return path
+        truth = from_ten("t/clap.trc", self.frames)
+        for name, answer, error, words in (
+                ("cut", from_ten("cut.trc", self.frames[20:], 20 / 30), 0, "the answer begins at 10.6667 s: judged by these clocks, 20 of"),
+                ("bvh", self.shared / "clap.bvh", 1, "the truth begins at 10 s, the answer states no clock: their first frames"),
+                ("same", from_ten("same.trc", self.frames), 0, "")):
+            self.evaluate(truth, answer, out=self.folder / name)
+            row, = self.rows(self.folder / name)
+            self.assertLessEqual(row["mpjpe_unaligned_mm"], error + 1e-4, name)
+            self.assertIn(words, row["reason"])
+            self.assertEqual("begins" in row["reason"], words != "")
+
     def test_a_lag_is_found_and_both_are_judged(self):
         truth, answer = self.trc_file("truth.trc", self.frames), self.trc_file("late.trc", self.frames[2:])
         facts = self.facts("evaluate", truth, answer, "--lag", "find", "-o", self.out)
@@ -249,6 +267,8 @@ class Evaluate(EtudeCase):
                    for method in facts["methods"] for metric in method["metrics"]}
         self.assertAlmostEqual(medians["mine", "mpjpe_unaligned_mm"], 30, 3)
         self.assertEqual([method["pairs_judged"] for method in facts["methods"]], [2, 1])
+        self.assertEqual([line.split(":")[0] for line in facts["judged"]], ["mine, first", "none, second"])
+        self.assertEqual(facts["not_judged"], ["none, first: the method has no answer of this name"])
 
     def test_a_run_is_an_answer_like_any_file(self):
         run = self.folder / "run"

@@ -97,7 +97,8 @@ class Triage(EtudeCase):
         limits = self.write("limits.yaml", "floats_max_cm: 50\n")
         self.triage(self.folder / "m", "--limits", limits, out=self.folder / "own")
         facts = self.facts("evaluate", "--alone", self.folder / "m", "--limits", limits, "-o", self.folder / "facts")
-        self.assertEqual(facts["beyond_limits"], [])
+        self.assertEqual((facts["beyond_limits"], facts["not_judged"]), ([], []))
+        self.assertEqual([line.split(":")[0] for line in facts["with_faults"]], ["m, floating"])
         # A clip that cannot be read keeps no limits: exit code, terminal, JUnit and summary say so.
         self.write("m/torn.bvh", "HIERARCHY\n")
         self.popping("m/popping.csv")

@@ -1,5 +1,7 @@
 """Tests etude.evaluate: arrays and files are judged as the program judges files."""
 import math
+import os
+import shutil
 import unittest
 
 from python_case import PythonCase
@@ -39,6 +41,19 @@ class Evaluate(PythonCase):
         with self.assertRaises(FileExistsError):
             etude.evaluate(**given, mine=standing(3, across=1))
         self.assertEqual((self.folder / "run.motions" / "mine.npz").read_bytes(), kept)
+
+    def test_calls_in_a_row_have_folders_of_their_own(self):
+        here = os.getcwd()
+        self.addCleanup(os.chdir, here)
+        os.chdir(self.folder)
+        for expected in "evaluate-1", "evaluate-2", "evaluate-2":
+            run = etude.evaluate(standing(9), mine=standing(9), names=NAMES, rate_hz=30, progress=False)
+            self.assertTrue((self.folder / "out" / expected / "cells.jsonl").exists())
+            self.assertEqual(len(list(run["evaluate"].rows())), 1)
+            if expected == "evaluate-1":
+                continue
+            shutil.rmtree(self.folder / "out" / "evaluate-2")
+            shutil.rmtree(self.folder / "out" / "evaluate-2.motions")
 
     def test_joints_of_any_names_are_judged_by_name(self):
         names = [f"Gelenk {i} ü" for i in range(len(NAMES))]

@@ -27,6 +27,9 @@ TEST(Badges, NameBothVerdicts) {
   EXPECT_THAT(VerdictBadges(Found(SamplingUnit::kClip, true, std::nullopt)), HasSubstr("no verdict for other clips"));
   EXPECT_THAT(VerdictBadges(Found(SamplingUnit::kWorld, false, Verdict::kBetter)),
               HasSubstr("better on these worlds and others"));
+  MethodFinding alone = Found(SamplingUnit::kClip, false, Verdict::kBetter);
+  alone.is_compared = false;
+  EXPECT_EQ(VerdictBadges(alone), "") << "nothing was compared";
 }
 
 TEST(Badges, PutWhatHoldsHereOnlyInBrackets) {

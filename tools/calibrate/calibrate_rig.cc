@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <ranges>
 
 #include "engine/base/angles.h"
 #include "engine/base/text.h"
@@ -86,6 +87,53 @@ Result<void> SetSize(const std::string& text, std::vector<CameraPairs>& cameras)
   return {};
 }
 
+/// Fails if the picture is too small for a pixel that shows a point.
+Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
+  for (const PointPair& pair : of.pairs) {
+    const glm::dvec2& p = pair.pixel;
+    const bool is_inside = p.x >= -0.5 && p.y >= -0.5 && p.x <= of.width - 0.5 && p.y <= of.height - 0.5;
+    if (is_inside) continue;
+    return Fail({file}, "camera {}: the pixel ({:g}, {:g}) is outside of its picture of {}x{}; is the size right?",
+                of.name, p.x, p.y, of.width, of.height);
+  }
+  return {};
+}
+
+/// Finds the pair that disagrees with the others: calibrating without it lowers the squared error by more than chance
+/// would in one of 100 calibrations (F test for one pair, Bonferroni over all), and the others place it a pixel or more
+/// away. Of many pairs, those with the largest residuals are tried.
+std::optional<DisagreeingPair> FindDisagreeing(const CameraPairs& of, const RefinedRig& all,
+                                               const RefineOptions& options) {
+  constexpr std::size_t kMaxTried = 20;
+  constexpr double kMinError_px = 1, kMaxChance = 0.01;
+  const std::size_t count = of.pairs.size();
+  const double freedom = 2.0 * static_cast<double>(count - 1) - static_cast<double>(all.parameters);
+  if (freedom <= 0) return std::nullopt;
+  const auto error_of = [&](const Camera& camera, std::size_t i) {
+    return ReprojectionRms(camera, {}, std::span(of.pairs).subspan(i, 1));
+  };
+  std::vector<std::pair<double, std::size_t>> tried;
+  for (std::size_t i = 0; i < count; ++i) tried.emplace_back(-error_of(all.cameras.front(), i), i);
+  std::ranges::sort(tried);
+  tried.resize(std::min(count, kMaxTried));
+  std::optional<DisagreeingPair> worst;
+  double least = kMaxChance / static_cast<double>(count);
+  for (const std::size_t i : tried | std::views::values) {
+    std::vector<PointPair> others = of.pairs;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto refined = RefineCamera(others, of.width, of.height, options);
+    if (!refined) continue;  // this pair is needed
+    const double share = refined->rms_px * refined->rms_px * static_cast<double>(count - 1) /
+                         (all.rms_px * all.rms_px * static_cast<double>(count));
+    // The tail of F with 2 and `freedom` degrees of freedom.
+    const double chance = std::pow(share, freedom / 2), error = error_of(refined->cameras.front(), i);
+    if (!(chance < least) || error < kMinError_px) continue;
+    least = chance;
+    worst = DisagreeingPair{i, of.pairs[i], error, refined->rms_px};
+  }
+  return worst;
+}
+
 Result<Calibrated> FromPairs(const CalibrateOptions& options) {
   const std::string& file = options.inputs.front();
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
@@ -95,12 +143,15 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
   for (const CameraPairs& of : cameras) {
     // Calibrate by refinement, with a lens; or by a linear method, without a lens.
     const auto complain = [&](const Error& error) { return Fail({file}, "camera {}: {}", of.name, error.message); };
+    RETURN_IF_ERROR(CheckPixels(of, file));
     rig.points.push_back(of.pairs.size());
+    rig.disagreeing.emplace_back();
     if (options.method == "refined") {
       const auto refined = RefineCamera(of.pairs, of.width, of.height, RefineOptionsOf(options));
       if (!refined) return complain(refined.error());
       rig.cameras.push_back({of.name, refined->cameras.front()});
       rig.deviations.push_back(refined->deviations.front());
+      rig.disagreeing.back() = FindDisagreeing(of, *refined, RefineOptionsOf(options));
     } else {
       const auto matrix = Calibrate(of.pairs, CalibrationNamed(options.method));
       if (!matrix) return complain(matrix.error());
@@ -110,6 +161,12 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
       rig.deviations.push_back(std::nullopt);
     }
     rig.rms_px.push_back(ReprojectionRms(rig.cameras.back().camera, {}, of.pairs));
+    const double distance = glm::distance(rig.cameras.back().camera.p_WC, of.pairs.front().world);
+    constexpr double kFar_m = 500;
+    if (distance > kFar_m) {
+      options.listener.print(fmt::format("{}: {:.0f} m from its first point; points are metres: are these millimetres?\n",
+                                         of.name, distance));
+    }
   }
   return rig;
 }
@@ -136,6 +193,14 @@ std::string TextOf(const Calibrated& rig) {
     if (!d.IsNone())
       text += fmt::format("  lens             k1 {:.5f}  k2 {:.5f}  p1 {:.6f}  p2 {:.6f}  k3 {:.5f}\n", d.k1, d.k2, d.p1, d.p2,
                  d.k3);
+    if (i < rig.disagreeing.size() && rig.disagreeing[i]) {
+      const DisagreeingPair& pair = *rig.disagreeing[i];
+      text += fmt::format(
+          "  pair {} disagrees with the others, which place ({:g}, {:g}, {:g}) {:.1f} px from its pixel ({:g}, {:g}); "
+          "without it\n  the reprojection error is {:.3f} px RMS\n",
+          pair.index + 1, pair.pair.world.x, pair.pair.world.y, pair.pair.world.z, pair.error_px, pair.pair.pixel.x,
+          pair.pair.pixel.y, pair.rms_without_px);
+    }
     text += fmt::format("  stands at        {:.3f}, {:.3f}, {:.3f} m\n", camera.p_WC.x, camera.p_WC.y, camera.p_WC.z);
     text += fmt::format("  paper B's        f {:.2f}  du {:.5f}  dv {:g}  pu {:.2f}  pv {:.2f}  theta {:.3f} deg\n",
                p.focal_length, p.delta_u, p.delta_v, p.principal_u, p.principal_v, Degrees(p.skew));

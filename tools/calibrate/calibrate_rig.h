@@ -31,12 +31,21 @@ struct CalibrateOptions {
   Listener listener = {};
 };
 
-/// A calibrated rig, and the numbers that are printed about it, one entry for each camera.
+/// A point pair with a wrong pixel or a wrong place.
+struct DisagreeingPair {
+  std::size_t index = 0;  ///< among the pairs of its camera, from 0
+  PointPair pair;
+  double error_px = 0;        ///< how far from its pixel the calibration by all others shows the point
+  double rms_without_px = 0;  ///< reprojection error of that calibration
+};
+
+/// A rig, and the numbers that are printed about it, one entry for each camera.
 struct Calibrated {
   std::vector<NamedCamera> cameras;
   std::vector<double> rms_px;
   std::vector<std::size_t> points;
   std::vector<std::optional<IntrinsicsDeviation>> deviations;
+  std::vector<std::optional<DisagreeingPair>> disagreeing = {};  ///< of point pairs, by method "refined"; else empty
 };
 
 /// Parses "COLUMNSxROWSxSQUARE[@FIRST_CODE]". Fails, naming the option --board, on any other text and on codes beyond

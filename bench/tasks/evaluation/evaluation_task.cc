@@ -1,8 +1,11 @@
+#include <algorithm>
+
 #include "bench/model/recording.h"
 #include "bench/recordings/evaluation_extras.h"
 #include "bench/tasks/base/file_task.h"
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/base/task_kinds.h"
+#include "bench/tasks/evaluation/controls.h"
 #include "bench/tasks/evaluation/find_files.h"
 #include "bench/tasks/evaluation/match.h"
 #include "bench/tasks/evaluation/options.h"
@@ -14,6 +17,7 @@ namespace {
 
 struct EvaluationStudy : FileStudy<EvaluationOptions, EvaluationMethod> {
   EvaluationSideData side;
+  bool has_only_controls = false;
 };
 
 /// Returns a recording of both motions. It contains the judged joints only.
@@ -32,7 +36,7 @@ Recording RecordingOf(const MatchedMotions& matched) {
 class EvaluationWorld final : public FileWorld {
  public:
   EvaluationWorld(const EvaluationStudy& study, const JudgedFiles& files, bool keeps_motion)
-      : study_(study), files_(files), keeps_motion_(keeps_motion), truth_(OpenRawMotion(files.truth, study.opening)) {}
+      : study_(study), files_(files), keeps_motion_(keeps_motion), truth_(Open(study, files.truth)) {}
 
   std::optional<std::string> WhySkipped() const override {
     if (truth_) return std::nullopt;
@@ -42,7 +46,10 @@ class EvaluationWorld final : public FileWorld {
   CellResult Run(std::size_t method) override {
     if (const EvaluationMethod& control = study_.methods[method]; control.is_control) {
       const RawMotion noisy = Spoilt(*truth_, {.noisy_mm = study_.options.noise_mm}, files_.name);
-      return Judged(Spoilt(noisy, control.spoiler, files_.name + ", control"));
+      RawMotion answer = Spoilt(noisy, control.spoiler, files_.name + ", control");
+      if (study_.has_only_controls) answer.contacts = ContactsByMotion(answer);
+      HideWorst(answer, *truth_, control.spoiler.hidden_percent);
+      return Judged(answer);
     }
     const std::string& reference = files_.answers[method];
     if (reference.empty()) return CellResult::Ended(Status::kFailed, "the method has no answer of this name");
@@ -52,10 +59,18 @@ class EvaluationWorld final : public FileWorld {
   }
 
  private:
+  /// Reads the truth. Of controls, both motions lack the same, so it is made up for both.
+  static Result<RawMotion> Open(const EvaluationStudy& study, const std::string& reference) {
+    auto truth = OpenRawMotion(reference, study.opening, study.has_only_controls);
+    if (truth && study.has_only_controls) truth->contacts = ContactsByMotion(*truth);
+    return truth;
+  }
+
   CellResult Judged(const RawMotion& answer) const {
     const auto matched = Match(*truth_, answer, study_.options.joints, study_.options.lag);
     if (!matched) return CellResult::Ended(Status::kFailed, ToString(matched.error()));
-    CellResult result = JudgeMotion(*matched, study_.side);
+    const EvaluationSideData side = study_.has_only_controls ? SideDataOf(*matched, study_.side) : study_.side;
+    CellResult result = JudgeMotion(*matched, side);
     if (keeps_motion_) result.recording = RecordingOf(*matched);
     return result;
   }
@@ -70,6 +85,7 @@ Result<std::unique_ptr<Task>> MakeEvaluationTask(TaskInput& input) {
   EvaluationStudy study;
   EvaluationConditionFields().Read(input.condition, study.options);
   ASSIGN_OR_RETURN(study.methods, ReadMethods(input, "evaluation", EvaluationMethodFields()));
+  study.has_only_controls = std::ranges::all_of(study.methods, &EvaluationMethod::is_control);
   RETURN_IF_ERROR(CheckFiles(input.condition.node(), study.options));
   RETURN_IF_ERROR(study.TakeFiles(input));
   if (!study.options.statistics.empty()) {

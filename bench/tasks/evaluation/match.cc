@@ -176,7 +176,34 @@ bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
 }
 
-/// Returns "the answer is 40.2 ms late (39.8 to 40.6), which was removed".
+/// Where the answer's first frame lies after the truth's, by the clocks of the files.
+struct ClockOffset {
+  double seconds = 0;
+  std::string note;
+};
+
+/// Compares the clocks that both files state. If one states none, or the clocks never show the same time, the first
+/// frames belong together. Within a tenth of a frame of whole frames, the answer is a whole number of frames later.
+ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
+  constexpr double kSame = 0.1;  // frames
+  const double truth_s = truth.start_s.value_or(0), answer_s = answer.start_s.value_or(0);
+  const double frames = (answer_s - truth_s) * truth.rate_hz;
+  if (std::abs(frames) < kSame) return {};
+  const auto told = [](const RawMotion& motion) {
+    return motion.start_s ? fmt::format("begins at {:.6g} s", *motion.start_s) : std::string("states no clock");
+  };
+  const std::string both = fmt::format("the truth {}, the answer {}", told(truth), told(answer));
+  const auto end_of = [](const RawMotion& motion, double start_s) {
+    return start_s + static_cast<double>(motion.FrameCount() - 1) / motion.rate_hz;
+  };
+  const bool overlap = answer_s <= end_of(truth, truth_s) && truth_s <= end_of(answer, answer_s);
+  if (!truth.start_s || !answer.start_s || !overlap) return {0, both + ": their first frames are taken as one time"};
+  const bool is_whole = HaveSameRate(truth, answer) && std::abs(frames - std::round(frames)) < kSame;
+  if (is_whole) return {std::round(frames) / answer.rate_hz, both + ": judged by these clocks"};
+  return {frames / truth.rate_hz, both + ": judged by these clocks, the answer interpolated linearly"};
+}
+
+/// Returns "the answer is 40.2 ms late (39.8 to 40.6), taken out".
 std::string NoteOn(const TimeShift& lag) {
   constexpr double kToMs = 1000;
   const double ms = kToMs * lag.shift_s;
@@ -198,7 +225,8 @@ std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
   return a == b ? ", root " + a : fmt::format(", root {} of the truth, {} of the answer", a, b);
 }
 
-std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const MatchedMotions& matched) {
+std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::string& clock,
+                   const MatchedMotions& matched) {
   std::string note = fmt::format("{} joints", matched.joints.size());
   if (!matched.lacking.empty()) note += fmt::format(" (one of both lacks {})", SomeOf(matched.lacking));
   note += NoteOnRoots(truth, answer);
@@ -206,6 +234,7 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const Matche
   note += fmt::format(", {} frames at {:g} Hz", matched.pair.truth.FrameCount(), truth.rate_hz);
   if (is_resampled) note += fmt::format(", the answer's {:g} Hz interpolated linearly", answer.rate_hz);
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
+  if (!clock.empty()) note += ", " + clock;
   if (matched.uncovered > 0) note += fmt::format(", {} of them outside the answer", matched.uncovered);
   for (const RawMotion* motion : {&truth, &answer}) {
     if (motion->notes.empty()) continue;
@@ -238,8 +267,10 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   const double rate_hz = is_same_rate ? answer.rate_hz : truth.rate_hz;
   matched.pair.rate_hz = truth.rate_hz;
   matched.pair.truth = Columns(truth, of_truth, frames);
+  const ClockOffset clock = OffsetOf(truth, answer);
   if (lag == Lag::kFind) {
-    const PointTracks found = Columns(answer, of_answer, answer.FrameCount());
+    const RawMotion shifted = Sampled(answer, answer.rate_hz, -clock.seconds, answer.FrameCount());
+    const PointTracks found = Columns(shifted, of_answer, answer.FrameCount());
     matched.lag = FindTimeShift(matched.pair.truth, rate_hz, found, answer.rate_hz);
     if (!matched.lag) {
       return Fail({answer.name},
@@ -248,10 +279,10 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
                   kMaxTimeShift_s);
     }
   }
-  // Sample the answer at the truth's times. If both have the same rate, its frames are used unchanged.
-  const double start_s = matched.lag ? matched.lag->shift_s : 0;
+  // Sample the answer at the truth's times; frames of one rate are taken as they are.
+  const double start_s = (matched.lag ? matched.lag->shift_s : 0) - clock.seconds;
   RawMotion resampled;
-  if (!is_same_rate || matched.lag || answer.FrameCount() != frames) {
+  if (!is_same_rate || start_s != 0 || answer.FrameCount() != frames) {
     resampled = Sampled(answer, rate_hz, start_s, frames);
   }
   const RawMotion& sampled = resampled.joints.empty() ? answer : resampled;
@@ -280,7 +311,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   if (SeenShare(matched.pair).value_or(0) == 0) {
     return Fail({answer.name}, "no joint of '{}' is ever seen by both", truth.name);
   }
-  matched.note = NoteOn(truth, answer, matched);
+  matched.note = NoteOn(truth, answer, clock.note, matched);
   return matched;
 }
 

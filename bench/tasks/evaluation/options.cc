@@ -65,9 +65,8 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
                  "Which part of a pair's name is the person; verdicts beyond these files count each person once.")
            .WhenAbsent("(each pair counts for itself)"),
        Key::Name("lag", &EvaluationOptions::lag, {{"none", Lag::kNone}, {"find", Lag::kFind}},
-                 "none: the first frames of answer and truth belong together; find: the time shift between them is "
-                 "found and removed."),
-       // The files that some metrics need.
+                 "none: frames of equal times belong together if both files state a clock, else the first frames; "
+                 "find: the time shift between them is found and removed."),
        {{"statistics", FileKind("a CSV file"), "(L2P has no value)",
          "Means and standard deviations of joints over a training set: a heading `JOINT_x_m,…` and two rows."},
         [](Fields& fields, EvaluationOptions& options) { options.statistics = fields.Text("statistics", ""); }},
@@ -107,8 +106,8 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
                   "The answers; they have the same names as their truths.")
            .WhenAbsent("(`pairs` names them)"),
        Key::Flag("control", &Method::is_control,
-                 "The answer is the truth with the errors that the other keys add, in this order."),
-       // The faults of a control's answer, in the order in which they are added.
+                 "The answer is the truth with the errors that the other keys add, in this order. If all methods are "
+                 "controls, what files lack comes from the truth: rotations, contacts, beats, statistics."),
        Key::Number("noisy_mm", part(&Spoiler::noisy_mm), {0, 1000},
                    "Standard deviation of white noise, independent for each joint and axis."),
        Key::Number("smoothed_ms", part(&Spoiler::smoothed_ms), {0, 10'000}, "Length of a centred moving mean."),
@@ -126,7 +125,9 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
                    "Keeps every n-th frame; the others are interpolated linearly."),
        Key::Number("late_ms", part(&Spoiler::late_ms), {0, 60'000}, "Delay; the first pose stands until then."),
        Key::Number("frozen_share", part(&Spoiler::frozen_share), {0, 1},
-                   "Share of the take, at its end, that stands still.")},
+                   "Share of the take, at its end, that stands still."),
+       Key::Number("hidden_percent", part(&Spoiler::hidden_percent), {0, 100},
+                   "Share of all joints that is not shown: those with the largest errors.")},
       CheckControl};
   return table;
 }

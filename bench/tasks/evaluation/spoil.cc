@@ -34,7 +34,34 @@ void AddNoise(RawMotion& motion, double noisy_mm, const std::string& seed_name) 
   RandomStream dice({.suite_seed = 1, .scenario = seed_name, .trial = 0}, "noise of a control");
   ChangeEach(motion,
              [&](std::size_t, std::size_t, const glm::dvec3& p) { return p + noisy_mm / 1000 * dice.Normal3(); });
-  motion.rotations.clear();
+  // Both ends of a segment move, each by the noise: it turns by √2 of it over its length.
+  constexpr double kSegment_m = 0.42;
+  RandomStream turns({.suite_seed = 1, .scenario = seed_name, .trial = 0}, "turns of a control");
+  for (glm::dquat& rotation : motion.rotations) {
+    const glm::dvec3 turn = std::sqrt(2.0) * noisy_mm / 1000 / kSegment_m * turns.Normal3();
+    rotation = glm::normalize(glm::dquat(1, 0.5 * turn) * rotation);
+  }
+}
+
+/// Returns the mean direction of a joint's rotations over frames from `begin` to before `end`, which lie on the side of
+/// `near`.
+glm::dquat MeanTurn(const RawMotion& motion, std::size_t joint, std::size_t begin, std::size_t end,
+                    const glm::dquat& near) {
+  glm::dquat sum(0, 0, 0, 0);
+  for (std::size_t f = begin; f < end; ++f) {
+    const glm::dquat& rotation = motion.rotations[f * motion.joints.size() + joint];
+    sum += glm::dot(rotation, near) < 0 ? -rotation : rotation;
+  }
+  return glm::dot(sum, sum) > 0 ? glm::normalize(sum) : near;
+}
+
+/// Replaces each rotation by what `change` makes of the frame, the joint, and the rotation.
+template <typename Change>
+void TurnEach(RawMotion& motion, Change change) {
+  const std::size_t joints = motion.joints.size();
+  for (std::size_t i = 0; i < motion.rotations.size(); ++i) {
+    motion.rotations[i] = change(i / joints, i % joints, motion.rotations[i]);
+  }
 }
 
 void Smooth(RawMotion& motion, double smoothed_ms) {
@@ -45,7 +72,10 @@ void Smooth(RawMotion& motion, double smoothed_ms) {
     const std::size_t half = std::min({reach, f, before.FrameCount() - 1 - f});
     return IsSeen(p) ? MeanOf(before, j, f - half, f + half + 1) : p;
   });
-  motion.rotations.clear();
+  TurnEach(motion, [&](std::size_t f, std::size_t j, const glm::dquat& rotation) {
+    const std::size_t half = std::min({reach, f, before.FrameCount() - 1 - f});
+    return MeanTurn(before, j, f - half, f + half + 1, rotation);
+  });
 }
 
 void Fade(RawMotion& motion, double faded_percent) {
@@ -53,7 +83,14 @@ void Fade(RawMotion& motion, double faded_percent) {
   for (std::size_t j = 0; j < motion.joints.size(); ++j) means.push_back(MeanOf(motion, j, 0, motion.FrameCount()));
   ChangeEach(motion,
              [&](std::size_t, std::size_t j, const glm::dvec3& p) { return p + faded_percent / 100 * (means[j] - p); });
-  motion.rotations.clear();
+  if (motion.rotations.empty()) return;
+  std::vector<glm::dquat> turns;
+  for (std::size_t j = 0; j < motion.joints.size(); ++j) {
+    turns.push_back(MeanTurn(motion, j, 0, motion.FrameCount(), motion.rotations[j]));
+  }
+  TurnEach(motion, [&](std::size_t, std::size_t j, const glm::dquat& rotation) {
+    return glm::slerp(rotation, turns[j], faded_percent / 100);
+  });
 }
 
 /// Holds the ankle and the toes of each foot at rest as long as the toes are low.
@@ -62,17 +99,19 @@ void LockFeet(RawMotion& motion, double low_m) {
        {std::pair(Role::kLeftAnkle, Role::kLeftFoot), {Role::kRightAnkle, Role::kRightFoot}}) {
     const int a = motion.roles[Index(ankle)], t = motion.roles[Index(toes)];
     if (a < 0 || t < 0) continue;
-    const auto at = [&](std::size_t f, int j) -> glm::dvec3& { return motion.positions[f * motion.joints.size() + j]; };
+    const std::size_t joints = motion.joints.size();
     bool was_low = false;
     for (std::size_t f = 0; f < motion.FrameCount(); ++f) {
-      const bool is_low = at(f, t).y < low_m;
+      const bool is_low = motion.At(f, static_cast<std::size_t>(t)).y < low_m;
       for (const int j : {a, t}) {
-        if (is_low && was_low) at(f, j) = at(f - 1, j);
+        const std::size_t i = f * joints + static_cast<std::size_t>(j);
+        if (!is_low || !was_low) continue;
+        motion.positions[i] = motion.positions[i - joints];
+        if (!motion.rotations.empty()) motion.rotations[i] = motion.rotations[i - joints];
       }
       was_low = is_low;
     }
   }
-  motion.rotations.clear();
 }
 
 /// Mirrors the frames from `begin` on about a plane of constant X. Each joint gets the motion of the joint on the other
@@ -91,7 +130,14 @@ void Mirror(RawMotion& motion, std::size_t begin) {
     const glm::dvec3& q = before.At(f, other[j]);
     return f < begin ? p : glm::dvec3(2 * middle - q.x, q.y, q.z);
   });
-  motion.rotations.clear();
+  // The reflected rotation from rest of the other side's joint, applied to this joint at rest.
+  TurnEach(motion, [&](std::size_t f, std::size_t j, const glm::dquat& rotation) {
+    if (f < begin) return rotation;
+    const std::size_t k = other[j];
+    const glm::dquat from_rest =
+        before.rotations[f * before.joints.size() + k] * glm::conjugate(before.rest_rotations[k]);
+    return glm::dquat(from_rest.w, from_rest.x, -from_rest.y, -from_rest.z) * before.rest_rotations[j];
+  });
 }
 
 /// A time between two frames: `part` is the fraction of the way from frame `from` to frame `to`.

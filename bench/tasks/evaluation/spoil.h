@@ -15,16 +15,17 @@ struct Spoiler {
   double lifted_cm = 0;
   double gliding_cm_s = 0;    ///< speed along X
   double feet_locked_cm = 0;  ///< ankles and toes rest where the toes came below this height, until they leave it
-  double mirrored_share = 0;  ///< share at the take's end in which left and right are exchanged
-  int kept_frames = 1;        ///< only every n-th frame is kept, with linear interpolation in between
-  double late_ms = 0;         ///< delay; the first pose is held until then
-  double frozen_share = 0;    ///< share at the take's end in which the body stands still
+  double mirrored_share = 0;  ///< of the take's end: the motion of the other side, about the body's middle
+  int kept_frames = 1;        ///< one of so many frames, with straight lines in between
+  double late_ms = 0;         ///< the first pose stands until then
+  double frozen_share = 0;    ///< of the take's end, which stands still
+  double hidden_percent = 0;  ///< of all joints: the worst are not shown (HideWorst)
 
   bool operator==(const Spoiler&) const = default;
 };
 
-/// Returns a copy of a truth with these faults. The noise depends on `seed_name` alone. Rotations are kept only if the
-/// faults leave them valid: faults that move single joints remove the rotations.
+/// Returns a copy of a truth with these faults; no joint is hidden yet. The noise depends on `seed_name` alone. Rotations
+/// get the faults, too: noise of 10 mm turns each joint by 1.9° about each axis, as it would turn a segment of 42 cm.
 RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::string& seed_name);
 
 }  // namespace etude

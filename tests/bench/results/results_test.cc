@@ -150,6 +150,49 @@ TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
   EXPECT_THAT(ToString(load().error()), HasSubstr(fmt::format("schema 99; this program reads {}", kResultSchema)));
 }
 
+TEST(LoadRunRowByRow, GivesTheRowsCurvesAndTimesOfLoadRun) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "etude_streamed_run";
+  std::filesystem::remove_all(folder);
+  Row other = SampleRow();
+  other.trial = 8;
+  other.result.series.clear();
+  Row last = SampleRow();
+  last.trial = 9;
+  last.result.series = {{"position_error_cm", "iteration", {5}}};
+  auto writer = ResultWriter::Begin(folder);
+  ASSERT_TRUE(writer);
+  for (const Row& row : {SampleRow(), other, last}) ASSERT_TRUE(writer->Add(row, {}));
+  ScenarioSummary summary;
+  summary.name = "ik-weights";
+  summary.task = "ik";
+  ASSERT_TRUE(writer->Finish({summary}));
+  ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json",
+                                  fmt::format(R"({{"schema":{},"suite":"s","seed":1,"etude":"0"}})", kResultSchema)));
+  ASSERT_TRUE(WriteFileAtomically(folder / "host.json", R"({"command_line":"c","host":"h","wall_seconds":1})"));
+  const std::string id = other.Id();
+  const std::string times = fmt::format(R"({{"cell":"{}","cpu_s":0.25}})", id);
+  ASSERT_TRUE(WriteFileAtomically(folder / "timings.jsonl", times + "\n"));
+  ASSERT_OK(held, LoadRun(folder, Sealing::kIgnored));
+  ASSERT_OK(streamed, LoadRunRowByRow(folder, Sealing::kIgnored));
+  EXPECT_TRUE(streamed->rows.empty());
+  ASSERT_EQ(CountRows(*streamed), 3u);
+  std::size_t curves = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(*WriteJson(EncodeRow(RowAt(*streamed, i))), *WriteJson(EncodeRow(held->rows[i])));
+    for (const Series& series : streamed->source->SeriesOf(i)) {
+      EXPECT_EQ(series.values, held->series[curves].series[0].values);
+      ++curves;
+    }
+    EXPECT_EQ(CpuSecondsOf(*streamed, held->rows[i], i), CpuSecondsOf(*held, held->rows[i], i));
+  }
+  EXPECT_EQ(curves, held->series.size());
+  // A line that changed meanwhile is no row.
+  std::fstream file(folder / "cells.jsonl");
+  file << "{{{";
+  file.close();
+  EXPECT_EQ(RowAt(*streamed, 0).scenario, "");
+}
+
 TEST(Rows, NeverTakeASweptParameterForAMetricOfTheSameName) {
   Row row{"t", "transition", {{"wait_s", "0.5"}}, 0, "", {}, "fuzzy", CellResult::Ended(Status::kCrashed, "died")};
   ASSERT_OK(read, DecodeRow(EncodeRow(row), kPlace));

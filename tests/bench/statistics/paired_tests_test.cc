@@ -135,8 +135,19 @@ TEST(SignFlip, DrawsSignsWhenThereAreTooManyToCount) {
     EXPECT_NE(*SignFlipTest(seventeen, aggregate, 2, "x").p, *drawn.p);
   }
   // Never zero: the sample itself is one of the ways.
-  EXPECT_DOUBLE_EQ(*SignFlipTest(Ranks(200, {}), Aggregate::kMean, 1, "x").p, 1e-4);
+  EXPECT_DOUBLE_EQ(*SignFlipTest(Ranks(200, {1}), Aggregate::kMean, 1, "x").p, 1e-4);
   EXPECT_DOUBLE_EQ(*SignFlipTest(Ranks(200, {}), Aggregate::kMedian, 1, "x").p, 1e-4);
+}
+
+TEST(SignFlip, IsExactForAMeanOfDifferencesOfOneSign) {
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<double> differences = {0, 0};
+    for (int i = 1; i <= 25; ++i) differences.push_back(sign * i);
+    const PairedTest test = SignFlipTest(differences, Aggregate::kMean, 1, "x");
+    EXPECT_EQ(*test.p, std::ldexp(1.0, -24)) << "2 / 2^25: of all signs, these and their opposites";
+    EXPECT_EQ(test.how, "exact");
+    EXPECT_EQ(SignFlipTest(differences, Aggregate::kMedian, 1, "x").how, "9,999 draws");
+  }
 }
 
 /// The drawn median by sorting, instead of by counting bits.

@@ -185,6 +185,21 @@ TEST(WriteC3d, HasTheHeaderThatTheFormatPrescribes) {
   EXPECT_NE(bytes.find("UNITS"), std::string::npos);
 }
 
+TEST(ReadC3d, TellsTheTimeOfItsFirstFrame) {
+  std::string bytes = WriteC3d(SomeMarkers(3, 5));
+  ASSERT_OK(read, ReadC3d(bytes, "a.c3d"));
+  EXPECT_EQ(read->markers.start_s, 0);
+  // Frames 61 to 65. Behind a parameter's name stand its offset, type, dimensions, and two words.
+  for (const auto& [name, frame] : {std::pair<std::string, char>("ACTUAL_START_FIELD", 61), {"ACTUAL_END_FIELD", 65}}) {
+    const std::size_t at = bytes.find(name);
+    ASSERT_NE(at, std::string::npos);
+    bytes[at + name.size() + 5] = frame;
+  }
+  ASSERT_OK(cut, ReadC3d(bytes, "a.c3d"));
+  EXPECT_EQ(cut->markers.frames.size(), 5u);
+  EXPECT_NEAR(cut->markers.start_s.value_or(0), 60 / cut->markers.rate_hz, 1e-9);
+}
+
 TEST(WriteC3d, CutsNamesThatAreTooLong) {
   MarkerMotion motion = SomeMarkers(2, 1);
   motion.names[1] = std::string(200, 'n');

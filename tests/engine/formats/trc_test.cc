@@ -82,6 +82,7 @@ std::string AtFiftyHertz(int data_rate, int frames, double unit_s = 1) {
 TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
   ASSERT_OK(read, ReadTrc(AtFiftyHertz(100, 60), "a.trc"));
   EXPECT_EQ(read->rate_hz, 50);
+  EXPECT_EQ(read->start_s, 7) << "the first time of the file";
   EXPECT_EQ(read->remark, "DataRate states 100 Hz, but the column Time runs at 50 Hz, which is used");
   const auto alike = ReadTrc(AtFiftyHertz(51, 60), "a.trc"), brief = ReadTrc(AtFiftyHertz(100, 20), "a.trc");
   EXPECT_EQ(alike->rate_hz, 50) << "at the end they are a frame apart";
@@ -93,6 +94,7 @@ TEST(ReadTrc, TakesTimesInMillisecondsWhereOnlyTheyAgreeWithDataRate) {
   ASSERT_OK(read, ReadTrc(AtFiftyHertz(50, 60, 0.001), "a.trc"));
   EXPECT_EQ(read->rate_hz, 50);
   EXPECT_EQ(read->frames.size(), 60u);
+  EXPECT_NEAR(read->start_s.value_or(0), 7, 1e-9);
   EXPECT_EQ(read->remark, "the column Time is taken as milliseconds, by which its rows come at the DataRate of 50 Hz");
   EXPECT_EQ(ReadTrc(AtFiftyHertz(50, 60), "a.trc")->remark, "");
 }

@@ -119,6 +119,7 @@ TEST(FaultRules, StateEveryKindWithItsThresholds) {
   }
   EXPECT_EQ(rules.back().name, "speed");
   EXPECT_THAT(rules[static_cast<std::size_t>(FaultKind::kBends)].rule, HasSubstr("25° for 0.1 s"));
+  EXPECT_THAT(rules[static_cast<std::size_t>(FaultKind::kSkates)].rule, HasSubstr("faster than 14 cm/s, for 0.4 s"));
 }
 
 TEST(MotionFaults, AreNotSoughtInLessThanEightFrames) {

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "bench/metrics/catalogue.h"
 #include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/evaluation/run.h"
@@ -250,6 +252,58 @@ TEST(SideFiles, AreRefusedWithTheLine) {
   EXPECT_THAT(told(ReadJointStatistics("1,2,3\n1,1,1\n", "s.csv")), HasSubstr("allowed: a heading"));
   EXPECT_THAT(told(ReadMusicBeats("1\n3\n2\n", "b.txt")), HasSubstr("b.txt:3"));
   EXPECT_THAT(told(ReadMusicBeats("1 2\n", "b.txt")), HasSubstr("allowed: one"));
+}
+
+TEST(Match, TimesOfOneClockBelongTogether) {
+  const auto begins = [](double start_s, std::size_t frames, double rate_hz = 30) {
+    RawMotion motion = Gliding(rate_hz, frames);
+    motion.start_s = start_s;
+    return motion;
+  };
+  const auto moved = [](RawMotion motion, double seconds) {
+    for (glm::dvec3& p : motion.positions) p.z += 0.3 * seconds;
+    return motion;
+  };
+  const RawMotion truth = begins(10, 60);
+  // The answer begins a second later, as its clock says.
+  const CellResult later = Judged(truth, moved(begins(11, 30), 1));
+  EXPECT_NEAR(ValueIn(later, "mpjpe_unaligned_mm"), 0, 1e-9);
+  EXPECT_EQ(ValueIn(later, "seen_share"), 0.5);
+  EXPECT_THAT(later.reason,
+              HasSubstr("the truth begins at 10 s, the answer begins at 11 s: judged by these clocks, 30 of "
+                        "them outside the answer"));
+  // It begins before the truth, by a fraction of a frame, and at another rate.
+  EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(9.5, 90), -0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
+  const CellResult between = Judged(truth, moved(begins(10.01, 60), 0.01));
+  EXPECT_NEAR(ValueIn(between, "mpjpe_unaligned_mm"), 0, 1e-9);
+  EXPECT_THAT(between.reason, HasSubstr("by these clocks, the answer interpolated linearly"));
+  EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(10.5, 50, 50), 0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
+  // Where a clock is missing, or the two never show one time, the first frames belong together.
+  const CellResult none = Judged(truth, Gliding(30, 60));
+  EXPECT_NEAR(ValueIn(none, "mpjpe_unaligned_mm"), 0, 1e-9);
+  EXPECT_THAT(none.reason,
+              HasSubstr("the truth begins at 10 s, the answer states no clock: their first frames are taken "
+                        "as one time"));
+  const CellResult apart = Judged(truth, begins(0, 60));
+  EXPECT_NEAR(ValueIn(apart, "mpjpe_unaligned_mm"), 0, 1e-9);
+  EXPECT_THAT(apart.reason, HasSubstr("begins at 0 s: their first frames are taken as one time"));
+  // Clocks that agree, as far as they were printed, are not worth a word.
+  for (const RawMotion& same : {begins(10, 60), begins(10.003, 60)}) {
+    const CellResult result = Judged(truth, same);
+    EXPECT_EQ(ValueIn(result, "mpjpe_unaligned_mm"), 0);
+    EXPECT_THAT(result.reason, ::testing::Not(HasSubstr("begins")));
+  }
+  // A lag is sought beside the clocks.
+  RawMotion dancing = begins(10, 90), late = begins(10.5, 90);
+  const auto wave = [](double t) { return 0.2 * std::sin(5 * t) + 0.1 * std::sin(7.3 * t); };
+  const std::size_t hand = Index(Role::kLeftHand), joints = dancing.joints.size();
+  for (std::size_t f = 0; f < 90; ++f) {
+    dancing.positions[f * joints + hand].y += wave(static_cast<double>(f) / 30);
+    late.positions[f * joints + hand].y += wave(static_cast<double>(f) / 30 + 0.4);
+  }
+  const auto found = Match(dancing, late, "roles", Lag::kFind);
+  ASSERT_TRUE(found) << ToString(found.error());
+  EXPECT_NEAR(found->lag->shift_s, 0.1, 0.005);
 }
 
 TEST(JudgeMotion, ReportsEveryMetricOfTheTask) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "bench/tasks/evaluation/controls.h"
+
 namespace etude {
 namespace {
 
@@ -108,6 +110,81 @@ TEST(Spoilt, NoiseHasItsDeviationAndDependsOnTheNameAlone) {
   EXPECT_NEAR(std::sqrt(square / static_cast<double>(truth.positions.size())), 0.010, 0.0006) << "1500 draws";
   EXPECT_EQ(noisy.positions, Spoilt(truth, {.noisy_mm = 10}, "a").positions);
   EXPECT_NE(noisy.positions, Spoilt(truth, {.noisy_mm = 10}, "b").positions);
+}
+
+/// The same motion with rotations: each joint turns about Z as time goes on, the left hip from another rest pose.
+RawMotion Turning() {
+  RawMotion motion = Swinging();
+  motion.rest_positions.assign(5, glm::dvec3(0));
+  motion.rest_rotations.assign(5, glm::dquat(1, 0, 0, 0));
+  motion.rest_rotations[0] = glm::angleAxis(0.7, glm::dvec3(1, 0, 0));
+  for (std::size_t i = 0; i < motion.positions.size(); ++i) {
+    const double turn = 0.01 * static_cast<double>(i / 5) * (i % 5 == 0 ? 1 : 0.5);
+    motion.rotations.push_back(glm::angleAxis(turn, glm::dvec3(0, 0, 1)) * motion.rest_rotations[i % 5]);
+  }
+  return motion;
+}
+
+/// The angle between two rotations, radians.
+double Apart(const glm::dquat& a, const glm::dquat& b) {
+  return 2 * std::acos(std::min(1.0, std::abs(glm::dot(a, b))));
+}
+
+TEST(Spoilt, RotationsAreSpoiltLikePositions) {
+  const RawMotion truth = Turning();
+  const auto spoilt = [&](const Spoiler& spoiler) { return Spoilt(truth, spoiler, "a").rotations; };
+  const auto at = [](std::size_t f, std::size_t j) { return f * 5 + j; };
+  EXPECT_EQ(spoilt({.scaled_percent = 5, .lifted_cm = 5}), truth.rotations);
+  // An even turn is its own mean; at the first frame the window is that frame.
+  EXPECT_NEAR(Apart(spoilt({.smoothed_ms = 200})[at(50, 0)], truth.rotations[at(50, 0)]), 0, 1e-6);
+  // All faded: every frame is the mean, which lies in the middle of the way.
+  const auto faded = spoilt({.faded_percent = 100});
+  EXPECT_NEAR(Apart(faded[at(0, 0)], faded[at(99, 0)]), 0, 1e-6);
+  EXPECT_NEAR(Apart(faded[at(0, 0)], truth.rotations[at(0, 0)]), 0.495, 1e-6);
+  // The mirror gives the right hip the left hip's turn from rest, the other way round, and is its own inverse.
+  const auto mirrored = spoilt({.mirrored_share = 1});
+  EXPECT_NEAR(Apart(mirrored[at(60, 1)], glm::angleAxis(-0.6, glm::dvec3(0, 0, 1))), 0, 1e-6);
+  RawMotion once = truth;
+  once.rotations = mirrored;
+  EXPECT_NEAR(Apart(Spoilt(once, {.mirrored_share = 1}, "a").rotations[at(60, 0)], truth.rotations[at(60, 0)]), 0,
+              1e-6);
+  // Noise of 10 mm turns by √2 · 10 / 420 about each axis.
+  const auto noisy = spoilt({.noisy_mm = 10});
+  double square = 0;
+  for (std::size_t i = 0; i < noisy.size(); ++i) square += std::pow(Apart(noisy[i], truth.rotations[i]), 2) / 3;
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(noisy.size())), std::sqrt(2.0) / 42, 0.002);
+}
+
+TEST(HideWorst, HidesTheFarthestJointsAndNoMore) {
+  const RawMotion truth = Swinging();
+  RawMotion answer = truth;
+  for (std::size_t i = 0; i < 50; ++i) answer.positions[7 * i].x += 0.1;
+  HideWorst(answer, truth, 10);  // 50 of 500
+  for (std::size_t i = 0; i < answer.positions.size(); ++i)
+    EXPECT_EQ(IsSeen(answer.positions[i]), i % 7 != 0 || i >= 350);
+}
+
+TEST(ContactsByMotion, AreOfFeetThatAreLowAndSlow) {
+  RawMotion motion;
+  motion.rate_hz = 30;
+  using enum Role;
+  int joint = 0;
+  for (const Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) motion.roles[Index(role)] = joint++;
+  motion.joints = {"la", "lf", "ra", "rf"};
+  for (int f = 0; f < 30; ++f) {
+    for (const glm::dvec3& p :
+         {glm::dvec3(0.006 * f, 0.1, 0), {0.006 * f, 0.04, 0}, {0.007 * f, 0.1, 0}, {0, 0.06, 0}}) {
+      motion.positions.push_back(p);  // 0.18 m/s, 0.21 m/s, and toes that are too high
+    }
+  }
+  const std::vector<bool> contacts = ContactsByMotion(motion);
+  ASSERT_EQ(contacts.size(), 120u);
+  for (std::size_t f = 0; f < 30; ++f) {
+    EXPECT_TRUE(contacts[4 * f] && contacts[4 * f + 1]) << f;
+    EXPECT_FALSE(contacts[4 * f + 2] || contacts[4 * f + 3]) << f;
+  }
+  motion.roles[Index(kRightFoot)] = -1;
+  EXPECT_TRUE(ContactsByMotion(motion).empty());
 }
 
 }  // namespace
