@@ -1,6 +1,9 @@
 #include "engine/formats/acclaim.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -13,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxBones = 1000;
 constexpr double kCmuRateHz = 120;
+constexpr double kMaxRadians = 4 * kPi;  // larger numbers are degrees
 
 /// Iterates over the lines of a text that contain words; '#' begins a comment.
 class Lines {
@@ -99,7 +103,11 @@ struct AcclaimBone {
 
 class SkeletonReader {
  public:
-  SkeletonReader(std::string_view text, const std::string& file) : file_(file), lines_(text, file) {}
+  /// With `is_told_degrees`, the file's own unit of angles is not used.
+  SkeletonReader(std::string_view text, const std::string& file, bool is_told_degrees)
+      : file_(file), lines_(text, file), is_told_degrees_(is_told_degrees) {}
+
+  bool ExceedsRadians() const { return !in_degrees_ && largest_ > kMaxRadians; }
 
   Result<AcclaimSkeleton> Read() {
     bool has_line = lines_.Next();
@@ -134,12 +142,15 @@ class SkeletonReader {
       if (!lines_.Is("angle")) continue;
       const std::string_view unit = lines_.words.size() > 1 ? lines_.words[1].text : "";
       if (unit != "deg" && unit != "rad") return Fail(lines_.At(1), "angles in {}; allowed: deg, rad", Quote(unit));
-      in_degrees_ = unit == "deg";
+      in_degrees_ = is_told_degrees_ || unit == "deg";
     }
     return false;
   }
 
-  double Radians(double angle) const { return in_degrees_ ? angle * kPi / 180 : angle; }
+  double Radians(double angle) {
+    largest_ = std::max(largest_, std::abs(angle));
+    return in_degrees_ ? angle * kPi / 180 : angle;
+  }
 
   Result<void> ReadChannels(AcclaimBone& bone) {
     bone.channels.clear();
@@ -281,14 +292,15 @@ class SkeletonReader {
 
   std::string file_;
   Lines lines_;
-  bool in_degrees_ = true;
+  bool in_degrees_ = true, is_told_degrees_ = false;
+  double largest_ = 0;  ///< angle in the file's unit
   std::vector<AcclaimBone> bones_ = {AcclaimBone{.name = "root"}};
   std::map<std::size_t, std::size_t> parent_of_;
 };
 
 /// Reads the line of one joint in a frame of a motion.
 Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& skeleton, std::size_t joint,
-                                     bool in_degrees) {
+                                     bool in_degrees, double& largest) {
   const auto& channels = skeleton.channels[joint];
   if (lines.words.size() != channels.size() + 1) {
     return Fail(lines.At(), "{} numbers of bone {}; allowed: {}, by its skeleton", lines.words.size() - 1,
@@ -299,6 +311,7 @@ Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& 
   for (std::size_t i = 0; i < channels.size(); ++i) {
     ASSIGN_OR_RETURN(const double value, lines.Number(i + 1));
     if (channels[i].turns) {
+      largest = std::max(largest, std::abs(value));
       turn = TurnAbout(channels[i].axis, in_degrees ? value * kPi / 180 : value) * turn;
     } else {
       local.translation[channels[i].axis] += value;
@@ -317,24 +330,41 @@ bool IsAcclaimMotion(std::string_view text) {
 }
 
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file) {
-  return SkeletonReader(text, file).Read();
+  SkeletonReader reader(text, file, false);
+  auto read = reader.Read();
+  if (!read || !reader.ExceedsRadians()) return read;
+  read = SkeletonReader(text, file, true).Read();
+  if (read) read->remark = "the skeleton's angles are taken as degrees: as radians, which it states, they would exceed 4π";
+  return read;
 }
 
-Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file) {
+namespace {
+
+/// The frames of a motion, and the largest of its angles in the file's unit.
+struct AcclaimFrames {
+  Clip clip;
+  bool in_degrees = true;
+  double largest = 0;
+};
+
+/// Reads the frames; with `is_told_degrees`, the stated unit of angles is not used.
+Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
+                                 bool is_told_degrees) {
   // Look up bones by their names.
   std::map<std::string_view, std::size_t> joint_of;
   for (std::size_t joint = 0; joint < skeleton.skeleton.joints.size(); ++joint) {
     if (!skeleton.skeleton.joints[joint].is_end_site) joint_of[skeleton.skeleton.joints[joint].name] = joint;
   }
-  Clip clip{.name = "acclaim", .skeleton = skeleton.skeleton, .rate_hz = kCmuRateHz, .frames = {}};
-  bool in_degrees = skeleton.in_degrees;
+  AcclaimFrames read{.clip = {.name = "acclaim", .skeleton = skeleton.skeleton, .rate_hz = kCmuRateHz, .frames = {}}};
+  Clip& clip = read.clip;
+  bool& in_degrees = read.in_degrees = is_told_degrees || skeleton.in_degrees;
   double last = 0;
   Lines lines(text, file);
   // A line is a directive, the number of the next frame, or the values of one bone.
   while (lines.Next()) {
     if (lines.IsSection()) {
       if (lines.Is(":DEGREES")) in_degrees = true;
-      if (lines.Is(":RADIANS")) in_degrees = false;
+      if (lines.Is(":RADIANS")) in_degrees = is_told_degrees;
     } else if (lines.words.size() == 1 && !joint_of.contains(lines.words.front().text)) {
       ASSIGN_OR_RETURN(const double number, lines.Number(0));
       if (!clip.frames.empty() && number != last + 1) {
@@ -348,11 +378,31 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
         return Fail(lines.At(), "the skeleton has no bone {}", Quote(lines.words.front().text));
       }
       if (clip.frames.empty()) return Fail(lines.At(), "a bone precedes the first frame's number");
-      ASSIGN_OR_RETURN(clip.frames.back()[joint->second], ReadTransform(lines, skeleton, joint->second, in_degrees));
+      ASSIGN_OR_RETURN(clip.frames.back()[joint->second], ReadTransform(lines, skeleton, joint->second, in_degrees, read.largest));
     }
   }
   if (clip.frames.empty()) return Fail({file}, "no frames");
-  return clip;
+  return read;
+}
+
+}  // namespace
+
+Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
+                               std::vector<std::string>* remarks) {
+  ASSIGN_OR_RETURN(auto read, ReadFrames(text, skeleton, file, false));
+  std::string remark;
+  constexpr double kMinDegrees = 0.5;  // smaller ones are those of a rest pose
+  if (!read.in_degrees && read.largest > kMaxRadians) {
+    remark = fmt::format("its angles are taken as degrees: as radians, which are stated, they would reach {:.4g}",
+                         read.largest);
+    ASSIGN_OR_RETURN(read, ReadFrames(text, skeleton, file, true));
+  } else if (read.in_degrees && read.largest > kMinDegrees && read.largest <= 2 * kPi) {
+    remark = fmt::format("its angles stay within {:.2g} degrees: if they are radians, a line :RADIANS must say so",
+                         read.largest);
+  }
+  if (remarks != nullptr && !skeleton.remark.empty()) remarks->push_back(skeleton.remark);
+  if (remarks != nullptr && !remark.empty()) remarks->push_back(remark);
+  return std::move(read.clip);
 }
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/base/result.h"
@@ -13,7 +14,7 @@ namespace etude {
 /// `mocap_frame_rate`. The clip has SMPL's 22 body joints; fingers, jaw and eyes are left out. The body model and its
 /// shapes may not be distributed, so limbs have our own lengths, for a height of 1.70 m: rotations are the recorded
 /// person's, but positions are not accurate to the centimetre. Returns an error if arrays are missing or have another
-/// shape, if numbers are not finite, or if the rate is out of range.
-Result<Clip> ReadAmass(const Npz& arrays, const std::string& file);
+/// shape, if numbers are not finite, or if the rate is missing or out of range. `told_hz` replaces the file's rate.
+Result<Clip> ReadAmass(const Npz& arrays, const std::string& file, std::optional<double> told_hz = {});
 
 }  // namespace etude

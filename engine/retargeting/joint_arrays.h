@@ -10,21 +10,15 @@
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
 #include "engine/motion/raw_motion.h"
+#include "engine/retargeting/joint_layouts.h"
 #include "engine/retargeting/orientation.h"
 
 namespace etude {
 
-/// Returns the layouts of joints that arrays may have: "etude" (20), "smpl" (22 or 24), "h36m" (17), "coco" (17),
-/// "body_25", "halpe_26", "mhr70" and "mhr" (127).
-std::vector<std::string> JointLayoutNames();
-
-/// Returns the names of a layout's joints in its order; a joint that plays a role has the role's name. `joints` selects
-/// among layouts of the same name. Empty if there is no such layout.
-std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joints);
-
 /// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories. Their rate is the judged rate,
 /// because such a file contains none. Unless the up axis is `told`, a body that stands on its head in three of four
-/// frames is in a camera's frame (Y down, Z forwards), and is turned by half a turn about X. `layout` is one of
+/// frames, but not on its hands, is in a camera's frame (Y down, Z forwards), and is turned by half a turn about X.
+/// `layout` is one of
 /// JointLayoutNames(); without it, the layout is the one with J joints. The unit is the metre, unless the joints extend
 /// as far as a person's in centimetres or millimetres. `note` states layout and unit. Fails for other shapes, a layout
 /// with another number of joints, 17 joints without a layout, and positions beyond ±10⁹.
@@ -53,8 +47,9 @@ struct ArrayOptions {
 /// it was not seen. A joint named like a role plays it, one named pelvis or hips the hip centre if no other does. The
 /// file says `rate_hz`, `unit` ("cm" or metres; else metres) and `up` ("z"; else Y, or as in JointsOfArray); positions
 /// become metres with Y up.
-/// A unit that nobody told is wrong if the joints extend more than 4 m in the median frame: centimetres or millimetres
-/// that make a person of them are taken, and `notes` says so. Fails for a missing rate, another number of names, a size
+/// A unit that nobody told is wrong if the joints extend less than 0.3 m or more than 4 m in the median frame: metres,
+/// centimetres or millimetres that make a person of them are taken, and `notes` says so. Positions that stand for gaps
+/// (RepairMarkers) are not seen. Fails for a missing rate, another number of names, a size
 /// of no unit, and values beyond ±10⁹.
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told = {});
 /// Returns the twenty joints of a motion, which may stand in any order; nothing if it has others, or a gap.

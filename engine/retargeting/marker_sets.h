@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct MarkerSet {
   std::string key;  ///< what --marker-set calls it
   std::vector<MarkerRule> rules;
   std::array<std::string, 4> pelvis = {};  ///< left and right front, left and right back; the hips follow from them
+  std::string sacrum = "";                 ///< the marker midway between those of the back, instead of both
   /// Knees, ankles and elbows have one marker each, on the skin; further markers on thighs and shanks (wands) show the
   /// planes in which the limbs bend.
   bool has_skin_limbs = false;
@@ -46,7 +48,8 @@ inline constexpr std::array kNeededJoints = {Role::kLeftShoulder, Role::kLeftElb
 
 /// Returns true if a person's markers hold all of these.
 bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);
-bool HasPelvis(const MarkerSet& set, const MarkerColumns& columns);
+/// Returns the markers of the pelvis, the sacrum's twice if it stands for the back; nullopt if some are missing.
+std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns);
 /// Returns true if the set determines a joint from a person's markers.
 bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);
 /// Lists the needed joints that the set does not determine.

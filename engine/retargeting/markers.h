@@ -45,13 +45,14 @@ struct MarkerBody {
 /// and the text before the last ':' are ignored; each such prefix is one person. Joint centres (ours where no source is
 /// given):
 /// - the mean of the markers on both sides of a joint, if a set has both;
-/// - hips from the four markers of the pelvis by the regression of Harrington et al. (2007);
+/// - hips from the four markers of the pelvis (or one on the sacrum for its back) by the regression of Harrington et al. (2007);
 /// - for single markers on the skin, the centre by MoveToJointCentres;
 /// - joints missing from a set: hip and shoulder centre midway between the joints, the spine midway between both, the
 ///   head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm ahead of the ankle and 4 cm
 ///   below.
 /// Gaps of up to a second are interpolated linearly and counted. With longer gaps, only the longest stretch without one
-/// is kept, and the note states it. Positions at 0, 0, 0 count as gaps if the marker is elsewhere in other frames.
+/// is kept, and the note states it. Positions at 0, 0, 0 count as gaps (RepairMarkers). The note names joints that look
+/// exchanged between left and right (FindExchangedJoints).
 /// FindUp finds the axis that points up, by `options.up`. The floor (5th percentile of the lowest joint's height)
 /// becomes 0. For Etude's own joints, Y is up, and the floor stays unless it is over half a metre from 0. Of several
 /// complete sets in a file, the one of the highest rank is used, then the one that determines most joints; the note

@@ -91,6 +91,12 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 /// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result, for the clip's meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
 
+/// Describes a change of the rate for people; "" if both rates read alike.
+std::string DescribeResampling(double from_hz, double to_hz);
+
+/// Says, for people, that no person is as tall as this body in its median frame (under 0.5 m, over 2.75 m); else "".
+std::string DescribeImpossibleHeight(std::span<const BodyPose> poses);
+
 /// Returns true if the body stands with straight legs and both arms stretched out sideways.
 bool IsTPose(const BodyPose& pose);
 

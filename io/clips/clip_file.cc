@@ -109,11 +109,12 @@ Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
               found.empty() ? "no" : std::to_string(found.size()));
 }
 
-Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, CappedReader& reader) {
+Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, CappedReader& reader,
+                         std::vector<std::string>& remarks) {
   ASSIGN_OR_RETURN(const auto skeleton_path, AcclaimSkeletonBeside(path));
   ASSIGN_OR_RETURN(const auto text, reader.Read(skeleton_path));
   ASSIGN_OR_RETURN(const auto skeleton, ReadAcclaimSkeleton(text, skeleton_path));
-  return ReadAcclaimMotion(bytes, skeleton, path);
+  return ReadAcclaimMotion(bytes, skeleton, path, &remarks);
 }
 
 /// Returns the roles that the bones of a VRM file play. Spine, hands, feet and the crown are found as in other files.
@@ -136,14 +137,17 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
   return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
 }
 
-/// Reads the rate from the _motion.json of Motion-BIDS.
-Result<double> BidsRate(const std::string& file, CappedReader& reader) {
+/// Reads the rate and the writing of missing values from the _motion.json of Motion-BIDS.
+Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
   ASSIGN_OR_RETURN(const auto text, reader.Read(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(text, file));
   const auto rate = json.is_object() ? json.find("SamplingFrequency") : json.end();
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
-  const double rate_hz = rate != json.end() && rate->is_number() ? rate->get<double>() : 0;
-  if (rate_hz >= kMinRate_hz && rate_hz <= kMaxRate_hz) return rate_hz;
+  BidsFacts facts{.rate_hz = rate != json.end() && rate->is_number() ? rate->get<double>() : 0};
+  if (const auto missing = json.is_object() ? json.find("MissingValues") : json.end(); missing != json.end()) {
+    facts.missing = missing->is_string() ? missing->get<std::string>() : missing->dump();
+  }
+  if (facts.rate_hz >= kMinRate_hz && facts.rate_hz <= kMaxRate_hz) return facts;
   return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
 }
 
@@ -205,7 +209,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       return FileOfArray(*joints, layout, path, options,
                          "SAM 3D Body's arrays: the camera's frame, turned to Y up as if it was level");
     }
-    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
+    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path, ToldOfArrays(options).rate_hz));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));
   }
   if (IsNpy(bytes)) {
@@ -217,8 +221,8 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (path.ends_with(kBidsEnd)) {
     const std::string stem = path.substr(0, path.size() - kBidsEnd.size());
     ASSIGN_OR_RETURN(const auto channels, reader.Read(stem + "_channels.tsv"));
-    ASSIGN_OR_RETURN(const double rate_hz, BidsRate(stem + "_motion.json", reader));
-    ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, rate_hz, {path, stem + "_channels.tsv"}));
+    ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(stem + "_motion.json", reader));
+    ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, stem + "_channels.tsv"}));
     return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, ArrayUp());
   }
   // Markers, and recordings of runs.
@@ -260,8 +264,11 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   }
   // Acclaim and BVH; any other file is described in the complaint.
   if (IsAcclaimMotion(bytes)) {
-    ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader));
-    return FileOfOne(ClipFormat::kAcclaim, std::move(clip));
+    ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader, file.remarks));
+    ClipFile read = FileOfOne(ClipFormat::kAcclaim, std::move(clip));
+    read.remarks = std::move(file.remarks);
+    read.has_rate = false;
+    return read;
   }
   constexpr std::string_view kBvhStart = "HIERARCHY";
   if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {

@@ -29,7 +29,7 @@ TEST(MotionBids, IsReadBackToTheLastPrintedDigit) {
   auto files = Written(motion);
   ASSERT_EQ(files.size(), 6u);
   const auto read =
-      ReadMotionBids(files[kStem + "_motion.tsv"], files[kStem + "_channels.tsv"], motion.rate_hz, kFiles);
+      ReadMotionBids(files[kStem + "_motion.tsv"], files[kStem + "_channels.tsv"], {motion.rate_hz}, kFiles);
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->rate_hz, motion.rate_hz);
   ASSERT_EQ(read->frames.size(), motion.poses.size());
@@ -49,7 +49,7 @@ const std::string kChannels =
     "a_x\tPOS\tx\ta\tmm\na_z\tPOS\tz\ta\tcm\na_y\tPOS\ty\ta\tm\nq\tORNT\tx\ta\trad\n";
 
 TEST(MotionBids, OfOthersHasItsUnitsItsOrderAndItsGaps) {
-  const auto read = ReadMotionBids("1000\t50\t2\t9\nn/a\t50\t2\tn/a\n", kChannels, 50, kFiles);
+  const auto read = ReadMotionBids("1000\t50\t2\t9\nn/a\t50\t2\tn/a\n", kChannels, {50}, kFiles);
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->frames[0][0], glm::dvec3(1, 2, 0.5));
   EXPECT_FALSE(read->frames[1][0]);
@@ -58,7 +58,7 @@ TEST(MotionBids, OfOthersHasItsUnitsItsOrderAndItsGaps) {
 
 TEST(MotionBids, SaysWhatIsWrong) {
   const auto reason = [](const std::string& rows, const std::string& channels) {
-    const auto read = ReadMotionBids(rows, channels, 50, kFiles);
+    const auto read = ReadMotionBids(rows, channels, {50}, kFiles);
     return read ? "read" : ToString(read.error());
   };
   const auto with = [](const char* from, const char* to) { return testing::Replaced(kChannels, from, to); };
