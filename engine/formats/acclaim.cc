@@ -9,7 +9,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
-#include "engine/formats/text_scanner.h"
+#include "engine/formats/acclaim_lines.h"
 
 namespace etude {
 namespace {
@@ -17,55 +17,6 @@ namespace {
 constexpr std::size_t kMaxBones = 1000;
 constexpr double kCmuRateHz = 120;
 constexpr double kMaxRadians = 4 * kPi;  // larger numbers are degrees
-
-/// Iterates over the lines of a text that contain words; '#' begins a comment.
-class Lines {
- public:
-  Lines(std::string_view text, const std::string& file) : scanner_(text, file), text_(text) {}
-
-  /// Sets `words` to the words of the next line that has any; returns false at the end.
-  bool Next() {
-    while (!text_.empty()) {
-      const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
-      std::string_view line = text_.substr(0, end);
-      text_.remove_prefix(std::min(end + (text_.substr(end).starts_with("\r\n") ? 2 : 1), text_.size()));
-      ++number_;
-      line = line.substr(0, line.find('#'));
-      words.clear();
-      for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
-        const std::size_t stop = std::min(line.find_first_of(" \t", at), line.size());
-        words.push_back({line.substr(at, stop - at), number_, static_cast<int>(at) + 1});
-        at = stop;
-      }
-      if (!words.empty()) return true;
-    }
-    return false;
-  }
-
-  bool Is(std::string_view first) const { return !words.empty() && words.front().text == first; }
-  bool IsSection() const { return !words.empty() && words.front().text.starts_with(':'); }
-  Place At(std::size_t word = 0) const {
-    return word < words.size() ? scanner_.At(words[word]) : scanner_.At({"", number_, 0});
-  }
-  Result<double> Number(std::size_t word) const {
-    if (word >= words.size()) return Fail(At(word), "a number is missing at the end of this line");
-    return scanner_.Number(words[word], "value");
-  }
-  Result<glm::dvec3> Vector(std::size_t first) const {
-    glm::dvec3 vector(0);
-    for (int i = 0; i < 3; ++i) {
-      ASSIGN_OR_RETURN(vector[i], Number(first + static_cast<std::size_t>(i)));
-    }
-    return vector;
-  }
-
-  std::vector<Token> words;
-
- private:
-  TextScanner scanner_;
-  std::string_view text_;
-  int number_ = 0;
-};
 
 glm::dquat TurnAbout(int axis, double angle) {
   glm::dvec3 direction(0);
@@ -291,7 +242,7 @@ class SkeletonReader {
   }
 
   std::string file_;
-  Lines lines_;
+  AcclaimLines lines_;
   bool in_degrees_ = true, is_told_degrees_ = false;
   double largest_ = 0;  ///< angle in the file's unit
   std::vector<AcclaimBone> bones_ = {AcclaimBone{.name = "root"}};
@@ -299,7 +250,7 @@ class SkeletonReader {
 };
 
 /// Reads the line of one joint in a frame of a motion.
-Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& skeleton, std::size_t joint,
+Result<LocalTransform> ReadTransform(const AcclaimLines& lines, const AcclaimSkeleton& skeleton, std::size_t joint,
                                      bool in_degrees, double& largest) {
   const auto& channels = skeleton.channels[joint];
   if (lines.words.size() != channels.size() + 1) {
@@ -325,7 +276,7 @@ Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& 
 }  // namespace
 
 bool IsAcclaimMotion(std::string_view text) {
-  Lines lines(text.substr(0, 4096), "");
+  AcclaimLines lines(text.substr(0, 4096), "");
   return lines.Next() && (lines.Is(":FULLY-SPECIFIED") || lines.Is(":DEGREES") || lines.Is(":RADIANS"));
 }
 
@@ -359,7 +310,7 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
   Clip& clip = read.clip;
   bool& in_degrees = read.in_degrees = is_told_degrees || skeleton.in_degrees;
   double last = 0;
-  Lines lines(text, file);
+  AcclaimLines lines(text, file);
   // A line is a directive, the number of the next frame, or the values of one bone.
   while (lines.Next()) {
     if (lines.IsSection()) {

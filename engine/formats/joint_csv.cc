@@ -42,7 +42,7 @@ Result<void> CheckTimes(const NumberRows& table, std::size_t time_column, const 
 Result<void> CheckColumns(std::size_t headings, std::size_t columns, const std::string& file) {
   if (headings == columns) return {};
   return Fail({file, 1}, "{} headings over {} columns{}", headings, columns,
-              headings > 1 && columns > headings
+              2 * columns >= 3 * headings && headings > 1
                   ? "; if numbers have decimal commas, columns must be separated by semicolons or tabs"
                   : "");
 }
@@ -92,7 +92,7 @@ Result<void> CheckPlaces(std::span<const double> values, const JointCsvColumns& 
   for (const auto& joint : columns.joints) {
     for (const auto& column : joint) {
       if (!column || !(std::abs(values[*column]) > kMax)) continue;
-      return Fail(place, "value {}: {:g}; allowed: a number within ±{:g}, or nan for a missing one", *column + 1,
+      return Fail(place, "value {}: {:.10g}; allowed: a number within ±{:g}, or nan for a missing one", *column + 1,
                   values[*column], kMax);
     }
   }

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-constexpr double kMaxPosition = 1e9;
+constexpr double kMaxPosition = 1e9;  // in any unit
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool IsRowBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
@@ -106,10 +106,11 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
       const auto is_here = [i](const auto& column) { return column.first == i; };
       if (std::ranges::any_of(table.texts, is_here)) value = kMissing;
       if (!value || std::abs(*value) > largest) {
+        // A table whose columns may be texts is one of positions, beside a column of times.
         const int column = static_cast<int>(words[i].data() - line_start) + 1;
         return Fail({file, line_number, column},
                     "value {}: {}; allowed: a number within ±{:g}, or nan for a missing one", i + 1, Quote(words[i]),
-                    value ? largest : std::min(largest, kMaxPosition));
+                    value || !allows_texts ? largest : kMaxPosition);
       }
       table.values.push_back(*value);
     }

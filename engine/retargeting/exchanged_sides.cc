@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
+
+#include "engine/base/names.h"
 
 namespace etude {
 namespace {
@@ -87,6 +90,18 @@ std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
     }
   }
   return exchanged.size() <= others.size() ? exchanged : others;
+}
+
+std::string DescribeExchangedJoints(std::span<const Role> left, const std::function<std::string(Role)>& name_of) {
+  std::vector<std::string> pairs;
+  for (const Role role : left) pairs.push_back(name_of(role) + " – " + name_of(Mirrored(role)));
+  return pairs.empty() ? "" : "left and right look exchanged, because limbs cross: " + Join(pairs);
+}
+
+std::string DescribeExchangedJoints(const BodyMotion& motion) {
+  std::vector<JointPositions> frames;
+  for (const BodyPose& pose : motion.poses) std::ranges::copy(pose.joints, frames.emplace_back().begin());
+  return DescribeExchangedJoints(FindExchangedJoints(frames), [](Role role) { return std::string(RoleName(role)); });
 }
 
 bool PointFeetBackwards(std::span<const BodyPose> poses) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/motion/body.h"
@@ -13,6 +15,9 @@ namespace etude {
 /// arms are much shorter; or thighs, or both limbs of an elbow, are shorter in nearly all frames. Of the two ways to undo
 /// all crossings, the one with fewer joints is returned. `frames` have any unit; unseen joints do not count.
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames);
+/// Says which joints of a body look exchanged, by pairs of `name_of` them; "" if none do.
+std::string DescribeExchangedJoints(std::span<const Role> left, const std::function<std::string(Role)>& name_of);
+std::string DescribeExchangedJoints(const BodyMotion& motion);
 
 /// Returns true if the toes of both feet point backwards in nearly all frames: left and right are exchanged, or an axis
 /// is mirrored.

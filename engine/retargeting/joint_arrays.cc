@@ -280,9 +280,14 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     motion.notes.push_back(fmt::format("turned upright from Z up ({})", told.up ? "given" : "the file's `up`"));
   }
   for (glm::dvec3& place : motion.positions) place = Upright(unit * place, up);
-  const Standing standing =
-      told.up || !axis.empty() ? Standing::kNotTold : HowItStands(motion.positions, motion.joints);
-  if (standing == Standing::kAlongMinusY) {
+  const Standing standing = told.up ? Standing::kNotTold : HowItStands(motion.positions, motion.joints);
+  if (!axis.empty()) {
+    const bool lies = standing == Standing::kAlongZ, is_down = standing == Standing::kAlongMinusY;
+    if (lies || is_down) {
+      motion.notes.push_back(fmt::format("by the file's `up: {}`, the body {}", axis,
+                                         lies ? "lies along the floor" : "stands on its head"));
+    }
+  } else if (standing == Standing::kAlongMinusY) {
     motion.notes.emplace_back(kFromCamera);
     for (glm::dvec3& place : motion.positions) place *= glm::dvec3(1, -1, -1);
   } else if (standing == Standing::kOnHands) {

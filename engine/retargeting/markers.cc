@@ -302,18 +302,13 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
       PointFeetBackwards(body.motion.poses)) {
     body.changes.push_back("the feet point backwards: left and right are exchanged, or an axis is mirrored");
   }
-  if (!exchanged.empty()) {
-    std::vector<std::string> pairs;
-    for (const Role left : exchanged) {
-      pairs.push_back(fmt::format("{} – {}", NamesOf(left, set, columns, markers),
-                                  NamesOf(Mirrored(left), set, columns, markers)));
-    }
-    body.changes.push_back("left and right look exchanged, because limbs cross: " + Join(pairs));
-  }
+  const std::string crossing = DescribeExchangedJoints(
+      exchanged, [&](Role role) { return NamesOf(role, set, columns, markers); });
+  if (!crossing.empty()) body.changes.push_back(crossing);
   StandOnFloor(options.keep_floor, IsOwn(set), body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
-  for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt}) {
+  for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt, crossing}) {
     if (!said.empty()) body.shown.remark += "; " + said;
   }
   return body;

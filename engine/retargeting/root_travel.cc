@@ -73,14 +73,14 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
     }
   }
   if (!(least < kMuchLess * as_it_is)) return "";
-  // If no travel at all fits as well, the limbs say nothing, and only an impossible speed tells.
-  constexpr double kAsWell = 1.5, kImpossible = 5;  // statures a second
+  // A smaller factor also stops feet that slide for another reason, so only an impossible speed tells.
+  constexpr double kAsWell = 1.5, kImpossible = 3;  // statures a second
+  if (best < 1 && as_it_is < kImpossible) return "";
   if (slide(0) > kAsWell * least) {
     return fmt::format("its feet slide unless the root's positions are {:.3g} times as large: they look as if in "
                        "another unit than the limbs",
                        best);
   }
-  if (as_it_is < kImpossible) return "";
   return "its root's positions look as if in a smaller unit than the limbs, because no foot ever stands";
 }
 

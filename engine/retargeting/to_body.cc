@@ -382,9 +382,8 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   done.changes = ChangesOf(done, map, clip, lies);
   std::ranges::move(remarks, std::back_inserter(done.changes));
-  for (std::string said : {DescribeImpossibleHeight(done.motion.poses), DescribeRootTravel(clip, map)}) {
-    if (!said.empty()) done.changes.push_back(std::move(said));
-  }
+  done.Doubt(DescribeImpossibleHeight(done.motion.poses));
+  done.Doubt(DescribeRootTravel(clip, map));
   return done;
 }
 

@@ -39,7 +39,15 @@ struct BodyConversion {
   /// The findings and every correction of the file's data, each as a text for people: "1 unit = 5.64 cm (CMU)",
   /// "dropped a leading T-pose".
   std::vector<std::string> changes = {};
+  std::vector<std::string> doubts = {};  ///< those of `changes` that say what looks wrong in the file
   BodyMotion motion;
+
+  /// Appends a text to `doubts` and `changes` unless it is empty.
+  void Doubt(const std::string& text) {
+    if (text.empty()) return;
+    doubts.push_back(text);
+    changes.push_back(text);
+  }
 
   /// Returns `changes` as one line, joined by semicolons.
   std::string Note() const { return Join(changes, "; "); }

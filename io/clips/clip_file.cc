@@ -17,6 +17,7 @@
 #include "engine/formats/motion_bids.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/text_scanner.h"
+#include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/opensim_motion.h"
 #include "engine/retargeting/rig.h"
@@ -191,6 +192,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       if (const auto motion = BodyOf(raw)) {
         std::vector<std::string> notes = {"Etude's own arrays"};
         notes.insert(notes.end(), raw.notes.begin(), raw.notes.end());
+        if (const auto crossing = DescribeExchangedJoints(*motion); !crossing.empty()) notes.push_back(crossing);
         file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
         if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
         return file;

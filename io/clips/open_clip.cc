@@ -179,9 +179,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     }
     opened.body.motion.poses.push_back(is_turned ? Upright(pose, UpAxis::kZ) : pose);
   }
-  if (std::string said = DescribeImpossibleHeight(opened.body.motion.poses); !said.empty()) {
-    opened.body.changes.push_back(std::move(said));
-  }
+  opened.body.Doubt(DescribeImpossibleHeight(opened.body.motion.poses));
   return opened;
 }
 
@@ -197,13 +195,19 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path), wanted.animation, options));
   const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
   const bool is_recording = file.format == ClipFormat::kRecording;
+  const auto say = [&](const std::string& remark) {
+    for (MadeBody& body : file.bodies) body.changes.push_back(remark);
+    if (file.bodies.empty()) file.remarks.push_back(remark);
+  };
   if (!is_recording && options.roles && options.roles->rate_hz) {
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
     for (MarkerMotion& shown : file.shown) shown.rate_hz = *options.roles->rate_hz;
   } else if (!file.has_rate) {
-    const std::string remark = fmt::format("the file states no rate; {:g} Hz is assumed", file.clips.front().rate_hz);
-    for (MadeBody& body : file.bodies) body.changes.push_back(remark);
-    if (file.bodies.empty()) file.remarks.push_back(remark);
+    say(fmt::format("the file states no rate; {:g} Hz is assumed", file.clips.front().rate_hz));
+  }
+  const auto is_slow = [](const Clip& clip) { return clip.rate_hz < 1; };
+  if (const auto slow = std::ranges::find_if(file.clips, is_slow); slow != file.clips.end() && !is_recording) {
+    say(fmt::format("its frames are {:.3g} s apart: does it count milliseconds?", 1 / slow->rate_hz));
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
   const auto shown_of = [&](std::size_t i) {
@@ -275,9 +279,7 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   }
   ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
   body.changes.insert(body.changes.end(), source.remarks.begin(), source.remarks.end());
-  if (std::string said = DescribeSecondBody(source.clip.skeleton, map); !said.empty()) {
-    body.changes.push_back(std::move(said));
-  }
+  body.Doubt(DescribeSecondBody(source.clip.skeleton, map));
   return OpenedClip{std::move(source), std::move(map), std::move(body)};
 }
 
