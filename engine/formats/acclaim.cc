@@ -285,7 +285,9 @@ Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::st
   auto read = reader.Read();
   if (!read || !reader.ExceedsRadians()) return read;
   read = SkeletonReader(text, file, true).Read();
-  if (read) read->remark = "the skeleton's angles are taken as degrees: as radians, which it states, they would exceed 4π";
+  if (read) {
+    read->remark = "the skeleton's angles are taken as degrees: as radians, which it states, they would exceed 4π";
+  }
   return read;
 }
 

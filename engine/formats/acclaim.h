@@ -29,8 +29,9 @@ struct AcclaimSkeleton {
 /// Returns true if a text begins like a motion (AMC): after comments, with a line ":FULLY-SPECIFIED" or ":DEGREES".
 bool IsAcclaimMotion(std::string_view text);
 
-/// Reads an ASF file. Angles beyond 4π are degrees, whatever the file states. Returns an error with file:line:column if the text is not Acclaim's, has bone lengths as
-/// channels, bones that are defined twice or not connected, numbers beyond ±10⁹, or more than 1,000 bones.
+/// Reads an ASF file. Angles beyond 4π are degrees, whatever the file states. Returns an error with file:line:column if
+/// the text is not Acclaim's, has bone lengths as channels, bones that are defined twice or not connected, numbers
+/// beyond ±10⁹, or more than 1,000 bones.
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file);
 
 /// Reads an AMC file for such a skeleton. The file has no frame rate; 120 Hz is assumed, as in CMU's. Angles are in the

@@ -96,8 +96,9 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
     return Fail({file}, "trans has {} frames; poses has {}", places->shape[0], frames);
   }
   if (!told_hz && (rate == nullptr || rate->values.size() != 1)) {
-    return Fail({file}, "{} mocap_framerate; allowed: one number, the frames a second, or `--rate` (`rate: 60` in a "
-                "joint map)", rate == nullptr ? "no" : ShapeText(*rate));
+    return Fail({file},
+                "{} mocap_framerate; allowed: one number, the frames a second, or `--rate` (`rate: 60` in a joint map)",
+                rate == nullptr ? "no" : ShapeText(*rate));
   }
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;
   const double rate_hz = told_hz ? *told_hz : rate->values.front();

@@ -31,8 +31,9 @@ struct RowGrid {
 
 /// Places rows on an even grid of frames by their times, which may be rounded to some decimals. The rate fits the steps
 /// between neighbouring rows; a whole rate, or `told_hz` (from the file's header, if any), is preferred if it is within
-/// their rounding. Rows whose times are rounded so coarsely that neighbours share one are evenly spaced. Rows that span less than half a second get the rate `told_hz`, or have no clock if their steps
-/// differ from it by more than 5 %. A frame is the row within a tenth of a frame of it (or within the rounding of
+/// their rounding. Rows whose times are rounded so coarsely that neighbours share one are evenly spaced. Rows that span
+/// less than half a second get the rate `told_hz`, or have no clock if their steps differ from it by more than 5 %. A
+/// frame is the row within a tenth of a frame of it (or within the rounding of
 /// times); otherwise it is interpolated, or it is a hole if a row is missing. Of rows with equal times only the last is
 /// used. Returns nullopt if there is no clock: fewer than two rows, no time, or equal times. Fails, naming the row's
 /// line (`lines` may be empty), for a missing time, falling times, steps over ten minutes, and holes of more than ten

@@ -17,8 +17,8 @@ std::optional<double> UnitOfSpread(double spread);
 
 /// The axis along which a body stands, which is not Y.
 enum class Standing { kNotTold, kAlongMinusY, kOnHands, kAlongZ };
-/// Returns how the shoulders lie over the knees in three of four frames that show them. A body that is upside down stands
-/// on its hands if its wrists are near the lowest joint, which stays at one height.
+/// Returns how the shoulders lie over the knees in three of four frames that show them. A body that is upside down
+/// stands on its hands if its wrists are near the lowest joint, which stays at one height.
 Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names);
 
 }  // namespace etude

@@ -387,8 +387,8 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
                                  markers.names.begin() + std::min<std::size_t>(markers.names.size(), 12));
   return Fail(
       {file},
-      "its markers ({}{}) are not of a known set (nearest: {}); known: Etude's joints, OpenPose BODY_25, HALPE_26, COCO, "
-      "Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait{}{}",
+      "its markers ({}{}) are not of a known set (nearest: {}); known: Etude's joints, OpenPose BODY_25, HALPE_26, "
+      "COCO, Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait{}{}",
       Join(names), markers.names.size() > names.size() ? ", …" : "", nearest, markers.remark.empty() ? "" : "; ",
       markers.remark);
 }

@@ -45,7 +45,8 @@ struct MarkerBody {
 /// and the text before the last ':' are ignored; each such prefix is one person. Joint centres (ours where no source is
 /// given):
 /// - the mean of the markers on both sides of a joint, if a set has both;
-/// - hips from the four markers of the pelvis (or one on the sacrum for its back) by the regression of Harrington et al. (2007);
+/// - hips from the four markers of the pelvis (or one on the sacrum for its back) by the regression of Harrington et al.
+///   (2007);
 /// - for single markers on the skin, the centre by MoveToJointCentres;
 /// - joints missing from a set: hip and shoulder centre midway between the joints, the spine midway between both, the
 ///   head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm ahead of the ankle and 4 cm

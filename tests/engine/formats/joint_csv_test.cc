@@ -75,8 +75,8 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
   }
   const auto read = [](const std::string& text) { return testing::Refusal(ReadJointCsv(text, "m.csv")); };
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n0,1,0,2,0,3\n"),
-            "m.csv:1: 3 headings over 6 columns; if numbers have decimal commas, columns must be separated by semicolons "
-            "or tabs");
+            "m.csv:1: 3 headings over 6 columns; if numbers have decimal commas, columns must be separated by "
+            "semicolons or tabs");
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n1,far,2\n"),
             "m.csv:2: head_y_m: 'far'; allowed: a number, or nan for a missing one");
   EXPECT_NE(read("head_x_m,head_y_m,head_z_m\n1,2e9,2\n").find("within ±1e+09"), std::string::npos);

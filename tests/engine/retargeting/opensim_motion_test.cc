@@ -356,7 +356,8 @@ TEST(BodyNpz, IsMeasuredWithoutABallAndLeftInNoUnitThatMakesItTiny) {
   arrays.texts["unit"] = {"0.1"};
   ASSERT_OK(tiny, ReadRawNpz(arrays, "a.npz"));
   EXPECT_LT(WorstJointDistance(*BodyOf(*tiny), motion), 1e-12);
-  EXPECT_THAT(tiny->notes, ::testing::ElementsAre(HasSubstr("1 unit = 100 cm: in units of 0.1 m the joints extend 0.1")));
+  EXPECT_THAT(tiny->notes,
+              ::testing::ElementsAre(HasSubstr("1 unit = 100 cm: in units of 0.1 m the joints extend 0.1")));
   // A ball five metres away is no part of the body.
   arrays.texts.erase("unit");
   NumberArray& positions = arrays.arrays.at("positions");

@@ -458,7 +458,7 @@ TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
   EXPECT_THAT(Convert(StiffWalk(1))->doubts, ::testing::IsEmpty());
   for (const auto& [factor, said] : {std::pair(0.01, "100 times"), {1 / 2.54, "2.54 times"}, {100.0, "0.01 times"}}) {
     ASSERT_OK(body, Convert(StiffWalk(factor)));
-    EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr("unless the root's positions are " + std::string(said))));
+    EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions are {}", said))));
   }
   // A statue that glides tells nothing, but not at a hundred metres a second.
   Clip glides = AtRest(testing::PersonSkeleton(), 60);
