@@ -75,8 +75,8 @@ struct ReadBody {
 };
 
 ReadBody ResampledBody(const BodyMotion& motion, std::vector<std::string> changes, double rate_hz) {
-  if (!KeepsRate(motion.rate_hz, rate_hz)) {
-    changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", motion.rate_hz, rate_hz));
+  for (std::string said : {DescribeResampling(motion.rate_hz, rate_hz), DescribeImpossibleHeight(motion.poses)}) {
+    if (!said.empty()) changes.push_back(std::move(said));
   }
   return {Resampled(motion, rate_hz), std::move(changes)};
 }
@@ -118,7 +118,8 @@ ReadBody BodyOfArrays(const Npz& arrays, const std::string& file, double rate_hz
     ReadingOptions others = options;  // `raw` already has the user's unit and axis
     others.metres_per_unit = 0;
     others.up = 0;
-    read = BodyOfMarkers(MarkersOf(raw), file, rate_hz, {.evidence = UpEvidence::kFormat}, others);
+    others.keep_floor = true;
+    read = BodyOfMarkers(MarkersOf(raw), file, rate_hz, RawArraysUp(), others);
   }
   read.changes.insert(read.changes.end(), raw.notes.begin(), raw.notes.end());
   return read;

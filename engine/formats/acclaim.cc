@@ -1,67 +1,22 @@
 #include "engine/formats/acclaim.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
-#include "engine/formats/text_scanner.h"
+#include "engine/formats/acclaim_lines.h"
 
 namespace etude {
 namespace {
 
 constexpr std::size_t kMaxBones = 1000;
 constexpr double kCmuRateHz = 120;
-
-/// Iterates over the lines of a text that contain words; '#' begins a comment.
-class Lines {
- public:
-  Lines(std::string_view text, const std::string& file) : scanner_(text, file), text_(text) {}
-
-  /// Sets `words` to the words of the next line that has any; returns false at the end.
-  bool Next() {
-    while (!text_.empty()) {
-      const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
-      std::string_view line = text_.substr(0, end);
-      text_.remove_prefix(std::min(end + (text_.substr(end).starts_with("\r\n") ? 2 : 1), text_.size()));
-      ++number_;
-      line = line.substr(0, line.find('#'));
-      words.clear();
-      for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
-        const std::size_t stop = std::min(line.find_first_of(" \t", at), line.size());
-        words.push_back({line.substr(at, stop - at), number_, static_cast<int>(at) + 1});
-        at = stop;
-      }
-      if (!words.empty()) return true;
-    }
-    return false;
-  }
-
-  bool Is(std::string_view first) const { return !words.empty() && words.front().text == first; }
-  bool IsSection() const { return !words.empty() && words.front().text.starts_with(':'); }
-  Place At(std::size_t word = 0) const {
-    return word < words.size() ? scanner_.At(words[word]) : scanner_.At({"", number_, 0});
-  }
-  Result<double> Number(std::size_t word) const {
-    if (word >= words.size()) return Fail(At(word), "a number is missing at the end of this line");
-    return scanner_.Number(words[word], "value");
-  }
-  Result<glm::dvec3> Vector(std::size_t first) const {
-    glm::dvec3 vector(0);
-    for (int i = 0; i < 3; ++i) {
-      ASSIGN_OR_RETURN(vector[i], Number(first + static_cast<std::size_t>(i)));
-    }
-    return vector;
-  }
-
-  std::vector<Token> words;
-
- private:
-  TextScanner scanner_;
-  std::string_view text_;
-  int number_ = 0;
-};
+constexpr double kMaxRadians = 4 * kPi;  // larger numbers are degrees
 
 glm::dquat TurnAbout(int axis, double angle) {
   glm::dvec3 direction(0);
@@ -100,7 +55,11 @@ struct AcclaimBone {
 
 class SkeletonReader {
  public:
-  SkeletonReader(std::string_view text, const std::string& file) : file_(file), lines_(text, file) {}
+  /// With `is_told_degrees`, the file's own unit of angles is not used.
+  SkeletonReader(std::string_view text, const std::string& file, bool is_told_degrees)
+      : file_(file), lines_(text, file), is_told_degrees_(is_told_degrees) {}
+
+  bool ExceedsRadians() const { return !in_degrees_ && largest_ > kMaxRadians; }
 
   Result<AcclaimSkeleton> Read() {
     bool has_line = lines_.Next();
@@ -135,12 +94,15 @@ class SkeletonReader {
       if (!lines_.Is("angle")) continue;
       const std::string_view unit = lines_.words.size() > 1 ? lines_.words[1].text : "";
       if (unit != "deg" && unit != "rad") return Fail(lines_.At(1), "angles in {}; allowed: deg, rad", Quote(unit));
-      in_degrees_ = unit == "deg";
+      in_degrees_ = is_told_degrees_ || unit == "deg";
     }
     return false;
   }
 
-  double Radians(double angle) const { return in_degrees_ ? angle * kPi / 180 : angle; }
+  double Radians(double angle) {
+    largest_ = std::max(largest_, std::abs(angle));
+    return in_degrees_ ? angle * kPi / 180 : angle;
+  }
 
   Result<void> ReadChannels(AcclaimBone& bone) {
     bone.channels.clear();
@@ -281,15 +243,16 @@ class SkeletonReader {
   }
 
   std::string file_;
-  Lines lines_;
-  bool in_degrees_ = true;
+  AcclaimLines lines_;
+  bool in_degrees_ = true, is_told_degrees_ = false;
+  double largest_ = 0;  ///< angle in the file's unit
   std::vector<AcclaimBone> bones_ = {AcclaimBone{.name = "root"}};
   std::map<std::size_t, std::size_t> parent_of_;
 };
 
 /// Reads the line of one joint in a frame of a motion.
-Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& skeleton, std::size_t joint,
-                                     bool in_degrees) {
+Result<LocalTransform> ReadTransform(const AcclaimLines& lines, const AcclaimSkeleton& skeleton, std::size_t joint,
+                                     bool in_degrees, double& largest) {
   const auto& channels = skeleton.channels[joint];
   if (lines.words.size() != channels.size() + 1) {
     return Fail(lines.At(), "{} numbers of bone {}; allowed: {}, by its skeleton", lines.words.size() - 1,
@@ -300,6 +263,7 @@ Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& 
   for (std::size_t i = 0; i < channels.size(); ++i) {
     ASSIGN_OR_RETURN(const double value, lines.Number(i + 1));
     if (channels[i].turns) {
+      largest = std::max(largest, std::abs(value));
       turn = TurnAbout(channels[i].axis, in_degrees ? value * kPi / 180 : value) * turn;
     } else {
       local.translation[channels[i].axis] += value;
@@ -313,29 +277,48 @@ Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& 
 }  // namespace
 
 bool IsAcclaimMotion(std::string_view text) {
-  Lines lines(text.substr(0, 4096), "");
+  AcclaimLines lines(text.substr(0, 4096), "");
   return lines.Next() && (lines.Is(":FULLY-SPECIFIED") || lines.Is(":DEGREES") || lines.Is(":RADIANS"));
 }
 
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file) {
-  return SkeletonReader(text, file).Read();
+  SkeletonReader reader(text, file, false);
+  auto read = reader.Read();
+  if (!read || !reader.ExceedsRadians()) return read;
+  read = SkeletonReader(text, file, true).Read();
+  if (read) {
+    read->remark = "the skeleton's angles are taken as degrees: as radians, which it states, they would exceed 4π";
+  }
+  return read;
 }
 
-Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file) {
+namespace {
+
+/// The frames of a motion, and the largest of its angles in the file's unit.
+struct AcclaimFrames {
+  Clip clip;
+  bool in_degrees = true;
+  double largest = 0;
+};
+
+/// Reads the frames; with `is_told_degrees`, the stated unit of angles is not used.
+Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
+                                 bool is_told_degrees) {
   // Look up bones by their names.
   std::map<std::string_view, std::size_t> joint_of;
   for (std::size_t joint = 0; joint < skeleton.skeleton.joints.size(); ++joint) {
     if (!skeleton.skeleton.joints[joint].is_end_site) joint_of[skeleton.skeleton.joints[joint].name] = joint;
   }
-  Clip clip{.name = "acclaim", .skeleton = skeleton.skeleton, .rate_hz = kCmuRateHz, .frames = {}};
-  bool in_degrees = skeleton.in_degrees;
+  AcclaimFrames read{.clip = {.name = "acclaim", .skeleton = skeleton.skeleton, .rate_hz = kCmuRateHz, .frames = {}}};
+  Clip& clip = read.clip;
+  bool& in_degrees = read.in_degrees = is_told_degrees || skeleton.in_degrees;
   double last = 0;
-  Lines lines(text, file);
+  AcclaimLines lines(text, file);
   // A line is a directive, the number of the next frame, or the values of one bone.
   while (lines.Next()) {
     if (lines.IsSection()) {
       if (lines.Is(":DEGREES")) in_degrees = true;
-      if (lines.Is(":RADIANS")) in_degrees = false;
+      if (lines.Is(":RADIANS")) in_degrees = is_told_degrees;
     } else if (lines.words.size() == 1 && !joint_of.contains(lines.words.front().text)) {
       ASSIGN_OR_RETURN(const double number, lines.Number(0));
       if (!clip.frames.empty() && number != last + 1) {
@@ -349,11 +332,31 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
         return Fail(lines.At(), "the skeleton has no bone {}", Quote(lines.words.front().text));
       }
       if (clip.frames.empty()) return Fail(lines.At(), "a bone precedes the first frame's number");
-      ASSIGN_OR_RETURN(clip.frames.back()[joint->second], ReadTransform(lines, skeleton, joint->second, in_degrees));
+      ASSIGN_OR_RETURN(clip.frames.back()[joint->second], ReadTransform(lines, skeleton, joint->second, in_degrees, read.largest));
     }
   }
   if (clip.frames.empty()) return Fail({file}, "no frames");
-  return clip;
+  return read;
+}
+
+}  // namespace
+
+Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
+                               std::vector<std::string>* remarks) {
+  ASSIGN_OR_RETURN(auto read, ReadFrames(text, skeleton, file, false));
+  std::string remark;
+  constexpr double kMinDegrees = 0.5;  // smaller ones are those of a rest pose
+  if (!read.in_degrees && read.largest > kMaxRadians) {
+    remark = fmt::format("its angles are taken as degrees: as radians, which are stated, they would reach {:.4g}",
+                         read.largest);
+    ASSIGN_OR_RETURN(read, ReadFrames(text, skeleton, file, true));
+  } else if (read.in_degrees && read.largest > kMinDegrees && read.largest <= 2 * kPi) {
+    remark = fmt::format("its angles stay within {:.2g} degrees: if they are radians, a line :RADIANS must say so",
+                         read.largest);
+  }
+  if (remarks != nullptr && !skeleton.remark.empty()) remarks->push_back(skeleton.remark);
+  if (remarks != nullptr && !remark.empty()) remarks->push_back(remark);
+  return std::move(read.clip);
 }
 
 }  // namespace etude

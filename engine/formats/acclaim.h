@@ -23,18 +23,22 @@ struct AcclaimSkeleton {
   std::vector<std::vector<Channel>> channels;  ///< per joint, in the order of the values in a motion
   std::vector<glm::dquat> axes;                ///< per joint: the axes of its rotations
   bool in_degrees = true;
+  std::string remark = "";  ///< about angles that are impossible in the stated unit; "" if there are none
 };
 
 /// Returns true if a text begins like a motion (AMC): after comments, with a line ":FULLY-SPECIFIED" or ":DEGREES".
 bool IsAcclaimMotion(std::string_view text);
 
-/// Reads an ASF file. Returns an error with file:line:column if the text is not Acclaim's, has bone lengths as
-/// channels, bones that are defined twice or not connected, numbers beyond ±10⁹, or more than 1,000 bones.
+/// Reads an ASF file. Angles beyond 4π are degrees, whatever the file states. Returns an error with file:line:column if
+/// the text is not Acclaim's, has bone lengths as channels, bones that are defined twice or not connected, numbers
+/// beyond ±10⁹, or more than 1,000 bones.
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file);
 
 /// Reads an AMC file for a skeleton of ReadAcclaimSkeleton. The file has no frame rate; 120 Hz is assumed, the rate of
-/// CMU's recordings. Returns an error for bones that the skeleton lacks, a wrong number of values, frames that are not
-/// numbered consecutively, or no frames.
-Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file);
+/// CMU's recordings. Angles have the unit that the file states, otherwise the skeleton's unit. Angles beyond 4π radians
+/// are read as degrees. This, and degrees that may be radians, are appended to `remarks` (may be null). Returns an error for bones that the skeleton lacks, a wrong number of values, frames
+/// that are not numbered consecutively, or no frames.
+Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
+                               std::vector<std::string>* remarks = nullptr);
 
 }  // namespace etude

@@ -74,13 +74,12 @@ std::size_t WidthOf(const NumberArray* array) {
 
 }  // namespace
 
-Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
+Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<double> told_hz) {
   // Find the arrays and check their shapes.
   const NumberArray *poses = npz.Find("poses"), *places = npz.Find("trans"), *rate = npz.Find("mocap_framerate");
   if (rate == nullptr) rate = npz.Find("mocap_frame_rate");
   const std::size_t width = WidthOf(poses);
-  if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3 || rate == nullptr ||
-      rate->values.size() != 1) {
+  if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3) {
     std::vector<std::string> names;
     for (const auto& [name, array] : npz.arrays) names.push_back(name);
     for (const std::string& name : npz.skipped) names.push_back(name + " (no plain numbers)");
@@ -96,8 +95,13 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
   if (places->shape[0] != frames) {
     return Fail({file}, "trans has {} frames; poses has {}", places->shape[0], frames);
   }
+  if (!told_hz && (rate == nullptr || rate->values.size() != 1)) {
+    return Fail({file},
+                "{} mocap_framerate; allowed: one number, the frames a second, or `--rate` (`rate: 60` in a joint map)",
+                rate == nullptr ? "no" : ShapeText(*rate));
+  }
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;
-  const double rate_hz = rate->values.front();
+  const double rate_hz = told_hz ? *told_hz : rate->values.front();
   if (!(rate_hz >= kMinRate_hz && rate_hz <= kMaxRate_hz)) {
     return Fail({file}, "a rate of {} Hz; allowed: {} to {}", rate_hz, kMinRate_hz, kMaxRate_hz);
   }

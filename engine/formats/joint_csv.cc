@@ -16,28 +16,13 @@ namespace {
 
 std::string HeadingOf(Role role, int axis) { return fmt::format("{}_{}_m", RoleName(role), "xyz"[axis]); }
 
-std::vector<std::string> SplitHeadings(std::string_view line) {
-  std::vector<std::string> parts(1);
-  for (const char c : line) {
-    if (c == ',' || c == ';') {
-      parts.emplace_back();
-    } else if (c != ' ' && c != '"') {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
-/// Returns the rate from the median time step.
-std::optional<double> RateOf(const NumberRows& table, std::size_t time_column) {
+/// Returns the rate from the median time step above 0: rows may share a time that is printed with few decimals.
+std::optional<double> RateOf(const std::vector<double>& times_s) {
   std::vector<double> steps;
-  for (std::size_t t = 1; t < table.RowCount(); ++t) {
-    const double step = table.Row(t)[time_column] - table.Row(t - 1)[time_column];
-    if (!std::isnan(step)) steps.push_back(step);
+  for (std::size_t t = 1; t < times_s.size(); ++t) {
+    if (const double step = times_s[t] - times_s[t - 1]; step > 0) steps.push_back(step);
   }
-  if (steps.empty()) return std::nullopt;
-  const double middle = UpperMedian(std::move(steps));
-  return middle > 0 ? std::optional(1 / middle) : std::nullopt;
+  return steps.empty() ? std::nullopt : std::optional(1 / UpperMedian(std::move(steps)));
 }
 
 /// Refuses times that decrease; equal times are allowed.
@@ -55,13 +40,18 @@ Result<void> CheckTimes(const NumberRows& table, std::size_t time_column, const 
 }
 
 Result<void> CheckColumns(std::size_t headings, std::size_t columns, const std::string& file) {
-  if (headings != columns) return Fail({file, 1}, "{} headings over {} columns", headings, columns);
-  return {};
+  if (headings == columns) return {};
+  return Fail({file, 1}, "{} headings over {} columns{}", headings, columns,
+              2 * columns >= 3 * headings && headings > 1
+                  ? "; if numbers have decimal commas, columns must be separated by semicolons or tabs"
+                  : "");
 }
 
-Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& file) {
+/// Assigns the columns; `left_out` gets the headings of texts that are none of ours.
+Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& file,
+                                    std::vector<std::string>& left_out) {
   // Check the number of headings, and list the known ones.
-  const std::vector<std::string> headings = SplitHeadings(table.heading);
+  const std::vector<std::string> headings = HeadingsOf(table.heading);
   RETURN_IF_ERROR(CheckColumns(table.heading.empty() ? 0 : headings.size(), table.columns, file));
   std::vector<std::string> known = {"frame", "time_s"};
   for (const Role role : AllRoles()) {
@@ -71,6 +61,15 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
   JointCsvColumns columns{.count = headings.size()};
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const auto found = std::ranges::find(known, headings[i]);
+    const auto text = std::ranges::find(table.texts, i, &std::pair<std::size_t, std::string>::first);
+    if (text != table.texts.end() && found != known.end()) {
+      return Fail({file, table.lines.front()}, "{}: {}; allowed: a number, or nan for a missing one", headings[i],
+                  Quote(text->second));
+    }
+    if (text != table.texts.end()) {
+      left_out.push_back(headings[i]);
+      continue;
+    }
     if (found == known.end()) return Fail({file, 1}, "{}", UnknownName("heading", headings[i], known));
     if (std::ranges::count(headings, headings[i]) > 1) return Fail({file, 1}, "heading '{}' twice", headings[i]);
     const auto number = static_cast<std::size_t>(found - known.begin());
@@ -85,6 +84,19 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
     return Fail({file, 1}, "'{}' lacks some of its three coordinates", RoleName(role));
   }
   return columns;
+}
+
+/// Refuses positions that are too large to be computed with.
+Result<void> CheckPlaces(std::span<const double> values, const JointCsvColumns& columns, const Place& place) {
+  constexpr double kMax = 1e9;
+  for (const auto& joint : columns.joints) {
+    for (const auto& column : joint) {
+      if (!column || !(std::abs(values[*column]) > kMax)) continue;
+      return Fail(place, "value {}: {:.10g}; allowed: a number within ±{:g}, or nan for a missing one", *column + 1,
+                  values[*column], kMax);
+    }
+  }
+  return {};
 }
 
 JointCsvRow RowOf(std::span<const double> values, const JointCsvColumns& columns) {
@@ -116,20 +128,29 @@ std::string WriteJointCsv(const BodyMotion& motion) {
 }
 
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
-  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
+  constexpr double kMaxTime = 1e19;  // nanoseconds since 1970
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTime, true));
   JointCsv csv;
-  ASSIGN_OR_RETURN(csv.columns, FindColumns(table, file));
-  if (csv.columns.time) {
-    RETURN_IF_ERROR(CheckTimes(table, *csv.columns.time, file));
-    csv.rate_hz = RateOf(table, *csv.columns.time);
-  }
+  std::vector<std::string> left_out;
+  ASSIGN_OR_RETURN(csv.columns, FindColumns(table, file, left_out));
+  if (csv.columns.time) RETURN_IF_ERROR(CheckTimes(table, *csv.columns.time, file));
   csv.lines = table.lines;
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
+    RETURN_IF_ERROR(CheckPlaces(table.Row(t), csv.columns, {file, table.lines[t]}));
     const JointCsvRow row = RowOf(table.Row(t), csv.columns);
     csv.times_s.push_back(row.time_s);
     if (csv.columns.number) csv.numbers.push_back(table.Row(t)[*csv.columns.number]);
     csv.frames.push_back(row.places);
   }
+  // Bring the times to seconds, and say what was concluded.
+  csv.scale = FindTimeScale(csv.times_s, {});
+  for (double& time : csv.times_s) time = csv.scale.SecondsOf(time);
+  csv.rate_hz = RateOf(csv.times_s);
+  std::vector<std::string> said;
+  if (!csv.scale.remark.empty()) said.push_back(csv.scale.remark);
+  if (table.has_decimal_commas) said.emplace_back("its numbers have decimal commas");
+  if (!left_out.empty()) said.push_back("columns of texts are left out: " + Join(left_out));
+  csv.remark = Join(said, "; ");
   return csv;
 }
 

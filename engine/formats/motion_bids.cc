@@ -13,6 +13,7 @@
 #include "engine/base/text.h"
 #include "engine/formats/length_units.h"
 #include "engine/formats/number_rows.h"
+#include "engine/formats/row_clock.h"
 
 namespace etude {
 namespace {
@@ -34,6 +35,7 @@ struct BidsChannels {
   };
   std::vector<Column> columns;
   std::vector<std::string> points;
+  std::optional<std::size_t> latency = {};  ///< the column of times
   std::size_t others = 0;
 };
 
@@ -59,8 +61,12 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
       continue;
     }
     if (cells.size() != heads) return Fail({file, line}, "{} cells under {} headings", cells.size(), heads);
-    // Channels that hold no positions are only counted.
+    // Channels that hold neither positions nor times are only counted.
     BidsChannels::Column& column = channels.columns.emplace_back();
+    if (cells[at[1]] == "LATENCY" && !channels.latency) {
+      channels.latency = channels.columns.size() - 1;
+      continue;
+    }
     if (cells[at[1]] != "POS") {
       ++channels.others;
       continue;
@@ -140,14 +146,24 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
            "Positions of twenty joints, as _channels.tsv names them. Written by Etude; sub-01 is the performer.\n"}};
 }
 
-Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_view channels_tsv, double rate_hz,
+Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_view channels_tsv, const BidsFacts& facts,
                                     const std::array<std::string, 2>& files) {
   ASSIGN_OR_RETURN(const BidsChannels channels, ReadChannels(channels_tsv, files[1]));
-  MarkerMotion motion{.rate_hz = rate_hz, .names = channels.points, .frames = {}};
-  // Replace the missing values "n/a" by "nan", which the reader of numbers knows.
-  std::string rows(motion_tsv);
-  for (std::size_t at = 0; (at = rows.find("n/a", at)) != std::string::npos;) rows.replace(at, 3, "nan");
-  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(rows, files[0]));
+  MarkerRows laid{.markers = {.rate_hz = facts.rate_hz, .names = channels.points, .frames = {}},
+                  .times_s = {},
+                  .lines = {},
+                  .rate_name = "SamplingFrequency",
+                  .time_name = "the channel LATENCY"};
+  MarkerMotion& motion = laid.markers;
+  // Replace missing values in the file's own writing by "nan"; numbers that stand for them are compared below.
+  const auto missing = ParseFinite(facts.missing);
+  std::string rows;
+  for (std::string_view rest = motion_tsv; !missing && !rest.empty(); rows += '\n') {
+    std::vector<std::string_view> cells = SplitAt(TakeLine(rest), '\t');
+    for (std::string_view& cell : cells) cell = Trimmed(cell) == facts.missing ? "nan" : cell;
+    fmt::format_to(std::back_inserter(rows), "{}", fmt::join(cells, "\t"));
+  }
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(missing ? motion_tsv : rows, files[0]));
   if (table.columns != channels.columns.size()) {
     return Fail({files[0], 1}, "{} columns, but {} channels in {}", table.columns, channels.columns.size(), files[1]);
   }
@@ -160,14 +176,23 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
       const BidsChannels::Column& column = channels.columns[i];
       if (column.point >= 0) places[static_cast<std::size_t>(column.point)][column.axis] = column.metres * row[i];
     }
+    // A point is missing if a value is; 0 is a value of many points, unless all three are 0.
+    std::vector<int> gaps(places.size());
+    for (std::size_t i = 0; missing && i < row.size(); ++i) {
+      const int point = channels.columns[i].point;
+      if (point >= 0 && row[i] == *missing) ++gaps[static_cast<std::size_t>(point)];
+    }
     auto& frame = motion.frames.emplace_back(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
-      if (!std::isnan(places[i].x + places[i].y + places[i].z)) frame[i] = places[i];
+      const bool is_gap = gaps[i] >= (missing == 0 ? 3 : 1);
+      if (!is_gap && !std::isnan(places[i].x + places[i].y + places[i].z)) frame[i] = places[i];
     }
+    laid.times_s.push_back(channels.latency ? row[*channels.latency] : std::nan(""));
+    laid.lines.push_back(table.lines[t]);
   }
   if (channels.others > 0)
     motion.remark = fmt::format("{} channels that are not positions are left out", channels.others);
-  return motion;
+  return LayOnClock(std::move(laid), files[0]);
 }
 
 }  // namespace etude

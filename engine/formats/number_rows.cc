@@ -12,19 +12,30 @@
 namespace etude {
 namespace {
 
+constexpr double kMaxPosition = 1e9;  // in any unit
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool IsRowBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool IsComma(char c) { return c == ',' || c == ';'; }
 
-/// Returns the words of one line; between commas they may be empty.
-std::vector<std::string_view> WordsOf(std::string_view line) {
+/// Returns what separates the cells below a heading: ';' or a tab if the heading has no comma; 0: any separator.
+char SeparatorOf(std::string_view heading) {
+  if (heading.find(',') != std::string_view::npos) return 0;
+  if (heading.find(';') != std::string_view::npos) return ';';
+  return heading.find('\t') != std::string_view::npos ? '\t' : '\0';
+}
+
+/// Returns the words of one line; between commas, and between separators that the heading decides, they may be empty.
+std::vector<std::string_view> WordsOf(std::string_view line, char separator) {
   std::vector<std::string_view> words;
-  const bool by_comma = line.find_first_of(",;") != std::string_view::npos;
+  const bool is_told = separator != 0 && line.find(separator) != std::string_view::npos;
+  const bool by_comma = is_told || line.find_first_of(",;") != std::string_view::npos;
   std::size_t start = 0;
   for (std::size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && !(by_comma ? IsComma(line[i]) : IsRowBlank(line[i]))) continue;
-    const std::string_view word = Trimmed(line.substr(start, i - start));
+    const auto ends = [&](char c) { return is_told ? c == separator : by_comma ? IsComma(c) : IsRowBlank(c); };
+    if (i < line.size() && !ends(line[i])) continue;
+    std::string_view word = Trimmed(line.substr(start, i - start));
+    if (word.size() >= 2 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
     if (by_comma || !word.empty()) words.push_back(word);
     start = i + 1;
   }
@@ -33,10 +44,10 @@ std::vector<std::string_view> WordsOf(std::string_view line) {
 }
 
 bool MeansMissing(std::string_view word) {
-  constexpr std::string_view kNan = "nan";
-  if (word.empty()) return true;
-  const auto same = [](char a, char b) { return (a | 0x20) == b; };
-  return std::ranges::equal(word, kNan, same) || (word[0] == '-' && std::ranges::equal(word.substr(1), kNan, same));
+  constexpr std::string_view kMeanings[] = {"nan", "-nan", "na", "n/a", "null"};
+  const auto same = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
+  return word.empty() ||
+         std::ranges::any_of(kMeanings, [&](std::string_view one) { return std::ranges::equal(word, one, same); });
 }
 
 std::optional<double> NumberOf(std::string_view word) {
@@ -45,46 +56,76 @@ std::optional<double> NumberOf(std::string_view word) {
   return ParseNumber<double>(word);
 }
 
+/// Returns a number with a decimal comma; nullopt for any other word.
+std::optional<double> NumberWithComma(std::string_view word) {
+  std::string pointed(word);
+  const std::size_t comma = pointed.find(',');
+  if (comma == std::string::npos || pointed.find('.') != std::string::npos) return std::nullopt;
+  pointed[comma] = '.';
+  return NumberOf(pointed);
+}
+
 bool IsRemark(std::string_view line) { return line.empty() || line.starts_with('#') || line.starts_with("//"); }
 
 }  // namespace
 
-Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest) {
+Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest, bool allows_texts) {
   if (text.size() > kMaxNumberTextBytes) {
     return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxNumberTextBytes);
   }
   // Skip a byte order mark, then read line by line.
   text = WithoutByteOrderMark(text);
   NumberRows table;
+  char separator = 0;
   for (int line_number = 1; !text.empty(); ++line_number) {
     const char* const line_start = text.data();
-    const std::string_view line = Trimmed(TakeLine(text));
+    const std::string_view whole = TakeLine(text), line = Trimmed(whole);
     if (IsRemark(line)) continue;
-    const std::vector<std::string_view> words = WordsOf(line);
+    const std::vector<std::string_view> words = WordsOf(separator == '\t' ? whole : line, separator);
     // The first line may be a heading.
     if (table.columns == 0 && table.heading.empty() && !NumberOf(words.front())) {
       table.heading = line;
+      separator = SeparatorOf(line);
       continue;
     }
-    // Refuse a row that has another number of values than the first.
-    if (table.columns == 0) table.columns = words.size();
+    // Every row must have as many numbers as the first.
+    const bool is_first = table.columns == 0;
+    if (is_first) table.columns = words.size();
     if (words.size() != table.columns) {
       return Fail({file, line_number}, "{} values, but earlier rows have {}", words.size(), table.columns);
     }
     table.lines.push_back(line_number);
     for (std::size_t i = 0; i < words.size(); ++i) {
-      const auto value = NumberOf(words[i]);
+      auto value = NumberOf(words[i]);
+      if (!value && separator != 0) {
+        value = NumberWithComma(words[i]);
+        table.has_decimal_commas = table.has_decimal_commas || value;
+      }
+      // A column of texts.
+      if (!value && is_first && allows_texts) table.texts.emplace_back(i, words[i]);
+      const auto is_here = [i](const auto& column) { return column.first == i; };
+      if (std::ranges::any_of(table.texts, is_here)) value = kMissing;
       if (!value || std::abs(*value) > largest) {
+        // A table whose columns may be texts is one of positions, beside a column of times.
         const int column = static_cast<int>(words[i].data() - line_start) + 1;
         return Fail({file, line_number, column},
                     "value {}: {}; allowed: a number within ±{:g}, or nan for a missing one", i + 1, Quote(words[i]),
-                    largest);
+                    value || !allows_texts ? largest : kMaxPosition);
       }
       table.values.push_back(*value);
     }
   }
   if (table.columns == 0) return Fail({file}, "no rows of numbers");
   return table;
+}
+
+std::vector<std::string> HeadingsOf(std::string_view heading) {
+  std::vector<std::string> headings;
+  for (const std::string_view word : WordsOf(heading, SeparatorOf(heading))) {
+    headings.emplace_back(word);
+    std::erase_if(headings.back(), [](char c) { return c == ' ' || c == '"'; });
+  }
+  return headings;
 }
 
 }  // namespace etude

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -16,6 +17,9 @@ struct NumberRows {
   std::size_t columns = 0;
   std::vector<double> values;  ///< row by row; NaN for a missing value
   std::vector<int> lines;      ///< per row: its line in the text, from 1
+  bool has_decimal_commas = false;
+  /// The columns of texts, all of whose values are NaN, and their first text.
+  std::vector<std::pair<std::size_t, std::string>> texts = {};
 
   std::size_t RowCount() const { return columns == 0 ? 0 : values.size() / columns; }
   std::span<const double> Row(std::size_t row) const { return std::span(values).subspan(row * columns, columns); }
@@ -25,10 +29,16 @@ struct NumberRows {
 /// 170 MB.
 constexpr std::size_t kMaxNumberTextBytes = std::size_t{64} << 20;
 
-/// Reads a table of numbers. Empty lines and lines that begin with '#' or "//" are skipped. "nan" in any case, or
-/// nothing between two commas, is a missing value. Returns an error with line and column for rows of different lengths,
-/// words, infinity, numbers beyond ±`largest` (times may need a larger limit than positions), no rows, or more than
-/// `kMaxNumberTextBytes` bytes.
-Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest = 1e9);
+/// Reads a table of numbers. Empty lines and lines that begin with '#' or "//" are skipped. "nan", "na", "n/a" and
+/// "null" in any case, or nothing between two commas, is a missing value. A heading separated by semicolons, or by
+/// tabs, decides what separates the rows, too; a comma within their numbers is then a decimal comma. Quotes around a
+/// value are ignored. Returns an error with line and column for rows of different lengths, words, infinity, numbers
+/// beyond ±`largest` (times may need a larger limit than positions), no rows, or more than `kMaxNumberTextBytes` bytes.
+/// If `allows_texts`, a column whose first value is a word is one of texts.
+Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest = 1e9,
+                                  bool allows_texts = false);
+
+/// Returns the headings of a table, without blanks and quotes.
+std::vector<std::string> HeadingsOf(std::string_view heading);
 
 }  // namespace etude

@@ -101,19 +101,35 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   return Join(said, "; ");
 }
 
-/// Returns true if the times are in milliseconds instead of seconds. With a stated rate, the median step must agree
-/// with that rate in milliseconds; without a stated rate, the median step must exceed 1, because rows are not more than
-/// a second apart.
-bool AreMilliseconds(std::span<const double> times, std::optional<double> rate_hz) {
-  constexpr double kTolerance = 0.1, kPerSecond = 1000;
-  constexpr std::size_t kMinSteps = 5;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    if (const double step = times[i] - times[i - 1]; !std::isnan(step)) steps.push_back(step);
+/// Returns the grid of evenly spaced rows if their times are printed so coarsely that neighbouring rows share a time,
+/// e.g. 120 Hz printed to 0.01 s; nullopt for other rows. Several rates may fit within the rounding: the stated rate is
+/// preferred, then a whole number, then a rate of television (n · 1000 / 1001).
+std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::optional<double> told_hz) {
+  constexpr std::size_t kMinRows = 8;
+  constexpr double kMinPerStep = 1.05;  // rows per printed step; fewer are rows that were written twice
+  const double step = PrintedStep(times), span = times.back() - times.front();
+  if (times.size() < kMinRows || step == 0 || !(span > 0) || std::ranges::adjacent_find(times) == times.end()) {
+    return std::nullopt;
   }
-  if (steps.size() < (rate_hz ? 1 : kMinSteps)) return false;
-  const double step = Median(std::move(steps));
-  return rate_hz ? std::abs(step * *rate_hz / kPerSecond - 1) < kTolerance : step > 1;
+  const double mean = static_cast<double>(times.size() - 1) / span, whole = std::round(mean);
+  if (mean * step < kMinPerStep) return std::nullopt;
+  for (const double rate : {told_hz.value_or(whole), whole, whole * 1000 / 1001, mean}) {
+    double low = 0, high = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double off = times[i] - times.front() - static_cast<double>(i) / rate;
+      low = std::min(low, off);
+      high = std::max(high, off);
+    }
+    constexpr double kRounding = 1e-6;
+    if (!(high - low <= step + kRounding)) continue;
+    RowGrid grid{.rate_hz = rate, .frames = {}, .remark = {}};
+    for (std::size_t i = 0; i < times.size(); ++i) grid.frames.push_back({i, i});
+    grid.remark = fmt::format("its times are printed to {:g} s, so several rows share one: rows are evenly spaced, at "
+                              "{:.6g} Hz",
+                              step, rate);
+    return grid;
+  }
+  return std::nullopt;
 }
 
 void AddRemark(std::string& remark, const std::string& text) {
@@ -125,6 +141,7 @@ void AddRemark(std::string& remark, const std::string& text) {
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file) {
   if (std::ranges::all_of(times_s, [](double time) { return std::isnan(time); })) return std::nullopt;
+  if (auto grid = GridOfCoarseTimes(times_s, told_hz)) return grid;
   ASSIGN_OR_RETURN(const auto rows, CountingRows(times_s, lines, file));
   if (rows.size() < 2) return std::nullopt;
 
@@ -207,19 +224,14 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   MarkerMotion& markers = rows.markers;
   const std::optional<double> told = rows.rate_name.empty() ? std::nullopt : std::optional(markers.rate_hz);
-  if (AreMilliseconds(rows.times_s, told)) {
-    for (double& time : rows.times_s) time /= 1000;
-    AddRemark(markers.remark,
-              told
-                  ? fmt::format("the column Time is taken as milliseconds, by which its rows come at the {} of {:g} Hz",
-                                rows.rate_name, *told)
-                  : "its times are taken as milliseconds: as seconds, rows would be more than a second apart");
-  }
+  const TimeScale scale = FindTimeScale(rows.times_s, {told, rows.rate_name, rows.time_name});
+  for (double& time : rows.times_s) time = scale.SecondsOf(time);
+  AddRemark(markers.remark, scale.remark);
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   if (!grid) return std::move(markers);
   if (told && grid->rate_hz != *told) {
-    AddRemark(markers.remark, fmt::format("{} states {:g} Hz, but the column Time runs at {:g} Hz, which is used",
-                                          rows.rate_name, *told, grid->rate_hz));
+    AddRemark(markers.remark, fmt::format("{} states {:g} Hz, but {} runs at {:g} Hz, which is used",
+                                          rows.rate_name, *told, rows.time_name, grid->rate_hz));
   }
   markers.rate_hz = grid->rate_hz;
   if (rows.has_clock) markers.start_s = rows.times_s[grid->frames.front().row];
@@ -243,7 +255,9 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
 }
 
 Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file) {
-  MarkerRows rows{.markers = {.names = {}, .frames = {}}, .times_s = csv.times_s, .lines = csv.lines};
+  MarkerRows rows{.markers = {.names = {}, .frames = {}, .remark = csv.remark},
+                  .times_s = csv.times_s,
+                  .lines = csv.lines};
   for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
   for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
   rows.has_clock = csv.rate_hz.has_value();

@@ -8,6 +8,7 @@
 
 #include "engine/base/result.h"
 #include "engine/formats/joint_csv.h"
+#include "engine/formats/time_scale.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
 
@@ -30,7 +31,7 @@ struct RowGrid {
 
 /// Places rows on an even grid of frames by their times, which may be rounded to some decimals. The rate fits the steps
 /// between neighbouring rows; a whole rate, or `told_hz` (from the file's header, if any), is preferred if it is within
-/// their rounding. Rows that span less than half a second get the rate `told_hz`, or have no clock if their steps
+/// their rounding. Rows are evenly spaced if times are printed so coarsely that neighbours share one. Rows that span less than half a second get the rate `told_hz`, or have no clock if their steps
 /// differ from it by more than 5 %. A frame takes the row whose time is within a tenth of a frame of the frame's time
 /// (or within the rounding of times). Without such a row, the frame is interpolated between two rows, or it is a hole
 /// if a row is missing. Of rows with equal times only the last is used. Returns nullopt if there is no clock: fewer
@@ -50,8 +51,9 @@ struct MarkerRows {
   std::vector<int> lines;       ///< line of each row, from 1
   bool has_clock = true;        ///< false: the times were made from frame numbers
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
+  std::string time_name = "the column Time";  ///< what holds the times
 };
-/// Places markers on frames by their times; in a hole, no marker was seen. The remark says what was changed. Fails like
+/// Places markers on frames by their times (FindTimeScale); in a hole, no marker was seen. The remark says what was changed. Fails like
 /// GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 

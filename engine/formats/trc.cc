@@ -55,7 +55,13 @@ std::vector<std::string_view> Cells(std::string_view line) {
   return cells;
 }
 
+/// Reads a number, also one with a decimal comma.
 std::optional<double> NumberIn(std::string_view cell) {
+  if (const std::size_t comma = cell.find(','); comma != std::string_view::npos) {
+    std::string pointed(cell);
+    pointed[comma] = '.';
+    return ParseNumber<double>(pointed);
+  }
   if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
   return ParseNumber<double>(cell);
 }
@@ -158,6 +164,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
     motion.names.emplace_back(names[at]);
   }
   TakeLine(text, line);  // X1 Y1 Z1 …
+  if (text.find(',') != std::string_view::npos) motion.remark = "its numbers have decimal commas";
   // Read the frames, their numbers and their times.
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> numbers;

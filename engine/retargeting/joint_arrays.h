@@ -10,24 +10,17 @@
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
 #include "engine/motion/raw_motion.h"
+#include "engine/retargeting/joint_layouts.h"
 #include "engine/retargeting/orientation.h"
 
 namespace etude {
 
-/// Returns the layouts of joints that arrays may have: "etude" (20), "smpl" (22 or 24), "h36m" (17), "coco" (17),
-/// "body_25", "halpe_26", "mhr70" and "mhr" (127).
-std::vector<std::string> JointLayoutNames();
-
-/// Returns the names of a layout's joints in its order; a joint that plays a role has the role's name. If several
-/// layouts are called `layout`, the number of `joints` selects one. The list is empty if there is no such layout.
-std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joints);
-
 /// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories. The file states no frame rate,
 /// so the rate is kJudgedRateHz. `layout` is one of JointLayoutNames(); without it, the layout with J joints is taken.
 /// The unit is the metre, unless the joints' extent is a person's size in centimetres or millimetres. If no up axis is
-/// `told` and the body stands on its head in three of four frames, the array is taken to be in a camera's frame (Y
-/// down, Z forwards) and is rotated by half a turn about X. `note` states layout and unit. Fails for other shapes, a
-/// layout with another number of joints, 17 joints without a layout, and positions beyond ±10⁹.
+/// `told` and the body is upside down in three of four frames without standing on its hands, the array is taken to be
+/// in a camera's frame (Y down, Z forwards) and is rotated by half a turn about X. `note` states layout and unit. Fails
+/// for other shapes, a layout with another number of joints, 17 joints without a layout, and positions beyond ±10⁹.
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note, std::optional<UpAxis> told = {});
 
@@ -54,8 +47,9 @@ struct ArrayOptions {
 /// twenty roles); NaN where a joint was not seen. A joint named like a role plays that role. A joint named pelvis or
 /// hips plays the hip centre if no other joint does. The file states `rate_hz`, `unit` ("cm", otherwise metres) and
 /// `up` ("z", otherwise Y, or as in JointsOfArray). Positions are converted to metres with Y up.
-/// If nobody states the unit and the joints extend over more than 4 m in the median frame, the unit is taken to be the
-/// centimetre or millimetre, whichever gives a person's size, and `notes` states this. Fails for a missing rate, a
+/// If nobody states the unit and the joints extend over less than 0.3 m or more than 4 m in the median frame, the unit
+/// is taken to be the metre, centimetre or millimetre, whichever gives a person's size, and `notes` states this.
+/// Positions that stand for gaps count as not seen (RepairMarkers). Fails for a missing rate, a
 /// wrong number of names, a size that no unit explains, and values beyond ±10⁹.
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told = {});
 /// Returns the twenty joints of a motion, whose joints may be in any order; nullopt if it has other joints, or gaps.

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <ranges>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/retargeting/marker_sets.h"
 #include "engine/retargeting/skin_markers.h"
 
 namespace etude {
@@ -18,14 +21,58 @@ namespace {
 /// Returns true if all coordinates are 0: some programs write this for a gap.
 bool IsZero(const MarkerPosition& place) { return place && *place == glm::dvec3(0); }
 
-/// Removes positions at 0, 0, 0 if the marker is elsewhere in other frames. (The root of a root-relative pose stays,
-/// because it is always at 0.) Returns the number of removed positions.
+/// Returns true if a marker set assigns this marker to an arm or a leg.
+bool IsOfLimb(std::string name) {
+  name = name.substr(name.rfind(':') + 1);
+  std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return std::ranges::any_of(MarkerSets(), [&](const MarkerSet& set) {
+    return std::ranges::any_of(set.rules, [&](const MarkerRule& rule) {
+      return rule.role != Mirrored(rule.role) && std::ranges::find(rule.markers, name) != rule.markers.end();
+    });
+  });
+}
+
+/// Returns true if, in a tenth of the frames, the origin is farther from the markers' centroid than twice their median
+/// distance from that centroid. No pose is relative to a point so far from the body.
+bool IsFarFromZero(const MarkerMotion& markers) {
+  constexpr double kTimes = 2, kTenth = 0.1;
+  const auto is_far = [](const auto& frame) {
+    glm::dvec3 middle(0);
+    double count = 0;
+    for (const auto& place : frame) {
+      if (!place || IsZero(place)) continue;
+      middle += *place;
+      count += 1;
+    }
+    std::vector<double> distances;
+    for (const auto& place : frame) {
+      if (place && !IsZero(place)) distances.push_back(glm::distance(*place, middle / count));
+    }
+    return !distances.empty() && glm::length(middle / count) > kTimes * Median(std::move(distances));
+  };
+  const auto far = std::ranges::count_if(markers.frames, is_far);
+  return static_cast<double>(far) > kTenth * static_cast<double>(markers.frames.size());
+}
+
+/// Removes positions at 0, 0, 0 of markers that are elsewhere in other frames, of limbs' markers if other markers move,
+/// and of all markers if the body is elsewhere. (The root of a root-relative pose stays, because it is always at 0.)
+/// Returns the number of removed positions.
 int LeaveZerosOut(MarkerMotion& markers) {
   int zeros = 0;
+  const auto moves = [&](std::size_t marker) {
+    return std::ranges::any_of(markers.frames,
+                               [&](const auto& frame) { return frame[marker] != markers.frames.front()[marker]; });
+  };
+  std::optional<bool> is_far, is_moving;
   for (std::size_t marker = 0; marker < markers.names.size(); ++marker) {
     const auto is_zero = [&](const auto& frame) { return IsZero(frame[marker]); };
     const auto is_elsewhere = [&](const auto& frame) { return frame[marker] && !is_zero(frame); };
-    if (std::ranges::none_of(markers.frames, is_zero) || std::ranges::none_of(markers.frames, is_elsewhere)) continue;
+    if (std::ranges::none_of(markers.frames, is_zero)) continue;
+    if (std::ranges::none_of(markers.frames, is_elsewhere)) {
+      if (!is_far) is_far = IsFarFromZero(markers);
+      if (!is_moving) is_moving = std::ranges::any_of(std::views::iota(std::size_t{0}, markers.names.size()), moves);
+      if (!*is_far && !(*is_moving && IsOfLimb(markers.names[marker]))) continue;
+    }
     for (auto& frame : markers.frames) {
       if (!is_zero(frame)) continue;
       frame[marker].reset();

@@ -97,6 +97,7 @@ std::vector<MarkerSet> MakeSets() {
                             {Role::kLeftFoot, {"?toe"}}},
                            "l", "r");
   gait.pelvis = {"lasi", "rasi", "lpsi", "rpsi"};
+  gait.sacrum = "sacr";
   gait.has_skin_limbs = gait.has_skin_shoulders = true;
   gait.rank = 1;
   sets.push_back(std::move(gait));
@@ -114,12 +115,14 @@ bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers) 
   return std::ranges::all_of(markers, [&](const std::string& marker) { return columns.contains(marker); });
 }
 
-bool HasPelvis(const MarkerSet& set, const MarkerColumns& columns) {
-  return !set.pelvis.front().empty() && HasAll(columns, set.pelvis);
+std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns) {
+  std::array<std::string, 4> markers = set.pelvis;
+  if (!set.sacrum.empty() && !HasAll(columns, markers)) markers[2] = markers[3] = set.sacrum;
+  return !markers.front().empty() && HasAll(columns, markers) ? std::optional(std::move(markers)) : std::nullopt;
 }
 
 bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role) {
-  if ((role == Role::kLeftHip || role == Role::kRightHip) && HasPelvis(set, columns)) return true;
+  if ((role == Role::kLeftHip || role == Role::kRightHip) && PelvisOf(set, columns)) return true;
   return std::ranges::any_of(
       set.rules, [&](const MarkerRule& rule) { return rule.role == role && HasAll(columns, rule.markers); });
 }

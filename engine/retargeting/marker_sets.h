@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,8 +24,9 @@ struct MarkerSet {
   std::string key;  ///< its name for --marker-set
   std::vector<MarkerRule> rules;
   std::array<std::string, 4> pelvis = {};  ///< left and right front, left and right back; the hips follow from them
-  /// True if knees, ankles and elbows have one marker each, on the skin. Further markers on thighs and shanks (wands)
-  /// show the planes in which the limbs bend.
+  std::string sacrum = "";                 ///< the marker that may replace the two markers on the back of the pelvis
+  /// Knees, ankles and elbows have one marker each, on the skin; further markers on thighs and shanks (wands) show the
+  /// planes in which the limbs bend.
   bool has_skin_limbs = false;
   bool has_skin_shoulders = false;  ///< true if shoulders have one marker each, on top
   int rank = 0;                     ///< of several sets in a file, the one with the highest rank is used
@@ -46,7 +48,8 @@ inline constexpr std::array kNeededJoints = {Role::kLeftShoulder, Role::kLeftElb
 
 /// Returns true if a person has all of these markers.
 bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);
-bool HasPelvis(const MarkerSet& set, const MarkerColumns& columns);
+/// Returns the markers of the pelvis, the sacrum's twice if it stands for the back; nullopt if some are missing.
+std::optional<std::array<std::string, 4>> PelvisOf(const MarkerSet& set, const MarkerColumns& columns);
 /// Returns true if the set determines a joint from a person's markers.
 bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);
 /// Lists the needed joints that the set does not determine.

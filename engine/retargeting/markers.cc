@@ -12,6 +12,7 @@
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/motion/statistics.h"
+#include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/marker_repairs.h"
 #include "engine/retargeting/marker_sets.h"
 #include "engine/retargeting/skin_markers.h"
@@ -29,22 +30,6 @@ std::string LowerCase(std::string_view text) {
   return lower;
 }
 
-/// Returns true if the toes of both feet point backwards in nearly all frames: left and right are exchanged, or an axis
-/// is mirrored.
-bool AreSidesExchanged(std::span<const BodyPose> poses) {
-  constexpr double kAgainst = 0.2, kNearlyAll = 0.9;
-  const auto points_back = [](const BodyPose& pose, Role knee, Role ankle, Role foot) {
-    const glm::dvec3 front = glm::cross(pose[kLeftHip] - pose[kRightHip], pose[knee] - pose[ankle]);
-    const glm::dvec3 toes = pose[foot] - pose[ankle];
-    return glm::dot(front, toes) < -kAgainst * glm::length(front) * glm::length(toes);
-  };
-  const auto backwards = std::ranges::count_if(poses, [&](const BodyPose& pose) {
-    return points_back(pose, kLeftKnee, kLeftAnkle, kLeftFoot) &&
-           points_back(pose, kRightKnee, kRightAnkle, kRightFoot);
-  });
-  return static_cast<double>(backwards) >= kNearlyAll * static_cast<double>(poses.size());
-}
-
 /// Returns each person's markers by name. Markers that no frame shows count as absent.
 std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
   std::map<std::string, MarkerColumns> people;
@@ -58,9 +43,6 @@ std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
   return people;
 }
 
-/// Interpolates linearly between two points.
-glm::dvec3 Interpolate(const glm::dvec3& a, const glm::dvec3& b, double part) { return a + part * (b - a); }
-
 /// Fills gaps of at most `most` frames by linear interpolation; returns the number of filled frames.
 int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most) {
   int filled = 0;
@@ -68,9 +50,9 @@ int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size
   for (std::size_t t = 0; t < frames.size(); ++t) {
     if (!frames[t][joint]) continue;
     if (last && t - *last > 1 && t - *last <= most + 1) {
+      const glm::dvec3 from = *frames[*last][joint], to = *frames[t][joint];
       for (std::size_t k = *last + 1; k < t; ++k, ++filled) {
-        frames[k][joint] = Interpolate(*frames[*last][joint], *frames[t][joint],
-                                       static_cast<double>(k - *last) / static_cast<double>(t - *last));
+        frames[k][joint] = from + static_cast<double>(k - *last) / static_cast<double>(t - *last) * (to - from);
       }
     }
     last = t;
@@ -111,11 +93,12 @@ JointPositions PositionsOf(const MarkerSet& set, const MarkerColumns& columns, c
   for (const MarkerRule& rule : set.rules) {
     if (HasAll(columns, rule.markers)) places[Index(rule.role)] = middle(rule.markers);
   }
-  if (HasPelvis(set, columns) && !places[Index(Role::kLeftHip)]) {
+  const auto markers = PelvisOf(set, columns);
+  if (markers && !places[Index(Role::kLeftHip)]) {
     std::array<glm::dvec3, 4> pelvis;
     bool is_seen = true;
     for (std::size_t i = 0; i < pelvis.size(); ++i) {
-      const MarkerPosition one = middle({&set.pelvis[i], 1});
+      const MarkerPosition one = middle({&(*markers)[i], 1});
       is_seen = is_seen && one;
       if (one) pelvis[i] = *one;
     }
@@ -125,6 +108,17 @@ JointPositions PositionsOf(const MarkerSet& set, const MarkerColumns& columns, c
     if (place && !std::isfinite(place->x + place->y + place->z)) place.reset();
   }
   return places;
+}
+
+/// Returns the file's names of the markers that show a joint, else the joint's.
+std::string NamesOf(Role role, const MarkerSet& set, const MarkerColumns& columns, const MarkerMotion& markers) {
+  for (const MarkerRule& rule : set.rules) {
+    if (rule.role != role || !HasAll(columns, rule.markers)) continue;
+    std::vector<std::string> names;
+    for (const std::string& marker : rule.markers) names.push_back(markers.names[columns.find(marker)->second]);
+    return Join(names, " and ");
+  }
+  return std::string(RoleName(role));
 }
 
 /// Returns the markers of thighs and shanks in one frame.
@@ -166,12 +160,17 @@ BodyPose Complete(const JointPositions& places) {
   return pose;
 }
 
+/// Returns true if a frame contains every needed joint.
+bool IsWhole(const JointPositions& frame) {
+  return std::ranges::all_of(kNeededJoints, [&](Role role) { return frame[Index(role)].has_value(); });
+}
+
 /// Finds the axis that points up from the frames with all needed joints. A foot without a marker is placed at its
 /// ankle.
 UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, const UpRule& rule) {
   std::vector<BodyPose> poses;
   for (const JointPositions& places : frames) {
-    if (!std::ranges::all_of(kNeededJoints, [&](Role role) { return places[Index(role)].has_value(); })) continue;
+    if (!IsWhole(places)) continue;
     BodyPose& pose = poses.emplace_back(Complete(places));
     for (const Role foot : {Role::kLeftFoot, Role::kRightFoot}) {
       const Role ankle = foot == Role::kLeftFoot ? Role::kLeftAnkle : Role::kRightAnkle;
@@ -216,10 +215,7 @@ std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositi
   std::pair<std::size_t, std::size_t> best{0, 0};
   std::size_t begin = 0;
   for (std::size_t t = 0; t <= frames.size(); ++t) {
-    const bool is_whole = t < frames.size() && std::ranges::all_of(kNeededJoints, [&](Role role) {
-                            return frames[t][Index(role)].has_value();
-                          });
-    if (is_whole) continue;
+    if (t < frames.size() && IsWhole(frames[t])) continue;
     if (t - begin > best.second - best.first) best = {begin, t};
     begin = t + 1;
   }
@@ -264,6 +260,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     frames.push_back(PositionsOf(set, columns, frame, scale));
     wands.push_back(WandsOf(columns, frame, scale));
   }
+  const std::vector<Role> exchanged = FindExchangedJoints(frames);
   const std::string centres = MoveToJointCentres(set, markers.sizes_m, wands, frames);
   const std::vector<JointPositions> seen = options.keeps_shown ? frames : std::vector<JointPositions>();
   int filled = 0;
@@ -289,8 +286,11 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   // Describe the corrections.
   if (filled > 0) body.changes.push_back(fmt::format("{} positions interpolated in gaps", filled));
   if (end - begin < frames.size()) {
-    body.changes.push_back(fmt::format("only frames {} to {} of {} (elsewhere joints are lost for over {:g} s)",
-                                       begin + 1, end, frames.size(), kMaxGap_s));
+    const bool is_inside = std::ranges::any_of(std::span(frames).first(begin), IsWhole) ||
+                           std::ranges::any_of(std::span(frames).subspan(end), IsWhole);
+    body.changes.push_back(fmt::format("only frames {} to {} of {} ({})", begin + 1, end, frames.size(),
+                                       is_inside ? fmt::format("elsewhere joints are lost for over {:g} s", kMaxGap_s)
+                                                 : "before the first and after the last, joints are lost"));
   }
   if (!centres.empty()) body.changes.push_back(centres);
   std::vector<std::string> guessed;
@@ -301,14 +301,17 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (!markers.remark.empty()) body.changes.push_back(markers.remark);
   if (std::string turn = DescribeTurn(body.up); !turn.empty()) body.changes.push_back(std::move(turn));
   if (!body.up.doubt.empty()) body.changes.push_back(body.up.doubt);
-  if (Determines(set, columns, kLeftFoot) && Determines(set, columns, kRightFoot) &&
-      AreSidesExchanged(body.motion.poses)) {
+  if (Determines(set, columns, Role::kLeftFoot) && Determines(set, columns, Role::kRightFoot) &&
+      PointFeetBackwards(body.motion.poses)) {
     body.changes.push_back("the feet point backwards: left and right are exchanged, or an axis is mirrored");
   }
+  const std::string crossing = DescribeExchangedJoints(
+      exchanged, [&](Role role) { return NamesOf(role, set, columns, markers); });
+  if (!crossing.empty()) body.changes.push_back(crossing);
   StandOnFloor(options.keep_floor, IsOwn(set), body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
-  for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt}) {
+  for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt, crossing}) {
     if (!said.empty()) body.shown.remark += "; " + said;
   }
   return body;
@@ -388,9 +391,9 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   return Fail(
       {file},
       "its markers ({}{}) are not of a known set (nearest: {}); known: Etude's joints, OpenPose BODY_25, HALPE_26, "
-      "COCO, "
-      "Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait",
-      Join(names), markers.names.size() > names.size() ? ", …" : "", nearest);
+      "COCO, Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait{}{}",
+      Join(names), markers.names.size() > names.size() ? ", …" : "", nearest, markers.remark.empty() ? "" : "; ",
+      markers.remark);
 }
 
 }  // namespace etude

@@ -20,6 +20,7 @@
 #include "engine/retargeting/body_sampler.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/orientation.h"
+#include "engine/retargeting/root_travel.h"
 
 namespace etude {
 namespace {
@@ -251,8 +252,8 @@ std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& m
     changes.push_back("dropped a leading T-pose" +
                       (done.dropped_frames > 1 ? fmt::format(" of {} frames", done.dropped_frames) : ""));
   }
-  if (clip.rate_hz != done.motion.rate_hz) {
-    changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", clip.rate_hz, done.motion.rate_hz));
+  if (std::string said = DescribeResampling(clip.rate_hz, done.motion.rate_hz); !said.empty()) {
+    changes.push_back(std::move(said));
   }
   // Describe floor and joints.
   const double floor_cm = 100 * done.floor * done.metres_per_unit;
@@ -325,6 +326,19 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map) {
   return ratio;
 }
 
+std::string DescribeResampling(double from_hz, double to_hz) {
+  const std::string from = fmt::format("{:.6g}", from_hz), to = fmt::format("{:.6g}", to_hz);
+  return from == to ? "" : fmt::format("resampled from {} to {} Hz", from, to);
+}
+
+std::string DescribeImpossibleHeight(std::span<const BodyPose> poses) {
+  constexpr double kLeast_m = 0.5, kMost_m = 2.75;  // a newborn, and more than the tallest man on record
+  if (poses.empty()) return "";
+  const double stature = MedianStature({poses.begin(), poses.end()});
+  if (stature >= kLeast_m && stature <= kMost_m) return "";
+  return fmt::format("the body is {:.3g} m tall, as no person is: is its unit right?", stature);
+}
+
 bool IsTPose(const BodyPose& pose) {
   const glm::dvec3 up(0, 1, 0);
   const glm::dvec3 left = glm::cross(up, Facing(pose));
@@ -369,6 +383,8 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   done.changes = ChangesOf(done, map, clip, lies);
   std::ranges::move(remarks, std::back_inserter(done.changes));
+  done.Doubt(DescribeImpossibleHeight(done.motion.poses));
+  done.Doubt(DescribeRootTravel(clip, map));
   return done;
 }
 

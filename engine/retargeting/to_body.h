@@ -39,9 +39,17 @@ struct BodyConversion {
   /// A text for people about each finding and each correction of the file's data: "1 unit = 5.64 cm (CMU)", "dropped a
   /// leading T-pose".
   std::vector<std::string> changes = {};
+  std::vector<std::string> doubts = {};  ///< those of `changes` that say what looks wrong in the file
   BodyMotion motion;
 
-  /// Returns `changes` as one line, separated by semicolons.
+  /// Appends `text` to `doubts` and to `changes`, unless it is empty.
+  void Doubt(const std::string& text) {
+    if (text.empty()) return;
+    doubts.push_back(text);
+    changes.push_back(text);
+  }
+
+  /// Returns `changes` as one line, joined by semicolons.
   std::string Note() const { return Join(changes, "; "); }
 };
 
@@ -93,6 +101,12 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 /// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result. Apply it to the clip's
 /// meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
+
+/// Describes a change of the rate for people; "" if both rates read alike.
+std::string DescribeResampling(double from_hz, double to_hz);
+
+/// Says, for people, that no person is as tall as this body in its median frame (under 0.5 m, over 2.75 m); else "".
+std::string DescribeImpossibleHeight(std::span<const BodyPose> poses);
 
 /// Returns true if the body stands with straight legs and both arms stretched out sideways.
 bool IsTPose(const BodyPose& pose);

@@ -231,6 +231,8 @@ UpRule C3dUp(char axis, bool is_negative) {
 
 UpRule ArrayUp() { return {.source = "the usual axis of arrays of joints"}; }
 
+UpRule RawArraysUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of Etude's arrays"}; }
+
 UpRule JointCsvUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of joint CSV"}; }
 
 UpRule MotiveUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of Motive's exports"}; }

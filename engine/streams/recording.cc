@@ -215,6 +215,9 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
   ASSIGN_OR_RETURN(JointCsv csv, ReadJointCsv(text, file));
   StreamRecording recording{.format = StreamFormat::kEtudeCsv, .is_level = true};
   recording.records_times = csv.rate_hz.has_value() && !reading.rate_hz;
+  recording.seconds_per_count = csv.scale.seconds;
+  recording.first_count = csv.scale.first;
+  if (!csv.remark.empty()) recording.remarks.push_back(csv.remark);
   recording.rate_hz = reading.rate_hz.value_or(csv.rate_hz.value_or(kJudgedRateHz));
   const std::vector<double> counted = TimesOfNumbers(csv.numbers, recording.rate_hz);
   for (std::size_t t = 0; t < csv.frames.size(); ++t) {
@@ -230,13 +233,16 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
 }
 
 Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& file) {
-  ASSIGN_OR_RETURN(const MarkerRows rows, ReadTrcRows(text, file));
+  ASSIGN_OR_RETURN(MarkerRows rows, ReadTrcRows(text, file));
   const MarkerMotion& markers = rows.markers;
+  const TimeScale scale = FindTimeScale(rows.times_s, {markers.rate_hz, rows.rate_name});
+  for (double& time : rows.times_s) time = scale.SecondsOf(time);
   RETURN_IF_ERROR(CheckMarkerNames(markers.names, file));
   // Place rows of constant rate exactly one period apart, because their written times are rounded.
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, markers.rate_hz, markers.names.size(), file));
   StreamRecording recording{.format = StreamFormat::kTrc, .records_times = true, .is_level = true};
   recording.rate_hz = grid ? grid->rate_hz : markers.rate_hz;
+  if (!scale.remark.empty()) recording.remarks.push_back(scale.remark);
   const bool is_even = !grid || grid->is_even;
   for (std::size_t t = 0; t < markers.frames.size(); ++t) {
     RecordedFrame& frame = recording.frames.emplace_back();

@@ -17,6 +17,7 @@
 #include "engine/formats/motion_bids.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/text_scanner.h"
+#include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/opensim_motion.h"
 #include "engine/retargeting/rig.h"
@@ -109,11 +110,12 @@ Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
               found.empty() ? "no" : std::to_string(found.size()));
 }
 
-Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, CappedReader& reader) {
+Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, CappedReader& reader,
+                         std::vector<std::string>& remarks) {
   ASSIGN_OR_RETURN(const auto skeleton_path, AcclaimSkeletonBeside(path));
   ASSIGN_OR_RETURN(const auto text, reader.Read(skeleton_path));
   ASSIGN_OR_RETURN(const auto skeleton, ReadAcclaimSkeleton(text, skeleton_path));
-  return ReadAcclaimMotion(bytes, skeleton, path);
+  return ReadAcclaimMotion(bytes, skeleton, path, &remarks);
 }
 
 /// Returns the roles that the bones of a VRM file play. The usual search finds spine, hands, feet and the crown.
@@ -136,14 +138,17 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
   return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
 }
 
-/// Reads the rate from the _motion.json of Motion-BIDS.
-Result<double> BidsRate(const std::string& file, CappedReader& reader) {
+/// Reads the rate and the writing of missing values from the _motion.json of Motion-BIDS.
+Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
   ASSIGN_OR_RETURN(const auto text, reader.Read(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(text, file));
   const auto rate = json.is_object() ? json.find("SamplingFrequency") : json.end();
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
-  const double rate_hz = rate != json.end() && rate->is_number() ? rate->get<double>() : 0;
-  if (rate_hz >= kMinRate_hz && rate_hz <= kMaxRate_hz) return rate_hz;
+  BidsFacts facts{.rate_hz = rate != json.end() && rate->is_number() ? rate->get<double>() : 0};
+  if (const auto missing = json.is_object() ? json.find("MissingValues") : json.end(); missing != json.end()) {
+    facts.missing = missing->is_string() ? missing->get<std::string>() : missing->dump();
+  }
+  if (facts.rate_hz >= kMinRate_hz && facts.rate_hz <= kMaxRate_hz) return facts;
   return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
 }
 
@@ -187,6 +192,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       if (const auto motion = BodyOf(raw)) {
         std::vector<std::string> notes = {"Etude's own arrays"};
         notes.insert(notes.end(), raw.notes.begin(), raw.notes.end());
+        if (const auto crossing = DescribeExchangedJoints(*motion); !crossing.empty()) notes.push_back(crossing);
         file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
         if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
         return file;
@@ -205,7 +211,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       return FileOfArray(*joints, layout, path, options,
                          "SAM 3D Body's arrays in the camera's frame, turned to Y up as if the camera were level");
     }
-    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
+    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path, ToldOfArrays(options).rate_hz));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));
   }
   if (IsNpy(bytes)) {
@@ -217,8 +223,8 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (path.ends_with(kBidsEnd)) {
     const std::string stem = path.substr(0, path.size() - kBidsEnd.size());
     ASSIGN_OR_RETURN(const auto channels, reader.Read(stem + "_channels.tsv"));
-    ASSIGN_OR_RETURN(const double rate_hz, BidsRate(stem + "_motion.json", reader));
-    ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, rate_hz, {path, stem + "_channels.tsv"}));
+    ASSIGN_OR_RETURN(const BidsFacts facts, ReadBidsFacts(stem + "_motion.json", reader));
+    ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, facts, {path, stem + "_channels.tsv"}));
     return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, ArrayUp());
   }
   // Try markers, and recordings of runs.
@@ -260,8 +266,11 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   }
   // Try Acclaim and BVH; the complaint describes any other file.
   if (IsAcclaimMotion(bytes)) {
-    ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader));
-    return FileOfOne(ClipFormat::kAcclaim, std::move(clip));
+    ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader, file.remarks));
+    ClipFile read = FileOfOne(ClipFormat::kAcclaim, std::move(clip));
+    read.remarks = std::move(file.remarks);
+    read.has_rate = false;
+    return read;
   }
   constexpr std::string_view kBvhStart = "HIERARCHY";
   if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {

@@ -57,8 +57,7 @@ Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const 
   if (options.roles) options.roles->up.reset();
   options.body.metres_per_unit = 1;
   options.body.keep_floor = true;
-  ASSIGN_OR_RETURN(auto file, FileOfMarkers(format, MarkersOf(motion), path, options,
-                                            {.evidence = UpEvidence::kFormat, .source = "the rule of Etude's arrays"}));
+  ASSIGN_OR_RETURN(auto file, FileOfMarkers(format, MarkersOf(motion), path, options, RawArraysUp()));
   for (MadeBody& body : file.bodies) {
     body.changes.insert(body.changes.end(), motion.notes.begin(), motion.notes.end());
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <ranges>
 
 #include "engine/base/names.h"
 #include "engine/motion/edit.h"
@@ -102,6 +103,39 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   }
 }
 
+/// States which body is used if the skeleton contains a second body; "" if it contains one.
+std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
+  // Find the deepest joint that is an ancestor of all joints with a role.
+  std::vector<int> below(skeleton.joints.size());
+  int wanted = 0;
+  for (const Role role : AllRoles()) {
+    if (map[role].joint < 0) continue;
+    ++wanted;
+    for (int joint = map[role].joint; joint >= 0; joint = skeleton.joints[joint].parent) ++below[joint];
+  }
+  const int top = static_cast<int>(std::ranges::find(below | std::views::reverse, wanted).base() - below.begin()) - 1;
+  if (top < 0) return "";
+  // Collect the joints outside its subtree, with the file's own names: readers number equal names ("Hips#2").
+  constexpr std::size_t kMinJoints = 12;
+  Skeleton others;
+  std::vector<int> place(skeleton.joints.size(), -1);
+  for (int i = 0; i < static_cast<int>(skeleton.joints.size()); ++i) {
+    const int parent = skeleton.joints[i].parent;
+    if (i == top || (parent >= 0 && place[parent] < 0)) continue;
+    place[i] = static_cast<int>(others.joints.size());
+    Joint& joint = others.joints.emplace_back(skeleton.joints[i]);
+    joint.parent = parent < 0 ? -1 : place[parent];
+    joint.name = joint.name.substr(0, joint.name.rfind('#'));
+  }
+  if (others.joints.size() < kMinJoints) return "";
+  const auto second = FindJointMap(others, "");
+  if (!second) return "";
+  const auto at = std::ranges::find(place, (*second)[Role::kLeftHip].joint) - place.begin();
+  return fmt::format("the file contains a second body, with the left hip {}; the body with {} is used (--map chooses another)",
+                     Quote(skeleton.joints[static_cast<std::size_t>(at)].name),
+                     Quote(skeleton.joints[static_cast<std::size_t>(map[Role::kLeftHip].joint)].name));
+}
+
 /// Opens a clip of our own skeleton, which has one joint for every role; the joint's name is the role's name.
 Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& options) {
   OpenedClip opened{.source = std::move(source), .map = {}, .body = {}};
@@ -129,9 +163,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   }
   constexpr double kSameRate = 1e-6;  // relative; a rate that was computed from a column of times is rounded
   const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
-  if (!keeps_rate) {
-    opened.body.changes.push_back(
-        fmt::format("resampled from {:.6g} to {:.6g} Hz", opened.source.clip.rate_hz, options.rate_hz));
+  if (std::string said = DescribeResampling(opened.source.clip.rate_hz, options.rate_hz); !said.empty()) {
+    opened.body.changes.push_back(std::move(said));
   }
   const Clip clip = keeps_rate ? opened.source.clip : Resample(opened.source.clip, options.rate_hz);
   opened.body.motion.rate_hz = options.rate_hz;
@@ -146,6 +179,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     }
     opened.body.motion.poses.push_back(is_turned ? Upright(pose, UpAxis::kZ) : pose);
   }
+  opened.body.Doubt(DescribeImpossibleHeight(opened.body.motion.poses));
   return opened;
 }
 
@@ -161,6 +195,10 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path), wanted.animation, options));
   const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
   const bool is_recording = file.format == ClipFormat::kRecording;
+  const auto say = [&](const std::string& remark) {
+    for (MadeBody& body : file.bodies) body.changes.push_back(remark);
+    if (file.bodies.empty()) file.remarks.push_back(remark);
+  };
   if (!is_recording && options.roles && options.roles->rate_hz) {
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
     for (MarkerMotion& shown : file.shown) {
@@ -168,9 +206,11 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
       shown.start_s.reset();  // the file's clock runs at another rate
     }
   } else if (!file.has_rate) {
-    for (MadeBody& body : file.bodies) {
-      body.changes.push_back(fmt::format("the file states no rate; {:g} Hz is assumed", kJudgedRateHz));
-    }
+    say(fmt::format("the file states no rate; {:g} Hz is assumed", file.clips.front().rate_hz));
+  }
+  const auto is_slow = [](const Clip& clip) { return clip.rate_hz < 1; };
+  if (const auto slow = std::ranges::find_if(file.clips, is_slow); slow != file.clips.end() && !is_recording) {
+    say(fmt::format("its frames are {:.3g} s apart: does it count milliseconds?", 1 / slow->rate_hz));
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
   const auto shown_of = [&](std::size_t i) {
@@ -242,6 +282,7 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   }
   ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
   body.changes.insert(body.changes.end(), source.remarks.begin(), source.remarks.end());
+  body.Doubt(DescribeSecondBody(source.clip.skeleton, map));
   return OpenedClip{std::move(source), std::move(map), std::move(body)};
 }
 

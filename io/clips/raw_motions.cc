@@ -101,6 +101,7 @@ std::vector<std::string> NotesOn(const OpenedClip& opened) {
     notes.push_back("roles found by the skeleton's shape: " + NamesOf(opened.map.by_anatomy));
   }
   notes.insert(notes.end(), opened.source.remarks.begin(), opened.source.remarks.end());
+  notes.insert(notes.end(), body.doubts.begin(), body.doubts.end());
   return notes;
 }
 
@@ -164,6 +165,8 @@ bool BeginsAsZip(const std::string& reference) {
 /// Converts arrays of positions directly, without a skeleton.
 Result<RawMotion> OfArrays(const Npz& arrays, const std::string& reference, const OpenOptions& options) {
   ASSIGN_OR_RETURN(auto raw, ReadRawNpz(arrays, reference, ToldOfArrays(options)));
+  const auto body = BodyOf(raw);
+  if (std::string said = body ? DescribeImpossibleHeight(body->poses) : ""; !said.empty()) raw.notes.push_back(said);
   if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);
   return raw;
 }

@@ -269,7 +269,8 @@ Timing TimingOf(const std::vector<Channel>& channels) {
 
 class ClipReader {
  public:
-  ClipReader(GltfFile& file, const GltfNodes& nodes) : file_(file), nodes_(nodes) {}
+  ClipReader(GltfFile& file, const GltfNodes& nodes, std::vector<std::string>& remarks)
+      : file_(file), nodes_(nodes), remarks_(remarks) {}
 
   Result<std::vector<Clip>> Read() {
     const std::size_t count = file_.model().animations.size();
@@ -354,6 +355,7 @@ class ClipReader {
     const std::string base = given.empty() ? fmt::format("animation_{}", index) : given;
     std::string name = base;
     for (int number = 2; !names_.insert(name).second; ++number) name = fmt::format("{}_{}", base, number);
+    if (name != base) remarks_.push_back(fmt::format("another animation is called {}, too: it is {} here", base, name));
     return name;
   }
 
@@ -361,13 +363,14 @@ class ClipReader {
   const GltfNodes& nodes_;
   double frame_bytes_ = 0;
   std::set<std::string> names_;
+  std::vector<std::string>& remarks_;
   std::vector<Clip> clips_;
 };
 
 }  // namespace
 
-Result<std::vector<Clip>> ReadGltfClips(GltfFile& file, const GltfNodes& nodes) {
-  return ClipReader(file, nodes).Read();
+Result<std::vector<Clip>> ReadGltfClips(GltfFile& file, const GltfNodes& nodes, std::vector<std::string>& remarks) {
+  return ClipReader(file, nodes, remarks).Read();
 }
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -10,7 +11,7 @@
 namespace etude {
 
 /// Reads one clip per animation that rotates, moves or scales a node, as gltf.h describes. Animations that only move
-/// morph targets are left out.
-Result<std::vector<Clip>> ReadGltfClips(GltfFile& file, const GltfNodes& nodes);
+/// morph targets are left out. `remarks` gets a text about every name that several animations have.
+Result<std::vector<Clip>> ReadGltfClips(GltfFile& file, const GltfNodes& nodes, std::vector<std::string>& remarks);
 
 }  // namespace etude

@@ -391,7 +391,7 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
   }
   const bool has_pointers = std::ranges::count(model->extensionsUsed, "KHR_animation_pointer") > 0;
   if (has_pointers) content.remarks.emplace_back("animations by KHR_animation_pointer are not read");
-  ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes));
+  ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes, content.remarks));
   content.clips = std::move(clips);
   for (const auto& [bone, node] : BoneTable(*model)) {
     const bool is_node = node >= 0 && node < static_cast<int>(nodes.joint_of.size());

@@ -10,6 +10,7 @@
 #include "engine/coaching/session.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/joint_csv.h"
+#include "engine/formats/npz.h"
 #include "engine/formats/trc.h"
 #include "engine/fuzzy/features.h"
 #include "engine/keypoints/recover_person.h"
@@ -146,6 +147,23 @@ TEST(ApiMotion, LaysTheRowsOfACsvOnItsClock) {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     EXPECT_LT(glm::distance(read.poses[40].joints[i], flap.poses[40].joints[i]), 1e-9);
   }
+}
+
+TEST(ApiMotion, KeepsTheFloorOfArraysWithOtherJointsAsTheCommandLineDoes) {
+  const BodyMotion motion = Flap(30, 60);
+  NumberArray positions{.shape = {motion.poses.size(), kRoleCount + 1, 3}, .values = {}};
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& joint : pose.joints) {
+      for (int axis = 0; axis < 3; ++axis) positions.values.push_back(joint[axis] + (axis == 1 ? 0.7 : 0));
+    }
+    for (const double place : {1.0, 1.0, 1.0}) positions.values.push_back(place);
+  }
+  std::vector<std::string> names;
+  for (const Role role : AllRoles()) names.emplace_back(RoleName(role));
+  names.emplace_back("ball");
+  const std::string npz = WriteNpz({{"positions", positions}, {"rate_hz", {{}, {30}}}}, {{"names", names}});
+  const Motion read = ReadMotion(npz, "a.npz", 30);
+  EXPECT_NEAR(read.poses[3].joints[0].y, motion.poses[3].joints[0].y + 0.7, 1e-9);
 }
 
 TEST(ApiMotion, ReadsEtudesOwnTablesAsWrittenAndSaysEveryChange) {

@@ -69,6 +69,32 @@ TEST(Acclaim, TurnsBonesInTheirOwnAxes) {
   ExpectAcclaimNear(AcclaimGlobals(*clip, 1)[end].position, {0, 6, 0});  // the root turned all of it about Z
 }
 
+TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
+  const std::string frames = "1\nroot 5 0 0 0 0 0\nupper 90 0 0\n", degrees = kSkeleton;
+  std::string radians = degrees;
+  radians.replace(radians.find("angle deg"), 9, "angle rad");
+  ASSERT_OK(wanted, ReadAcclaimMotion(frames, *ReadAcclaimSkeleton(degrees, "a.asf"), "a.amc"));
+  // A skeleton that states radians, and a motion that does, both with degrees.
+  for (const auto& [asf, head] : {std::pair(radians, ""), {radians, ":DEGREES\n"}, {degrees, ":RADIANS\n"}}) {
+    std::vector<std::string> remarks;
+    ASSERT_OK(skeleton, ReadAcclaimSkeleton(asf, "a.asf"));
+    ASSERT_OK(clip, ReadAcclaimMotion(head + frames, *skeleton, "a.amc", &remarks));
+    EXPECT_EQ(clip->frames, wanted->frames);
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_NE(remarks[0].find("angles are taken as degrees"), std::string::npos);
+  }
+  // Radians that are called degrees could be a body that hardly moves, so they are only said.
+  const auto said = [&](const std::string& motion) {
+    std::vector<std::string> remarks;
+    EXPECT_TRUE(ReadAcclaimMotion(motion, *ReadAcclaimSkeleton(degrees, "a.asf"), "a.amc", &remarks));
+    return remarks.empty() ? "" : remarks[0];
+  };
+  EXPECT_EQ(said("1\nroot 5 0 0 0 0 0\nupper 1.6 0 0\n"),
+            "its angles stay within 1.6 degrees: if they are radians, a line :RADIANS must say so");
+  EXPECT_EQ(said(frames), "");
+  EXPECT_EQ(said("1\nroot 5 0 0 0 0 0\nupper 0 0 0\n"), "");
+}
+
 TEST(Acclaim, RefusesWhatHasNoBones) {
   EXPECT_EQ(testing::Refusal(ReadAcclaimSkeleton("", "a.asf")),
             "a.asf: no bones; allowed: an Acclaim skeleton with :root and :bonedata");

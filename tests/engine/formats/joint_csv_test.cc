@@ -57,6 +57,31 @@ TEST(JointCsv, TakesFewerJointsInAnyOrderAndMissingPlaces) {
   EXPECT_FALSE(read->frames[0][Index(Role::kSpine)]);
 }
 
+TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
+  const std::string heads = "time_s,head_x_m,head_y_m,head_z_m,label,head_note\n";
+  const std::string rows = "1600000000.5,1.5,-2.25,\"3\",walk,a\n1600000000.75,4.5,5,6,walk,7\n";
+  const auto with = [](std::string text, char separator, char point) {
+    for (char& c : text) c = c == ',' ? separator : c == '.' ? point : c;
+    return text;
+  };
+  for (const auto& [separator, point] : {std::pair(',', '.'), {';', '.'}, {';', ','}, {'\t', '.'}, {'\t', ','}}) {
+    ASSERT_OK(read, ReadJointCsv(with(heads, separator, '.') + with(rows, separator, point), "m.csv"));
+    EXPECT_EQ(read->frames[0][Index(Role::kHead)], glm::dvec3(1.5, -2.25, 3)) << separator << point;
+    EXPECT_EQ(read->frames[1][Index(Role::kHead)], glm::dvec3(4.5, 5, 6));
+    EXPECT_EQ(read->times_s, (std::vector<double>{0, 0.25}));
+    EXPECT_EQ(read->remark, std::string("its times begin at 1600000000 s: they are counted from its first row; ") +
+                                (point == ',' ? "its numbers have decimal commas; " : "") +
+                                "columns of texts are left out: label, head_note");
+  }
+  const auto read = [](const std::string& text) { return testing::Refusal(ReadJointCsv(text, "m.csv")); };
+  EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n0,1,0,2,0,3\n"),
+            "m.csv:1: 3 headings over 6 columns; if numbers have decimal commas, columns must be separated by "
+            "semicolons or tabs");
+  EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n1,far,2\n"),
+            "m.csv:2: head_y_m: 'far'; allowed: a number, or nan for a missing one");
+  EXPECT_NE(read("head_x_m,head_y_m,head_z_m\n1,2e9,2\n").find("within ±1e+09"), std::string::npos);
+}
+
 TEST(JointCsv, RefusesUnknownHeadingsHalfJointsAndRaggedRows) {
   const auto complaint = [](const char* text) {
     const auto read = ReadJointCsv(text, "m.csv");

@@ -29,7 +29,7 @@ TEST(MotionBids, IsReadBackToTheLastPrintedDigit) {
   auto files = Written(motion);
   ASSERT_EQ(files.size(), 6u);
   const auto read =
-      ReadMotionBids(files[kStem + "_motion.tsv"], files[kStem + "_channels.tsv"], motion.rate_hz, kFiles);
+      ReadMotionBids(files[kStem + "_motion.tsv"], files[kStem + "_channels.tsv"], {motion.rate_hz}, kFiles);
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->rate_hz, motion.rate_hz);
   ASSERT_EQ(read->frames.size(), motion.poses.size());
@@ -49,16 +49,40 @@ const std::string kChannels =
     "a_x\tPOS\tx\ta\tmm\na_z\tPOS\tz\ta\tcm\na_y\tPOS\ty\ta\tm\nq\tORNT\tx\ta\trad\n";
 
 TEST(MotionBids, OfOthersHasItsUnitsItsOrderAndItsGaps) {
-  const auto read = ReadMotionBids("1000\t50\t2\t9\nn/a\t50\t2\tn/a\n", kChannels, 50, kFiles);
+  const auto read = ReadMotionBids("1000\t50\t2\t9\nn/a\t50\t2\tn/a\n", kChannels, {50}, kFiles);
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->frames[0][0], glm::dvec3(1, 2, 0.5));
   EXPECT_FALSE(read->frames[1][0]);
   EXPECT_EQ(read->remark, "1 channels that are not positions are left out");
 }
 
+TEST(MotionBids, LatencyIsTheClockAndMissingValuesAreGaps) {
+  std::string rows, channels = kChannels + "t\tLATENCY\tn/a\tn/a\ts\n";
+  for (int k = 0; k < 60; ++k) {
+    if (k >= 20 && k < 26) continue;
+    rows += fmt::format("{}\t50\t2\t9\t{:.4f}\n", k == 10 ? -9999 : 1000 + k, k / 50.0);
+  }
+  ASSERT_OK(read, ReadMotionBids(rows, channels, {.rate_hz = 60, .missing = "-9999"}, kFiles));
+  EXPECT_EQ(read->rate_hz, 50);
+  ASSERT_EQ(read->frames.size(), 60u);
+  for (int k = 0; k < 60; ++k) {
+    const auto& place = read->frames[static_cast<std::size_t>(k)][0];
+    ASSERT_EQ(place.has_value(), k != 10 && (k < 20 || k >= 26)) << k;
+    EXPECT_EQ(place.value_or(glm::dvec3((1000 + k) * 0.001, 2, 0.5)), glm::dvec3((1000 + k) * 0.001, 2, 0.5));
+  }
+  EXPECT_THAT(read->remark, HasSubstr("SamplingFrequency states 60 Hz, but the channel LATENCY runs at 50 Hz"));
+  EXPECT_THAT(read->remark, HasSubstr("6 of 60 frames are missing"));
+  // Zeros are missing only if all three are 0; a text that is no number stands for a gap, too.
+  const auto zero = ReadMotionBids("0\t0\t0\t1\n0\t100\t0\t1\n", kChannels, {50, "0"}, kFiles);
+  EXPECT_FALSE(zero->frames[0][0]);
+  EXPECT_EQ(zero->frames[1][0], glm::dvec3(0, 0, 1));
+  EXPECT_FALSE(ReadMotionBids("lost\t0\t0\t1\n1\t2\t3\t4\n", kChannels, {50, "lost"}, kFiles)->frames[0][0]);
+  EXPECT_FALSE(ReadMotionBids("lost\t0\t0\t1\n1\t2\t3\t4\n", kChannels, {50}, kFiles)) << "the control";
+}
+
 TEST(MotionBids, SaysWhatIsWrong) {
   const auto reason = [](const std::string& rows, const std::string& channels) {
-    const auto read = ReadMotionBids(rows, channels, 50, kFiles);
+    const auto read = ReadMotionBids(rows, channels, {50}, kFiles);
     return read ? "read" : ToString(read.error());
   };
   const auto with = [](const char* from, const char* to) { return testing::Replaced(kChannels, from, to); };

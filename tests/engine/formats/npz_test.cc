@@ -158,6 +158,14 @@ TEST(Amass, TurnsOurTPoseAsTheArraysSay) {
   }
 }
 
+TEST(Amass, TakesTheRateThatIsToldAndRefusesNone) {
+  Npz npz = SmallAmass(156);
+  EXPECT_EQ(ReadAmass(npz, "a.npz", 50)->rate_hz, 50);
+  npz.arrays.erase("mocap_framerate");
+  EXPECT_EQ(ReadAmass(npz, "a.npz", 50)->rate_hz, 50);
+  EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")), HasSubstr("a.npz: no mocap_framerate; allowed: one number"));
+}
+
 TEST(Amass, RefusesArraysThatAreNoMotion) {
   const auto reason = [](const std::function<void(Npz&)>& change) {
     Npz npz = SmallAmass(156);

@@ -97,6 +97,38 @@ TEST(RowClock, TimesMayBePrintedWithFewDecimals) {
   EXPECT_LT(FarthestFromCurve(*untold), 1e-9);
 }
 
+TEST(RowClock, TimesThatSeveralRowsShareByRoundingKeepTheirRate) {
+  for (const double rate : {119.88, 120.0, 144.0, 200.0, 240.0}) {
+    for (const double told : {0.0, rate}) {
+      ASSERT_OK(laid, LayOnClock(RowsAt(TimesAt(rate, 600), told, 0.01), "a"));
+      EXPECT_NEAR(laid->rate_hz, rate, told > 0 ? 1e-9 : 0.13) << "untold, 119.88 Hz may be 120";
+      EXPECT_EQ(laid->frames.size(), 600u);
+      EXPECT_LT(FarthestFromCurve(*laid), told > 0 || rate > 119.9 ? 1e-9 : 0.02);
+      EXPECT_THAT(laid->remark, HasSubstr("its times are printed to 0.01 s, so several rows share one"));
+    }
+  }
+  // The control: at 100 Hz a time that stands twice is a row that was written twice.
+  std::vector<double> times = TimesAt(100, 60);
+  times.insert(times.begin() + 30, times[30]);
+  ASSERT_OK(twice, LayOnClock(RowsAt(times, 0, 0.01), "a"));
+  EXPECT_EQ(twice->rate_hz, 100);
+  EXPECT_EQ(twice->remark, "1 rows have the same time as another; the last of these is used");
+}
+
+TEST(RowClock, TimesSince1970AndInSmallerUnitsCountFromTheFirstRow) {
+  for (const auto& [per_second, unit] : {std::pair(1.0, ""), {1e3, "milli"}, {1e6, "micro"}, {1e9, "nano"}}) {
+    std::vector<double> times = TimesAt(60, 90);
+    for (double& time : times) time = std::round((time + 1.6e9) * 1000) / 1000 * per_second;
+    MarkerRows rows = RowsAt(TimesAt(60, 90));
+    rows.times_s = times;
+    ASSERT_OK(laid, LayOnClock(std::move(rows), "a"));
+    EXPECT_EQ(laid->rate_hz, 60) << unit;
+    EXPECT_EQ(laid->frames.size(), 90u);
+    EXPECT_THAT(laid->remark, HasSubstr("its times begin at 1600000000 s: they are counted from its first row"));
+    EXPECT_THAT(laid->remark, HasSubstr(unit));
+  }
+}
+
 TEST(RowClock, ARowAtAWrongTimeChangesNoRate) {
   std::vector<double> times = TimesAt(30, 70);
   times[40] -= 0.45 / 30;

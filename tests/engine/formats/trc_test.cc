@@ -99,6 +99,18 @@ TEST(ReadTrc, TakesTimesInMillisecondsWhereOnlyTheyAgreeWithDataRate) {
   EXPECT_EQ(ReadTrc(AtFiftyHertz(50, 60), "a.trc")->remark, "");
 }
 
+TEST(ReadTrc, TakesDecimalCommasAndSaysSo) {
+  std::string commas = WriteTrc(Steps(), "steps");
+  for (std::size_t i = commas.find("Frame#"); i < commas.size(); ++i) {
+    if (commas[i] == '.') commas[i] = ',';
+  }
+  ASSERT_OK(pointed, ReadTrc(WriteTrc(Steps(), "steps"), "a.trc"));
+  ASSERT_OK(read, ReadTrc(commas, "a.trc"));
+  EXPECT_EQ(read->frames, pointed->frames);
+  EXPECT_EQ(read->remark, "its numbers have decimal commas");
+  EXPECT_EQ(pointed->remark, "");
+}
+
 TEST(ReadTrc, KnowsUnitsByTheirNamesInAnyCase) {
   const auto metres = [](const std::string& unit) {
     std::string text = AtFiftyHertz(50, 60);

@@ -266,6 +266,54 @@ TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
   EXPECT_THAT(changes(Keypoints(poses, mirrored)), HasSubstr("left and right are exchanged, or an axis is mirrored"));
 }
 
+TEST(Markers, ThatAreExchangedBetweenLeftAndRightAreNamed) {
+  // Arms and legs swing, so that limbs between wrong joints change their lengths.
+  std::vector<BodyPose> poses = Frames(StandingAt);
+  for (std::size_t t = 0; t < poses.size(); ++t) {
+    const double swing = 0.15 * std::sin(0.3 * static_cast<double>(t));
+    for (const double side : {1.0, -1.0}) {
+      const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
+      poses[t][of(Role::kLeftElbow)].z += side * swing;
+      poses[t][of(Role::kLeftWrist)].z += 2 * side * swing;
+      poses[t][of(Role::kLeftKnee)].z -= side * swing;
+      for (const Role role : {Role::kLeftAnkle, Role::kLeftFoot}) poses[t][of(role)].z -= 2 * side * swing;
+    }
+  }
+  const auto note = [](const MarkerMotion& markers) {
+    const auto bodies = FindMarkerBodies(markers, "a.trc", {.up = TrcUp()});
+    return bodies ? bodies->front().Note() : ToString(bodies.error());
+  };
+  const MarkerMotion right = Keypoints(poses);
+  EXPECT_THAT(note(right), Not(HasSubstr("exchanged")));
+  EXPECT_THAT(note(Keypoints(Frames(StandingAt))), Not(HasSubstr("exchanged")));
+  EXPECT_THAT(note(Keypoints(Frames(Crawling))), Not(HasSubstr("exchanged")));
+  for (const std::vector<std::string>& exchanged : std::vector<std::vector<std::string>>{
+           {"Shoulder"}, {"Elbow"}, {"Wrist"}, {"Hip"}, {"Knee"}, {"Ankle"}, {"Elbow", "Wrist"},
+           {"Knee", "Ankle", "BigToe"}, {"Elbow", "Knee"}}) {
+    MarkerMotion markers = right;
+    std::vector<std::string> pairs;
+    for (const std::string& name : exchanged) {
+      std::swap(*std::ranges::find(markers.names, "L" + name), *std::ranges::find(markers.names, "R" + name));
+      pairs.push_back(fmt::format("L{0} – R{0}", name));
+    }
+    EXPECT_THAT(note(markers), HasSubstr("left and right look exchanged, because limbs cross: " + Join(pairs)));
+  }
+}
+
+TEST(Markers, OfALimbThatAreAlwaysAtZeroAreGaps) {
+  MarkerMotion markers = Keypoints(Frames(Walking));
+  const auto at_zero = [&](const std::string& name) {
+    MarkerMotion changed = markers;
+    const auto column = std::ranges::find(markers.names, name) - markers.names.begin();
+    for (auto& frame : changed.frames) frame[static_cast<std::size_t>(column)] = glm::dvec3(0);
+    const auto bodies = FindMarkerBodies(changed, "a.trc", {.up = TrcUp()});
+    return bodies ? bodies->front().Note() : ToString(bodies.error());
+  };
+  EXPECT_THAT(at_zero("LBigToe"), HasSubstr("left_foot; 60 positions at 0, 0, 0 taken as gaps"));
+  EXPECT_THAT(at_zero("LKnee"), HasSubstr("lacks left_knee"));
+  EXPECT_THAT(at_zero("LKnee"), HasSubstr("; 60 positions at 0, 0, 0 taken as gaps"));
+}
+
 TEST(Markers, ThatNoFrameShowsAreAbsent) {
   MarkerMotion markers = Keypoints(Frames(StandingAt));
   const auto index_of = [&](std::string_view name) {
@@ -491,6 +539,37 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
   }
 }
 
+TEST(Markers, OfASacrumStandForTheBackOfThePelvis) {
+  using enum Role;
+  const std::vector<Role> limbs = {kLeftShoulder, kRightShoulder, kLeftElbow, kRightElbow, kLeftKnee,
+                                   kRightKnee,    kLeftAnkle,     kRightAnkle};
+  std::vector<std::string> names = {"LSHO", "RSHO", "LELB", "RELB", "LKNE", "RKNE", "LANK", "RANK",
+                                    "LWRA", "LWRB", "RWRA", "RWRB", "LASI", "RASI", "LPSI", "RPSI"};
+  const auto markers_of = [&](const BodyPose& pose) {
+    std::vector<glm::dvec3> places;
+    for (const Role role : limbs) places.push_back(pose[role]);
+    for (const Role wrist : {kLeftWrist, kLeftWrist, kRightWrist, kRightWrist}) places.push_back(pose[wrist]);
+    for (const auto& [x, z] : {std::pair(0.12, 0.07), {-0.12, 0.07}, {0.05, -0.07}, {-0.05, -0.07}}) {
+      places.push_back(pose[kHipCentre] + glm::dvec3(x, 0.08, z));
+    }
+    return places;
+  };
+  ASSERT_OK(four, FindMarkerBodies(Take(names, markers_of), "a.trc"));
+  names.pop_back();
+  names.back() = "SACR";
+  ASSERT_OK(three, FindMarkerBodies(Take(names,
+                                         [&](const BodyPose& pose) {
+                                           auto places = markers_of(pose);
+                                           places[14] = 0.5 * (places[14] + places[15]);
+                                           places.pop_back();
+                                           return places;
+                                         }),
+                                    "a.trc"));
+  for (const Role role : AllRoles()) {
+    EXPECT_LT(glm::distance(three->front().motion.poses[0][role], four->front().motion.poses[0][role]), 1e-12);
+  }
+}
+
 TEST(Markers, OfPoseEstimatorsAreTakenAndWhatTheyLackIsPlacedByRule) {
   const std::vector<std::string> names = {"Nose",   "Neck",   "RShoulder", "RElbow",  "RWrist", "LShoulder", "LElbow",
                                           "LWrist", "MidHip", "RHip",      "RKnee",   "RAnkle", "LHip",      "LKnee",
@@ -534,6 +613,13 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   EXPECT_EQ(bodies->front().Note(),
             "Etude's joints; 4 positions interpolated in gaps; only frames 1 to 25 of 40 (elsewhere joints are lost "
             "for over 1 s)");
+}
+
+TEST(Markers, LostAtTheBeginningAndTheEndAreNotSaidToBeLostForLong) {
+  MarkerMotion take = OwnJoints();
+  for (const std::size_t t : {0, 1, 39}) take.frames[t][Index(Role::kLeftWrist)].reset();
+  EXPECT_EQ(FindMarkerBodies(take, "a.trc")->front().Note(),
+            "Etude's joints; only frames 3 to 39 of 40 (before the first and after the last, joints are lost)");
 }
 
 TEST(Markers, OfTwoPeopleAreTwoBodies) {

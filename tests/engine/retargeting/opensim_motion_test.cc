@@ -339,8 +339,72 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   EXPECT_LT(off(seen), 1e-12);
   EXPECT_THAT(ReadRawNpz(seen, "a.npz")->notes, ::testing::ElementsAre(HasSubstr("as in a camera's frame")));
   EXPECT_THAT(ReadRawNpz(seen, "a.npz", {.up = UpAxis::kY})->notes, ::testing::IsEmpty());
+  // An axis along which the body lies or stands on its head is doubted, though the file tells it.
+  for (const auto& [up, said] : {std::pair("z", "lies along the floor"), {"y", "lies along the floor"}}) {
+    EXPECT_THAT(ReadRawNpz(written(1, *up == 'y', "", up), "a.npz")->notes,
+                ::testing::Contains(HasSubstr(fmt::format("by the file's `up: {}`, the body {}", up, said))));
+  }
+  seen.texts["up"] = {"y"};
+  EXPECT_THAT(ReadRawNpz(seen, "a.npz")->notes, ::testing::ElementsAre(HasSubstr("stands on its head")));
   // Z up, which nobody tells: it may lie.
   EXPECT_THAT(ReadRawNpz(written(1, true, "", ""), "a.npz")->notes, ::testing::ElementsAre(HasSubstr("lies along Z")));
+}
+
+TEST(BodyNpz, IsMeasuredWithoutABallAndLeftInNoUnitThatMakesItTiny) {
+  const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
+  Npz arrays = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();
+  arrays.texts["unit"] = {"0.1"};
+  ASSERT_OK(tiny, ReadRawNpz(arrays, "a.npz"));
+  EXPECT_LT(WorstJointDistance(*BodyOf(*tiny), motion), 1e-12);
+  EXPECT_THAT(tiny->notes,
+              ::testing::ElementsAre(HasSubstr("1 unit = 100 cm: in units of 0.1 m the joints extend 0.1")));
+  // A ball five metres away is no part of the body.
+  arrays.texts.erase("unit");
+  NumberArray& positions = arrays.arrays.at("positions");
+  NumberArray with_ball{.shape = {positions.shape[0], kRoleCount + 1, 3}, .values = {}};
+  for (std::size_t f = 0; f < positions.shape[0]; ++f) {
+    const auto frame = positions.values.begin() + static_cast<std::ptrdiff_t>(3 * kRoleCount * f);
+    with_ball.values.insert(with_ball.values.end(), frame, frame + 3 * kRoleCount);
+    for (const double place : {5.0, 0.1, 5.0}) with_ball.values.push_back(place);
+  }
+  positions = with_ball;
+  arrays.texts["names"].push_back("ball");
+  ASSERT_OK(raw, ReadRawNpz(arrays, "a.npz"));
+  EXPECT_THAT(raw->notes, ::testing::IsEmpty());
+  EXPECT_EQ(raw->At(0, kRoleCount), glm::dvec3(5, 0.1, 5));
+}
+
+TEST(BodyNpz, OnItsHandsStaysAHandstandAndAFootAlwaysAtZeroIsNotSeen) {
+  // Upside down, with straight arms on the floor.
+  BodyMotion motion = LoadBuiltinMove("clap").value().motion;
+  for (BodyPose& pose : motion.poses) {
+    for (glm::dvec3& joint : pose.joints) joint = {-joint.x, 2.3 - joint.y, joint.z};
+    for (const Role elbow : {kLeftElbow, kRightElbow}) {
+      const bool is_left = elbow == kLeftElbow;
+      const glm::dvec3 shoulder = pose[is_left ? kLeftShoulder : kRightShoulder];
+      pose[elbow] = shoulder - glm::dvec3(0, 0.3, 0);
+      pose[is_left ? kLeftWrist : kRightWrist] = shoulder - glm::dvec3(0, 0.55, 0);
+      pose[is_left ? kLeftHand : kRightHand] = shoulder - glm::dvec3(0, 0.7, 0);
+    }
+  }
+  Npz arrays = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();
+  arrays.texts.erase("up");
+  ASSERT_OK(read, ReadRawNpz(arrays, "a.npz"));
+  EXPECT_LT(WorstJointDistance(*BodyOf(*read), motion), 1e-12);
+  EXPECT_THAT(read->notes, ::testing::ElementsAre(HasSubstr("on its hands")));
+  std::string note;
+  const auto joints = JointsOfArray(arrays.arrays.at("positions"), std::nullopt, "a.npy", note);
+  EXPECT_LT(glm::distance(*joints->frames[3][0], motion.poses[3].joints[0]), 1e-12);
+  EXPECT_THAT(note, HasSubstr("on its hands"));
+  // A foot at 0, 0, 0.
+  std::vector<double>& values = arrays.arrays.at("positions").values;
+  for (std::size_t at = 3 * Index(kLeftFoot); at < values.size(); at += 3 * kRoleCount) {
+    for (std::size_t axis = 0; axis < 3; ++axis) values[at + axis] = 0;
+  }
+  ASSERT_OK(gaps, ReadRawNpz(arrays, "a.npz", {.up = UpAxis::kY}));
+  EXPECT_FALSE(IsSeen(gaps->At(5, Index(kLeftFoot))));
+  EXPECT_TRUE(IsSeen(gaps->At(5, Index(kRightFoot))));
+  EXPECT_THAT(gaps->notes, ::testing::ElementsAre(HasSubstr("positions at 0, 0, 0 taken as gaps")));
 }
 
 TEST(BodyNpz, IsRefusedBeyondItsLimits) {

@@ -436,6 +436,49 @@ TEST(ToBodyMotion, TakesTheFormatsAxisBeforePostureAndTheUsersBeforeBoth) {
   EXPECT_GT(told->motion.poses[0][kHead].y, 1.6);
 }
 
+/// Walks along +Z on stiff legs: the standing foot stays where it is.
+Clip StiffWalk(double root_factor) {
+  constexpr double kLeg = 85, kStep = 0.35;  // centimetres, radians to either side
+  constexpr std::size_t kFrames = 15;        // of a step
+  Clip clip = AtRest(testing::PersonSkeleton(), 90);
+  for (std::size_t f = 0; f < clip.frames.size(); ++f) {
+    LowerArms(clip, f);
+    const double part = static_cast<double>(f % kFrames) / kFrames;
+    const double lean = std::asin(std::sin(kStep) * (2 * part - 1));  // of the standing leg, backwards
+    const bool is_left = f / kFrames % 2 == 0;
+    At(clip, f, is_left ? "LeftUpLeg" : "RightUpLeg").rotation = Turn(lean, {1, 0, 0});
+    At(clip, f, is_left ? "RightUpLeg" : "LeftUpLeg").rotation = Turn(-lean, {1, 0, 0});
+    const double way = 2 * std::sin(kStep) * kLeg * (static_cast<double>(f / kFrames) + part);
+    At(clip, f, "Hips").translation = root_factor * glm::dvec3(0, 95 - kLeg * (1 - std::cos(lean)), way);
+  }
+  return clip;
+}
+
+TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
+  EXPECT_THAT(Convert(StiffWalk(1))->doubts, ::testing::IsEmpty());
+  for (const auto& [factor, said] : {std::pair(0.01, "100 times"), {1 / 2.54, "2.54 times"}, {100.0, "0.01 times"}}) {
+    ASSERT_OK(body, Convert(StiffWalk(factor)));
+    EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions are {}", said))));
+  }
+  // A statue that glides tells nothing, but not at a hundred metres a second.
+  Clip glides = AtRest(testing::PersonSkeleton(), 60);
+  for (std::size_t f = 0; f < 60; ++f) At(glides, f, "Hips").translation.z = 5.0 * static_cast<double>(f);
+  EXPECT_THAT(Convert(glides)->doubts, ::testing::IsEmpty());
+  for (std::size_t f = 0; f < 60; ++f) At(glides, f, "Hips").translation.z *= 100;
+  EXPECT_THAT(Convert(glides)->doubts, ::testing::ElementsAre(HasSubstr("as if in a smaller unit than the limbs")));
+}
+
+TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {
+  EXPECT_EQ(DescribeResampling(30.00003, 30), "");
+  EXPECT_EQ(DescribeResampling(29.97, 30), "resampled from 29.97 to 30 Hz");
+  EXPECT_THAT(Convert(AtRest(testing::PersonSkeleton(), 3, 30.00003))->Note(), Not(HasSubstr("resampled")));
+  for (const auto& [unit, is_said] : {std::pair(0.01, false), {0.0025, true}, {0.0029, false}, {0.018, true}}) {
+    ASSERT_OK(body, Convert(AtRest(testing::PersonSkeleton()), {.metres_per_unit = unit}));
+    EXPECT_EQ(body->Note().find("m tall, as no person is") != std::string::npos, is_said) << unit;
+    EXPECT_EQ(body->doubts.empty(), !is_said) << unit;
+  }
+}
+
 TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
   EXPECT_THAT(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 0))), HasSubstr("no frames"));
 

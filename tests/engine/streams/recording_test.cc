@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
@@ -103,6 +104,24 @@ TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
   // Whole milliseconds of 60 Hz, and parts of milliseconds at any rate, stay what they are.
   EXPECT_EQ(Made(WithClock(rows, 1000, 17)).stream.frames.size(), 31u);
   EXPECT_EQ(Made(WithClock(rows, 1000.5, 8)).stream.frames.size(), 15u);
+}
+
+TEST(Streams, TablesMayCountMillisecondsOrSince1970) {
+  const BodyMotion motion = WavingMotion();
+  const SkeletonStream wanted = Made(WriteJointCsv(motion)).stream;
+  for (const auto& [start, per_second] : {std::pair(0.0, 1e3), {1.6e9, 1.0}, {1.6e9, 1e3}}) {
+    std::string csv, line;
+    std::istringstream text(WriteJointCsv(motion));
+    for (int k = -1; std::getline(text, line); ++k) {
+      const std::size_t first = line.find(','), second = line.find(',', first + 1);
+      const std::string time = fmt::format("{:.3f}", (start + k / motion.rate_hz) * per_second);
+      csv += (k < 0 ? line : line.substr(0, first + 1) + time + line.substr(second)) + "\n";
+    }
+    const SkeletonStream read = Made(csv).stream;
+    ASSERT_EQ(read.frames.size(), wanted.frames.size()) << start << " " << per_second;
+    EXPECT_LT(FurthestFrom(motion, read), 0.01);
+    EXPECT_EQ(ReadStreamRecording(csv, "s")->remarks.size(), 1u);
+  }
 }
 
 TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {

@@ -91,7 +91,7 @@ void Trc(std::string_view bytes) {
 void Bids(std::string_view bytes) {
   const std::size_t end = std::min(bytes.find('\f'), bytes.size());
   const std::string_view rows = bytes.substr(std::min(end + 1, bytes.size()));
-  if (const auto markers = ReadMotionBids(rows, bytes.substr(0, end), 30, {kFile, kFile})) FindMarkerBodies(*markers, kFile);
+  if (const auto markers = ReadMotionBids(rows, bytes.substr(0, end), {30}, {kFile, kFile})) FindMarkerBodies(*markers, kFile);
 }
 
 std::string BidsSeed() {

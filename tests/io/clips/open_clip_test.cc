@@ -4,6 +4,8 @@
 
 #include "io/clips/clip_library.h"
 #include "io/clips/references.h"
+#include "engine/retargeting/rig.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/choreography/song.h"
 #include "tests/io/clips/clip_folder.h"
 #include "tests/support/gaps.h"
@@ -44,12 +46,54 @@ TEST_F(OpenClipTest, AByteOrderMarkBeforeTextChangesNothing) {
   EXPECT_EQ(marked->at(0).clip.frames, plain->at(0).clip.frames);
 }
 
+TEST_F(OpenClipTest, AClockOfMillisecondsAndARateThatNoFileStatesAreSaid) {
+  std::string slow(kTwoJoints);
+  slow.replace(slow.find("Time: 0.1"), 9, "Time: 8.3");
+  EXPECT_THAT(ReadClips(Write("a.bvh", slow))->at(0).remarks,
+              ElementsAre("its frames are 8.3 s apart: does it count milliseconds?"));
+  EXPECT_THAT(ReadClips(Write("b.bvh", kTwoJoints))->at(0).remarks, ElementsAre());
+  const std::string asf =
+      ":root\norder TX\nposition 0 0 0\n:bonedata\nbegin\nname a\ndirection 1 0 0\nlength 1\nend\n:hierarchy\nbegin\n"
+      "root a\nend\n";
+  Write("c.asf", asf);
+  const std::string motion = Write("c.amc", ":FULLY-SPECIFIED\n1\nroot 1\n2\nroot 2\n");
+  EXPECT_THAT(ReadClips(motion)->at(0).remarks, ElementsAre("the file states no rate; 120 Hz is assumed"));
+}
+
 TEST_F(OpenClipTest, EveryAnimationIsAClipOfItsOwn) {
   ASSERT_OK(clips, ReadClips(dance_));
   ASSERT_EQ(clips->size(), 2u);
   EXPECT_EQ(clips->at(0).name, "dance#Armature|Jump");
   EXPECT_EQ(clips->at(1).source, dance_ + "#Armature|Walk");
   EXPECT_EQ(clips->at(0).character, nullptr) << "nodes without meshes are no figure";
+}
+
+TEST_F(OpenClipTest, AnimationsOfOneNameAndASecondBodyAreSaid) {
+  std::string gltf = GltfWithAnimations("numbers.bin");
+  gltf.replace(gltf.find("|Walk"), 5, "|Jump");
+  ASSERT_OK(clips, ReadClips(Write("same.gltf", gltf)));
+  EXPECT_EQ(clips->at(1).name, "same#Armature|Jump_2");
+  EXPECT_THAT(clips->at(0).remarks,
+              ElementsAre("another animation is called Armature|Jump, too: it is Armature|Jump_2 here"));
+  // Two people on one skeleton; readers number joints of one name.
+  Clip pair = RigClip({.rate_hz = 30, .poses = {StandingPose(), StandingPose()}}, StandingPose(), "pair");
+  SourceClip source{.name = "one", .source = "one.glb", .format = ClipFormat::kGlb, .clip = pair};
+  const auto alone = UnderstandClip(source, {});
+  ASSERT_TRUE(alone) << ToString(alone.error());
+  EXPECT_THAT(alone->body.doubts, ElementsAre());
+  const int count = static_cast<int>(pair.skeleton.joints.size());
+  for (int i = 0; i < count; ++i) {
+    Joint joint = pair.skeleton.joints[static_cast<std::size_t>(i)];
+    joint.name += "#2";
+    joint.parent = joint.parent < 0 ? -1 : joint.parent + count;
+    pair.skeleton.joints.push_back(joint);
+  }
+  for (LocalPose& frame : pair.frames) frame.insert(frame.end(), frame.begin(), frame.begin() + count);
+  source.clip = pair;
+  const auto both = UnderstandClip(source, {});
+  ASSERT_TRUE(both) << ToString(both.error());
+  EXPECT_THAT(both->body.doubts, ElementsAre("the file holds a second body, with the left hip 'left_hip#2': the one "
+                                             "with 'left_hip' is used; --map takes another"));
 }
 
 TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {

@@ -1,0 +1,121 @@
+#include "engine/retargeting/exchanged_sides.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+constexpr std::array<std::array<Role, 4>, 2> kChains = {
+    {{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand}, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}}};
+
+/// Mean and standard deviation of a number over frames.
+struct Spread {
+  double count = 0, sum = 0, squares = 0;
+  void Add(double value) {
+    count += 1;
+    sum += value;
+    squares += value * value;
+  }
+  double Mean() const { return count > 0 ? sum / count : 0; }
+  double Deviation() const { return std::sqrt(std::max(0.0, count > 0 ? squares / count - Mean() * Mean() : 0)); }
+};
+
+/// How the limbs between two pairs of joints fit, as they are and with one pair exchanged.
+struct Crossing {
+  bool is_certain = false;
+  bool may_be = false;  ///< shorter if exchanged, in nearly all frames
+};
+
+Crossing CrossingOf(std::span<const JointPositions> frames, Role near, Role far) {
+  constexpr double kShorter = 0.97, kMuchShorter = 0.8, kRatio = 2, kMoves = 0.01, kNearlyAll = 0.9;
+  Spread straight, crossed;
+  double shorter = 0;
+  for (const JointPositions& frame : frames) {
+    const auto &a = frame[Index(near)], &b = frame[Index(Mirrored(near))];
+    const auto &c = frame[Index(far)], &d = frame[Index(Mirrored(far))];
+    if (!a || !b || !c || !d) continue;
+    const double as_it_is = glm::distance(*a, *c) + glm::distance(*b, *d);
+    const double exchanged = glm::distance(*a, *d) + glm::distance(*b, *c);
+    straight.Add(as_it_is);
+    crossed.Add(exchanged);
+    shorter += exchanged < kShorter * as_it_is ? 1 : 0;
+  }
+  const double length = straight.Mean(), deviation = straight.Deviation();
+  const bool may_be = straight.count > 0 && shorter >= kNearlyAll * straight.count;
+  const bool is_constant = crossed.Mean() < kShorter * length && deviation > kMoves * length &&
+                           deviation > kRatio * crossed.Deviation();
+  // Nobody's knees are on each other's side all the time, nor elbows at the opposite shoulders.
+  const bool is_impossible =
+      (near == kLeftHip && may_be) || (near == kLeftShoulder && crossed.Mean() < kMuchShorter * length);
+  return {.is_certain = is_constant || is_impossible, .may_be = may_be};
+}
+
+/// Returns true if the hips point to the other side than the shoulders in nearly all frames.
+bool IsTrunkTwisted(std::span<const JointPositions> frames) {
+  constexpr double kNearlyAll = 0.9;
+  double seen = 0, opposite = 0;
+  for (const JointPositions& frame : frames) {
+    const auto &a = frame[Index(kLeftShoulder)], &b = frame[Index(kRightShoulder)];
+    const auto &c = frame[Index(kLeftHip)], &d = frame[Index(kRightHip)];
+    if (!a || !b || !c || !d) continue;
+    seen += 1;
+    opposite += glm::dot(*a - *b, *c - *d) < 0 ? 1 : 0;
+  }
+  return seen > 0 && opposite >= kNearlyAll * seen;
+}
+
+}  // namespace
+
+std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
+  std::vector<Role> exchanged, others;
+  for (const auto& chain : kChains) {
+    // A limb that may cross counts if the next one may, too.
+    std::array<Crossing, 3> limbs;
+    for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = CrossingOf(frames, chain[i], chain[i + 1]);
+    if (limbs[0].may_be && limbs[1].may_be) limbs[0].is_certain = limbs[1].is_certain = true;
+    bool is_exchanged = chain[0] == kLeftHip && IsTrunkTwisted(frames);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      if (i > 0 && limbs[i - 1].is_certain) is_exchanged = !is_exchanged;
+      const auto shows = [&](const JointPositions& frame) { return frame[Index(chain[i])].has_value(); };
+      const bool is_seen = std::ranges::any_of(frames, shows);
+      if (is_seen) (is_exchanged ? exchanged : others).push_back(chain[i]);
+    }
+  }
+  return exchanged.size() <= others.size() ? exchanged : others;
+}
+
+std::string DescribeExchangedJoints(std::span<const Role> left, const std::function<std::string(Role)>& name_of) {
+  std::vector<std::string> pairs;
+  for (const Role role : left) pairs.push_back(name_of(role) + " – " + name_of(Mirrored(role)));
+  return pairs.empty() ? "" : "left and right look exchanged, because limbs cross: " + Join(pairs);
+}
+
+std::string DescribeExchangedJoints(const BodyMotion& motion) {
+  std::vector<JointPositions> frames;
+  for (const BodyPose& pose : motion.poses) std::ranges::copy(pose.joints, frames.emplace_back().begin());
+  return DescribeExchangedJoints(FindExchangedJoints(frames), [](Role role) { return std::string(RoleName(role)); });
+}
+
+bool PointFeetBackwards(std::span<const BodyPose> poses) {
+  constexpr double kAgainst = 0.2, kNearlyAll = 0.9;
+  const auto points_back = [](const BodyPose& pose, Role knee, Role ankle, Role foot) {
+    const glm::dvec3 front = glm::cross(pose[kLeftHip] - pose[kRightHip], pose[knee] - pose[ankle]);
+    const glm::dvec3 toes = pose[foot] - pose[ankle];
+    return glm::dot(front, toes) < -kAgainst * glm::length(front) * glm::length(toes);
+  };
+  const auto backwards = std::ranges::count_if(poses, [&](const BodyPose& pose) {
+    return points_back(pose, kLeftKnee, kLeftAnkle, kLeftFoot) &&
+           points_back(pose, kRightKnee, kRightAnkle, kRightFoot);
+  });
+  return static_cast<double>(backwards) >= kNearlyAll * static_cast<double>(poses.size());
+}
+
+}  // namespace etude

@@ -1,0 +1,96 @@
+#include "engine/retargeting/joint_layouts.h"
+
+#include "engine/base/text.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+namespace {
+
+/// The 70 keypoints of SAM 3D Body and the 127 joints of its body model MHR, in their order; those that play a role
+/// have its name: a foot ends at its big toe (keypoints) or its ball (joints), a hand at its middle finger.
+constexpr std::string_view kMhrKeypoints =
+    "nose left_eye right_eye left_ear right_ear left_shoulder right_shoulder left_elbow right_elbow left_hip "
+    "right_hip left_knee right_knee left_ankle right_ankle left_foot left_small_toe left_heel right_foot "
+    "right_small_toe right_heel right_thumb_tip right_thumb_first right_thumb_second right_thumb_third "
+    "right_index_tip right_index_first right_index_second right_index_third right_hand right_middle_first "
+    "right_middle_second right_middle_third right_ring_tip right_ring_first right_ring_second right_ring_third "
+    "right_pinky_tip right_pinky_first right_pinky_second right_pinky_third right_wrist left_thumb_tip "
+    "left_thumb_first left_thumb_second left_thumb_third left_index_tip left_index_first left_index_second "
+    "left_index_third left_hand left_middle_first left_middle_second left_middle_third left_ring_tip "
+    "left_ring_first left_ring_second left_ring_third left_pinky_tip left_pinky_first left_pinky_second "
+    "left_pinky_third left_wrist left_olecranon right_olecranon left_cubital_fossa right_cubital_fossa "
+    "left_acromion right_acromion shoulder_centre";
+constexpr std::string_view kMhrJoints =
+    "body_world hip_centre left_hip left_knee left_ankle l_talocrural l_subtalar l_transversetarsal left_foot "
+    "l_lowleg_twist1_proc l_lowleg_twist2_proc l_lowleg_twist3_proc l_lowleg_twist4_proc l_upleg_twist0_proc "
+    "l_upleg_twist1_proc l_upleg_twist2_proc l_upleg_twist3_proc l_upleg_twist4_proc right_hip right_knee "
+    "right_ankle r_talocrural r_subtalar r_transversetarsal right_foot r_lowleg_twist1_proc r_lowleg_twist2_proc "
+    "r_lowleg_twist3_proc r_lowleg_twist4_proc r_upleg_twist0_proc r_upleg_twist1_proc r_upleg_twist2_proc "
+    "r_upleg_twist3_proc r_upleg_twist4_proc c_spine0 spine c_spine2 c_spine3 r_clavicle right_shoulder "
+    "right_elbow r_wrist_twist right_wrist r_pinky0 r_pinky1 r_pinky2 r_pinky3 r_pinky_null r_ring1 r_ring2 "
+    "r_ring3 r_ring_null r_middle1 r_middle2 r_middle3 right_hand r_index1 r_index2 r_index3 r_index_null "
+    "r_thumb0 r_thumb1 r_thumb2 r_thumb3 r_thumb_null r_lowarm_twist1_proc r_lowarm_twist2_proc "
+    "r_lowarm_twist3_proc r_lowarm_twist4_proc r_uparm_twist0_proc r_uparm_twist1_proc r_uparm_twist2_proc "
+    "r_uparm_twist3_proc r_uparm_twist4_proc l_clavicle left_shoulder left_elbow l_wrist_twist left_wrist "
+    "l_pinky0 l_pinky1 l_pinky2 l_pinky3 l_pinky_null l_ring1 l_ring2 l_ring3 l_ring_null l_middle1 l_middle2 "
+    "l_middle3 left_hand l_index1 l_index2 l_index3 l_index_null l_thumb0 l_thumb1 l_thumb2 l_thumb3 l_thumb_null "
+    "l_lowarm_twist1_proc l_lowarm_twist2_proc l_lowarm_twist3_proc l_lowarm_twist4_proc l_uparm_twist0_proc "
+    "l_uparm_twist1_proc l_uparm_twist2_proc l_uparm_twist3_proc l_uparm_twist4_proc shoulder_centre "
+    "c_neck_twist1_proc c_neck_twist0_proc c_head c_jaw c_teeth c_jaw_null c_tongue0 c_tongue1 c_tongue2 "
+    "c_tongue3 c_tongue4 r_eye r_eye_null l_eye l_eye_null head";
+
+}  // namespace
+
+const std::vector<JointLayout>& JointLayouts() {
+  static const std::vector<JointLayout> layouts = [] {
+    std::vector<JointLayout> made;
+    JointLayout own{"etude", {}};
+    for (const Role role : AllRoles()) own.joints.push_back(RoleName(role));
+    made.push_back(std::move(own));
+    const std::vector<std::string_view> body = {
+        "hip_centre",      "left_hip",    "right_hip",    "spine1",     "left_knee",     "right_knee",
+        "spine",           "left_ankle",  "right_ankle",  "spine3",     "left_foot",     "right_foot",
+        "shoulder_centre", "left_collar", "right_collar", "head",       "left_shoulder", "right_shoulder",
+        "left_elbow",      "right_elbow", "left_wrist",   "right_wrist"};
+    made.push_back({"smpl", body});
+    made.push_back({"smpl", body});
+    for (const std::string_view hand : {"left_hand", "right_hand"}) made.back().joints.push_back(hand);
+    made.push_back({"h36m",
+                    {"hip_centre", "right_hip", "right_knee", "right_ankle", "left_hip", "left_knee", "left_ankle",
+                     "spine", "shoulder_centre", "nose", "head", "left_shoulder", "left_elbow", "left_wrist",
+                     "right_shoulder", "right_elbow", "right_wrist"}});
+    made.push_back({"coco",
+                    {"nose", "left_eye", "right_eye", "left_ear", "right_ear", "left_shoulder", "right_shoulder",
+                     "left_elbow", "right_elbow", "left_wrist", "right_wrist", "left_hip", "right_hip", "left_knee",
+                     "right_knee", "left_ankle", "right_ankle"}});
+    made.push_back(
+        {"body_25", {"Nose", "Neck",    "RShoulder", "RElbow", "RWrist",  "LShoulder", "LElbow", "LWrist", "MidHip",
+                     "RHip", "RKnee",   "RAnkle",    "LHip",   "LKnee",   "LAnkle",    "REye",   "LEye",   "REar",
+                     "LEar", "LBigToe", "LSmallToe", "LHeel",  "RBigToe", "RSmallToe", "RHeel"}});
+    made.push_back({"halpe_26", {"Nose",    "LEye",      "REye",      "LEar",   "REar", "LShoulder", "RShoulder",
+                                 "LElbow",  "RElbow",    "LWrist",    "RWrist", "LHip", "RHip",      "LKnee",
+                                 "RKnee",   "LAnkle",    "RAnkle",    "Head",   "Neck", "Hip",       "LBigToe",
+                                 "RBigToe", "LSmallToe", "RSmallToe", "LHeel",  "RHeel"}});
+    made.push_back({"mhr70", SplitAt(kMhrKeypoints, ' ')});
+    made.push_back({"mhr", SplitAt(kMhrJoints, ' ')});
+    return made;
+  }();
+  return layouts;
+}
+
+std::vector<std::string> JointLayoutNames() {
+  std::vector<std::string> names;
+  for (const JointLayout& layout : JointLayouts()) {
+    if (names.empty() || names.back() != layout.name) names.emplace_back(layout.name);
+  }
+  return names;
+}
+
+std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joints) {
+  for (const JointLayout& one : JointLayouts()) {
+    if (one.name == layout && one.joints.size() == joints) return {one.joints.begin(), one.joints.end()};
+  }
+  return {};
+}
+
+}  // namespace etude

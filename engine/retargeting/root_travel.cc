@@ -1,0 +1,87 @@
+#include "engine/retargeting/root_travel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/base/order_statistics.h"
+#include "engine/motion/statistics.h"
+#include "engine/retargeting/body_sampler.h"
+
+namespace etude {
+namespace {
+
+/// Returns the joint that moves the body: the nearest one to the hips, upwards, with positions that change; −1: none.
+int MovedJoint(const Clip& clip, const JointMap& map) {
+  for (int joint = map[Role::kHipCentre].joint; joint >= 0; joint = clip.skeleton.joints[joint].parent) {
+    const glm::dvec3 first = clip.frames.front()[joint].translation;
+    const auto moves = [&](const LocalPose& frame) { return frame[joint].translation != first; };
+    if (std::ranges::any_of(clip.frames, moves)) return joint;
+  }
+  return -1;
+}
+
+}  // namespace
+
+std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
+  constexpr double kStep_s = 1.0 / 30;
+  constexpr std::size_t kMaxSteps = 300, kMinSteps = 10;
+  const int moved = clip.frames.empty() ? -1 : MovedJoint(clip, map);
+  const auto apart = static_cast<std::size_t>(std::max(1.0, std::round(kStep_s * clip.rate_hz)));
+  if (moved < 0 || clip.frames.size() < apart + kMinSteps) return "";
+  // The steps of both ankles and of the moved joint from sampled frames to those a thirtieth of a second later.
+  struct Step {
+    glm::dvec3 left, right, root;
+  };
+  std::vector<Step> steps;
+  std::vector<double> statures;
+  std::vector<GlobalTransform> globals;
+  BodySampler sampler(clip, map);
+  const auto place_at = [&](std::size_t frame) {
+    ComputeGlobals(clip.skeleton, clip.frames[frame], globals);
+    return globals[static_cast<std::size_t>(moved)].position;
+  };
+  const std::size_t stride = 1 + clip.frames.size() / kMaxSteps;
+  for (std::size_t f = 0; f + apart < clip.frames.size(); f += stride) {
+    const BodyPose pose = sampler.At(static_cast<double>(f)), later = sampler.At(static_cast<double>(f + apart));
+    statures.push_back(Stature(pose));
+    steps.push_back({later[Role::kLeftAnkle] - pose[Role::kLeftAnkle],
+                     later[Role::kRightAnkle] - pose[Role::kRightAnkle], place_at(f + apart) - place_at(f)});
+  }
+  // How far the ankle that moves less goes in the median step, in statures a second, with the root's steps multiplied.
+  const double stature = Median(std::move(statures));
+  const auto slide = [&](double factor) {
+    std::vector<double> slides;
+    for (const Step& step : steps) {
+      const glm::dvec3 more = (factor - 1) * step.root;
+      slides.push_back(std::min(glm::length(step.left + more), glm::length(step.right + more)));
+    }
+    return Median(std::move(slides)) * clip.rate_hz / static_cast<double>(apart) / stature;
+  };
+  constexpr double kMinSlide = 0.15, kMuchLess = 0.35;
+  const double as_it_is = slide(1);
+  if (!(as_it_is > kMinSlide)) return "";
+  double best = 1, least = as_it_is;
+  for (const double factor : {1000.0, 100.0, 10.0, 39.37, 30.48, 2.54, 3.281}) {
+    for (const double one : {factor, 1 / factor}) {
+      if (const double slides = slide(one); slides < least) {
+        best = one;
+        least = slides;
+      }
+    }
+  }
+  if (!(least < kMuchLess * as_it_is)) return "";
+  // A smaller factor also stops feet that slide for another reason, so only an impossible speed tells.
+  constexpr double kAsWell = 1.5, kImpossible = 3;  // statures a second
+  if (best < 1 && as_it_is < kImpossible) return "";
+  if (slide(0) > kAsWell * least) {
+    return fmt::format("its feet slide unless the root's positions are {:.3g} times as large: they look as if in "
+                       "another unit than the limbs",
+                       best);
+  }
+  return "its root's positions look as if in a smaller unit than the limbs, because no foot ever stands";
+}
+
+}  // namespace etude

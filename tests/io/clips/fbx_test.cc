@@ -1,0 +1,73 @@
+#include "io/clips/fbx.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/formats/gltf/gltf.h"
+#include "tests/support/results.h"
+
+namespace etude {
+namespace {
+
+/// An arm with a pre-rotation below hips, as text; its translation, rotation and scale have `keys` keys each, a second
+/// apart in all, and it moves from x = 10 to 20.
+std::string ArmWithKeys(int keys) {
+  std::string objects, links;
+  const auto model = [&](int id, const char* name, const char* more) {
+    objects += fmt::format("Model: {}, \"Model::{}\", \"LimbNode\" {{\nVersion: 232\nProperties70: {{\n{}}}\n}}\n", id,
+                           name, more);
+  };
+  model(10, "Hips", "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,90,0\n");
+  model(11, "Arm",
+        "P: \"RotationActive\", \"bool\", \"\", \"\",1\nP: \"PreRotation\", \"Vector3D\", \"Vector\", \"\",0,90,0\n"
+        "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",10,0,0\n");
+  objects += "AnimationStack: 1, \"AnimStack::Move\", \"\" {\n}\nAnimationLayer: 2, \"AnimLayer::Base\", \"\" {\n}\n";
+  links += "C: \"OO\",10,0\nC: \"OO\",11,10\nC: \"OO\",2,1\n";
+  // Three curves for each of the three properties.
+  constexpr std::int64_t kSecond = 46'186'158'000;
+  std::vector<std::int64_t> times;
+  for (int k = 0; k < keys; ++k) times.push_back(kSecond * k / (keys - 1));
+  int id = 100;
+  for (const auto& [property, name, rest] :
+       {std::tuple("T", "Lcl Translation", 0.0), {"R", "Lcl Rotation", 0.0}, {"S", "Lcl Scaling", 1.0}}) {
+    const int node = id++;
+    objects += fmt::format("AnimationCurveNode: {}, \"AnimCurveNode::{}\", \"\" {{\n}}\n", node, property);
+    links += fmt::format("C: \"OO\",{},2\nC: \"OP\",{},11, \"{}\"\n", node, node, name);
+    for (const char axis : {'X', 'Y', 'Z'}) {
+      std::vector<double> values;
+      for (int k = 0; k < keys; ++k) {
+        values.push_back(*property == 'T' && axis == 'X' ? 10 + 10.0 * k / (keys - 1) : rest);
+      }
+      objects += fmt::format(
+          "AnimationCurve: {}, \"AnimCurve::\", \"\" {{\nDefault: 0\nKeyVer: 4008\nKeyTime: *{} {{\na: {}\n}}\n"
+          "KeyValueFloat: *{} {{\na: {}\n}}\nKeyAttrFlags: *1 {{\na: 24836\n}}\nKeyAttrDataFloat: *4 {{\na: "
+          "0,0,0,0\n}}\nKeyAttrRefCount: *1 {{\na: {}\n}}\n}}\n",
+          id, keys, fmt::join(times, ","), keys, fmt::join(values, ","), keys);
+      links += fmt::format("C: \"OP\",{},{}, \"d|{}\"\n", id++, node, axis);
+    }
+  }
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\nGlobalSettings: {\nVersion: 1000\n}\n"
+         "Objects: {\n" +
+         objects + "}\nConnections: {\n" + links + "}\n";
+}
+
+TEST(Fbx, JointsWithPivotsKeepTheirMotionWhateverTheNumberOfKeys) {
+  // The product of 2048 keys of three kinds is 0 in 32 bits.
+  for (const int keys : {31, 2047, 2048, 2049}) {
+    ASSERT_OK(motion, ReadFbx(ArmWithKeys(keys), "a.fbx"));
+    ASSERT_OK(content, ReadGltf(motion->glb, "a.fbx", nullptr));
+    ASSERT_EQ(content->clips.size(), 1u) << keys;
+    const Clip& clip = content->clips[0];
+    const auto arm = static_cast<std::size_t>(clip.skeleton.Find("Arm"));
+    const glm::dvec3 way = clip.frames.back()[arm].translation - clip.frames.front()[arm].translation;
+    EXPECT_NEAR(glm::length(way), 0.1, 1e-3) << keys << " keys: 10 cm";
+  }
+}
+
+}  // namespace
+}  // namespace etude
