@@ -26,7 +26,7 @@ struct ScoreOptions {
   std::optional<int> trials;
   std::vector<std::string> clips;
   std::string joint_map;
-  std::string clip_facts = {};  ///< RunOptions::clip_facts
+  std::string clip_facts = {};  ///< additional lines of the joint map (RunOptions::clip_facts)
   OutsideRules outside;
   std::string command_line;
   std::string program_version;

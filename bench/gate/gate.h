@@ -43,7 +43,7 @@ struct GateReport {
   std::string baseline_version;  ///< the version of the program that made the baseline
   std::string program_version;   ///< the version of the program that made the run
   std::vector<GateExpectation> expectations;
-  std::vector<GateAnswer> answers;  ///< comparisons with baselines; only fallen ones (`fallen`) decide anything
+  std::vector<GateAnswer> answers;  ///< comparisons with baselines; of these, only `fallen` affects the verdict
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
   std::vector<FallenAnswer> fallen;     ///< answers with a worse verdict than before; one that flips fails the gate

@@ -39,7 +39,7 @@ struct MoveIdentity {
 struct TailWorld {
   int trial = 0;
   std::optional<double> before, after;         ///< nullopt = the cell has no value
-  char ended_before = 'o', ended_after = 'o';  ///< StatusLetter
+  char ended_before = 'o', ended_after = 'o';  ///< status letter of the cell in each snapshot (StatusLetter)
   bool lost = false;                           ///< true: the cell had a value or an answer before, and has none now
 };
 

@@ -93,8 +93,8 @@ struct FloorErrors {
 FloorErrors MeasureFloor(const PointTracks& found);
 
 /// The global rotations of answer and truth as channels (QuaternionChannels). Of a quaternion's two signs, the answer
-/// takes the one nearer to the truth's quaternion. NaN where a joint is not seen in both. Nothing if answer or truth
-/// has no rotations.
+/// takes the one nearer to the truth's quaternion. A value is NaN where a joint is not seen in both motions. There are
+/// no channels if answer or truth has no rotations.
 struct RotationChannels {
   ChannelTracks found, truth;
 };

@@ -122,7 +122,7 @@ FloorErrors MeasureFloor(const PointTracks& found) {
   for (std::size_t f = 0; f < found.FrameCount(); ++f) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& p : found.Frame(f)) {
-      if (p.y < lowest) lowest = p.y;  // false for NaN
+      if (p.y < lowest) lowest = p.y;  // the comparison is false if p.y is NaN
     }
     if (std::isinf(lowest)) continue;
     below.push_back(kMm * std::max(-lowest, 0.0));

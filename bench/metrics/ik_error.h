@@ -13,7 +13,7 @@ namespace etude {
 struct IkErrorSummary {
   double position_cm = 0;      ///< mean over the effectors
   double position_max_cm = 0;  ///< the worst effector
-  double orientation_deg = 0;  ///< mean over the effectors of the mean over each one's three axes
+  double orientation_deg = 0;  ///< mean over the effectors and their three axes
   double orientation_max_deg = 0;
   double axis_max_deg = 0;  ///< the worst single axis of any effector
 };

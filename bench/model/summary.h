@@ -70,8 +70,8 @@ struct LeftOut {
   double difference = 0;
 };
 
-/// The result of a comparison for other units (clips, people, …) like the units from which its worlds were drawn
-/// (bench/statistics/beyond.h). If every world is its own unit, it equals the result on the worlds.
+/// The result of a comparison, generalised from the units of its worlds (clips, people, …) to other units like them
+/// (bench/statistics/beyond.h). If every world is its own unit, the result equals the result on the worlds.
 struct Beyond {
   int units = 0;      ///< units that have a pair
   int differing = 0;  ///< units whose mean difference is not zero
@@ -95,7 +95,7 @@ struct Comparison {
   int differing = 0;  ///< pairs whose values differ
   /// Worlds without a pair: only the baseline has a value, only the method has one, or neither has one.
   int only_baseline = 0, only_method = 0, neither = 0;
-  std::optional<double> difference, ci_low, ci_high;  ///< the aggregate and its 95 % interval
+  std::optional<double> difference, ci_low, ci_high;  ///< the aggregate of the differences and its 95 % interval
   IntervalKind interval = IntervalKind::kNone;
   /// The mean of the paired differences and its 95 % interval. It is computed for every metric.
   std::optional<double> mean, mean_low, mean_high;
@@ -108,7 +108,7 @@ struct Comparison {
   /// Rank-biserial correlation, −1…1. It is positive if `method` is better or, for a metric without a direction, if its
   /// values are larger.
   std::optional<double> effect_size;
-  Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
+  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on these worlds
   std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
   std::vector<std::string> notes;            ///< further warnings for readers of the figures
   Beyond beyond;                             ///< the comparison for other units like the sampled ones
@@ -168,7 +168,7 @@ struct ConditionSummary {
 };
 
 /// The verdict of one comparison under every value of the parameters that `across` names. If the verdict depends on a
-/// parameter of our own simulation, e.g. on how people learn, it says nothing about the methods.
+/// parameter of the simulation itself, e.g. the law of learning, it says nothing about the methods.
 struct AcrossVerdict {
   std::vector<SweptValue> condition;  ///< the values of the other swept parameters
   std::string metric;

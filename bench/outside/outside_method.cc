@@ -272,7 +272,7 @@ void OutsideMethod::State::EndSession() {
 
 std::string OutsideMethod::State::Stop(int patience_ms) {
   session.reset();
-  setting_files = {};  // deleted first, because we may be killed while waiting for the program
+  setting_files = {};  // deleted first, because this process may be killed while it waits for the program
   setting_in_force.reset();
   return program.Stop(patience_ms);
 }

@@ -135,7 +135,7 @@ struct CoachExtras {
 /// file.
 struct PlausibilityExtras {
   struct Fault {
-    std::string kind, text;              ///< FaultName; MotionFault::text
+    std::string kind, text;              ///< the fault's name (FaultName) and its description (MotionFault::text)
     int begin_frame = 0, end_frame = 0;  ///< first and last frame, both inclusive
   };
   double floor_m = 0;

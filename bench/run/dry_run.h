@@ -21,7 +21,7 @@ struct ScenarioForecast {
   int comparisons = 0;           ///< number of comparisons under one Holm correction
   SamplingUnit unit = SamplingUnit::kWorld;
   int units = 0;            ///< number of units in the first condition; worlds, if each is a unit
-  std::string metric = {};  ///< the metric whose differences answers compare (ValueMetricOf), or success
+  std::string metric = {};  ///< the metric that answers compare (ValueMetricOf), or the success metric
   /// The standard deviation over worlds of the differences in `metric` between two methods, in the metric's unit: the
   /// first method that is compared with another, and its baseline. It is the median over conditions. It is stored, or
   /// comes from the worlds that were run to measure the time. 0 = there are fewer than kMinSample pairs.

@@ -113,7 +113,7 @@ std::vector<TemporaryFolder> RunFolder::FindLeft() const {
 }
 
 Result<bool> RunFolder::TakeUp() {
-  std::vector<TemporaryFolder> left = FindLeft();  // the destructor deletes them, unless one is moved out
+  std::vector<TemporaryFolder> left = FindLeft();  // their destructors delete the folders, unless one is moved out
   if (left.empty()) return false;
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(path_));
   if (state == FolderState::kFinished) return false;
@@ -239,7 +239,7 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   std::vector<ScenarioSummary> summaries;
   std::size_t cell = 0;
   bool is_stopped = false;
-  const auto told = [&](std::size_t read, std::size_t summarised) {  // both in rows
+  const auto told = [&](std::size_t read, std::size_t summarised) {  // both numbers count rows
     const double all = 2.0 * static_cast<double>(std::max<std::size_t>(1, plan.cell_count()));
     is_stopped = is_stopped || !goes_on(static_cast<double>(read + summarised) / all);
   };

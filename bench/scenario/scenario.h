@@ -63,7 +63,6 @@ struct MethodEntry {
   std::optional<double> time_s;   ///< an outside method's own limit per problem or step, instead of Limits::time_s
   std::string seat = {};          ///< an outside method's seat in the task's loop; "" = it is asked once per world
   std::vector<std::string> files = {};  ///< files that the sandbox shows an outside method; empty = its program's own
-                                        ///< folder
   std::string description = {};         ///< a sentence about the method, for readers of the results; "" = not described
 
   /// Returns true if the task runs the method: a built-in method as a whole, or, for a program with a seat, the other

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kFigures = 5;
 constexpr std::size_t kAgreementResamples = 1999;
 
-using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, low, high, ICC
+using Figures = std::array<std::optional<double>, kFigures>;  ///< absent if there are fewer than kMinSample units
 
 /// Returns the standard deviation of one additional difference between the two measurements (Bland and Altman 2007).
 /// Returns nothing with fewer than two units.

@@ -52,10 +52,10 @@ using PagmoEvolve = void(const std::function<double(std::span<const double>)>& s
 /// overfit these pairs and do worse on other clips.
 constexpr double kFitnessRamp = 0.5;
 
-/// Fits the `genetic` weights (future work in paper A; the method is ours): the weights S ≥ 0 with sum 8 for which "d <
-/// 0.4" best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the result is no worse
-/// on the training pairs. The status is that of FitWeights; `iterations` counts generations. Unless the status is
-/// kFitted, the weights are `start`.
+/// Fits the `genetic` weights (paper A leaves them to future work; the method is Etude's): the weights S ≥ 0 with sum 8
+/// for which "d < 0.4" best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the
+/// result is no worse on the training pairs. The status is that of FitWeights; `iterations` counts generations. Unless
+/// the status is kFitted, the weights are `start`.
 WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
                                 const GeneticOptions& options = {});
 

@@ -39,7 +39,7 @@ struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< at 30 Hz, around the floor's origin, facing +Z in its middle frame
   PersonalLimbs person;            ///< the performer
   PersonalLimbs measured;          ///< the limb lengths as measured beforehand, as in paper B
-  std::array<Rgb8, 16> colours{};  ///< the performer's colours, by Part
+  std::array<Rgb8, 16> colours{};  ///< the performer's colours, indexed by Part
   std::optional<OwnFigure> own;    ///< drawn instead of the stage's people
   glm::dvec3 middle{0};            ///< the expected position of the performer on the floor
   std::vector<Camera> cameras;     ///< at least two, each with its lens

@@ -57,7 +57,7 @@ struct DetectionOptions {
   std::string moves;  ///< only with recordings: a file of taught moves (etude teach)
   SessionOptions session;
   double noise = 1;
-  /// The sensor's options without the noise factor. The task reads the sensor that the condition names.
+  /// The sensor's options without the noise factor. The task sets them from the sensor that the condition names.
   SkeletonSensorOptions sensor = SensorV2();
   double turn_deg = 0;
   std::optional<double> distance_m;  ///< if absent, drawn in each trial, 2.5–3 m

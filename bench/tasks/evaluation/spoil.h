@@ -14,7 +14,7 @@ struct Spoiler {
   double moved_cm = 0;        ///< shift along X
   double lifted_cm = 0;
   double gliding_cm_s = 0;    ///< speed along X
-  double feet_locked_cm = 0;  ///< ankles and toes rest where the toes came below this height, until they leave it
+  double feet_locked_cm = 0;  ///< ankles and toes are held at rest while the toes are below this height
   double mirrored_share = 0;  ///< share at the take's end in which left and right are exchanged
   int kept_frames = 1;        ///< only every n-th frame is kept, with linear interpolation in between
   double late_ms = 0;         ///< delay; the first pose is held until then

@@ -86,8 +86,8 @@ class OpenAngles {
   }
 
  private:
-  static constexpr double kOpenAngle = Radians(35);  // standard deviation before the targets are met, which removes
-                                                     // most of it
+  static constexpr double kOpenAngle = Radians(35);  // standard deviation of the change that is drawn; the
+                                                     // solver then removes most of it to meet the targets
 
   const KinematicTree& tree_;
   const GaussNewtonSolver solver_;
