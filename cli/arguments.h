@@ -51,8 +51,8 @@ CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string&
 /// The names of the joint-map option, for every command that opens clips.
 constexpr const char* kJointMapOption = "--joint-map,--map";
 /// Adds --seed, --trials, --clips, --joint-map, --unit, --up, --rate, --keep-floor and --marker-set, for every command
-/// that makes worlds from scenarios. The last five are written to `clip_facts` as lines of a joint-map file. The third option returned is
-/// --clips.
+/// that makes worlds from scenarios. The values of the last five are written to `clip_facts` as lines of a joint-map
+/// file. The third option in the result is --clips.
 std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts);
