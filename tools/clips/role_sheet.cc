@@ -71,8 +71,8 @@ void Label(const std::array<RoleOnSheet, kRoleCount>& roles, std::vector<SheetJo
   }
 }
 
-/// Draws the labels of one side below each other. Each stands as near to the height of its joint as the other labels
-/// allow.
+/// Draws the labels of one side below each other. Each label is placed as near to the height of its joint as the other
+/// labels allow.
 void DrawColumn(Canvas& canvas, std::vector<const SheetJoint*> joints, bool is_left) {
   std::ranges::stable_sort(joints, {}, [](const SheetJoint* joint) { return joint->at.y; });
   const double bottom = canvas.height() - kFoot;

@@ -95,7 +95,7 @@ double ShareSeen(const std::vector<ForecastPlace>& places) {
   return static_cast<double>(seen) / static_cast<double>(places.size());
 }
 
-/// Returns the errors at those of `places` where `own` has an error too, mm.
+/// Returns the errors of `places`, mm, at those places that also have an error in `own`.
 std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std::vector<ForecastPlace>& places) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < own.size(); ++i) {
