@@ -13,7 +13,7 @@ namespace etude {
 /// A claim that a scenario makes about its results. It is judged after the run and shown in the report.
 struct Expectation {
   std::string metric;
-  std::string of;                           ///< the method that is judged
+  std::string of;            ///< the method that is judged
   std::string below, above;  ///< the method with which `of` is compared in the same worlds; at most one is set
   std::optional<double> at_most, at_least;  ///< the bound of its statistic, if no method is compared
   std::string statistic = "median";         ///< median, mean or p95; only for bounds
