@@ -248,7 +248,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   RETURN_IF_ERROR(RefuseFiles(suite));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   ASSIGN_OR_RETURN(auto manifest, MakeManifest(suite, scenarios, options.program_version));
-  // Check how the key may be used, and create the folder.
+  // Check that the key was not used before, and create the folder.
   const KeyUse use{"export", suite.suite, DigestOfRun(manifest), {}, options.output};
   if (options.key && !options.reuse_key) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   ASSIGN_OR_RETURN(auto folder, NewFolder::Begin(options.output));

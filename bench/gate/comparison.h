@@ -16,8 +16,8 @@ struct SnapshotComparison {
   std::vector<std::string> settings_changed;         ///< methods with the same name but different settings
 };
 
-/// Returns the reasons why the worlds of two snapshots cannot be paired. The snapshots may differ in seed, number of
-/// trials, parameters of the task, clips, or version of a metric. Empty = they can be compared.
+/// Returns the reasons why the worlds of two snapshots cannot be paired. Possible reasons are different seeds, numbers
+/// of trials, parameters of the task, clips, or versions of a metric. Empty = they can be compared.
 std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot& after);
 
 /// Removes the scenarios that cannot be compared from both snapshots, and returns the reasons (WhyNotComparable).

@@ -12,7 +12,8 @@
 
 namespace etude {
 
-/// Names, each with the digest of everything that its values depend on. If the digests are equal, so are the values.
+/// Names (of conditions, methods or worlds), each with the digest of everything that its values depend on. If the
+/// digests are equal, so are the values.
 using NamedDigests = std::vector<std::pair<std::string, std::string>>;
 
 struct FinishedScenario {

@@ -65,7 +65,7 @@ struct MetricMove {
 struct MoveColumns {
   std::vector<std::optional<double>> before, after;
   std::vector<bool> compared;
-  std::string ended_before, ended_after;  ///< StatusLetter by trial; used by the tail rule only
+  std::string ended_before, ended_after;  ///< letters of StatusLetter, by trial; used by the tail rule only
 };
 
 /// Compares two columns world by world. `movement` stays kSame until JudgeMoves sets it. `seed` keys the random

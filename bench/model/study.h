@@ -15,7 +15,7 @@ struct Expectation {
   std::string metric;
   std::string of;            ///< the method that is judged
   std::string below, above;  ///< the method with which `of` is compared in the same worlds; at most one is set
-  std::optional<double> at_most, at_least;  ///< the bound of its statistic, if no method is compared
+  std::optional<double> at_most, at_least;  ///< the bound of `statistic`, if `of` is not compared with a method
   std::string statistic = "median";         ///< median, mean or p95; only for bounds
   double confidence = 0.95;  ///< confidence level of a comparison's interval; the level of its test is 1 − confidence
   std::vector<SweptValue> where;            ///< the conditions in which it is judged; empty = all of them
@@ -35,7 +35,7 @@ struct TimeRatio {
 /// measured.
 struct TailRule {
   double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
-  int worlds = 4;     ///< number of far worse worlds of one comparison that is a regression; 0 = none is
+  int worlds = 4;     ///< at least this many far worse worlds of one comparison are a regression; 0 = never
   /// In a regression, the far worse worlds must also be at least this share of the compared worlds, because in a large
   /// number of worlds rounding may change a few.
   double share = 0.05;
@@ -53,7 +53,7 @@ struct GateRules {
 /// One of the methods that a scenario compares.
 struct ComparedMethod {
   std::string name;
-  std::string against;      ///< the method it is compared with; the first method is compared with itself
+  std::string against;      ///< the method with which it is compared; the first method is compared with itself
   bool has_oracle = false;  ///< true: the truth replaces some stages, so it is an upper bound and no competitor
   std::vector<std::string> oracle = {};  ///< the stages that the truth replaces
   std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method

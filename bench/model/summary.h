@@ -78,8 +78,8 @@ struct Beyond {
   /// The pseudo-median of the units' mean differences, and its 95 % interval. The verdict is judged from this interval.
   std::optional<double> difference, low, high;
   std::optional<double> mean, mean_low, mean_high;  ///< the mean of the units' means, and its 95 % interval
-  PairedTest test;                                  ///< the test that decides
-  std::optional<double> p_holm;                     ///< corrected over the scenario's comparisons (Holm)
+  PairedTest test;                                  ///< the test that decides the verdict
+  std::optional<double> p_holm;                     ///< p after Holm's correction over the scenario's comparisons
   std::optional<Verdict> verdict;                   ///< nothing = too few units for a verdict
   std::string why_open;                             ///< why there is no verdict or an inconclusive one
   std::vector<LeftOut> left_out;                    ///< in the order of the units' names; empty if worlds are the units
@@ -111,7 +111,7 @@ struct Comparison {
   Verdict verdict = Verdict::kInconclusive;  ///< the verdict on these worlds
   std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
   std::vector<std::string> notes;            ///< further warnings for readers of the figures
-  Beyond beyond;                             ///< the comparison for other units like the sampled ones
+  Beyond beyond;                             ///< the result for other units like the sampled ones
 };
 
 /// The step that decided an answer. Success is compared first, then the value, then the tail.
@@ -127,7 +127,7 @@ struct Answer {
   std::string method;
   std::string baseline = {};      ///< the method that the scenario names, or the strongest rival
   std::string value_metric = {};  ///< ValueMetricOf; "" if the scenario has only its success
-  Verdict verdict = Verdict::kInconclusive;  ///< for these worlds
+  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on these worlds
   AnswerStep decided_by = AnswerStep::kNone;
   std::optional<Verdict> beyond = {};  ///< the deciding step's verdict for other units; nothing = too few units
   /// The comparison of `Study::success`, in which failed cells count 0; nullopt if no cell has a value.

@@ -34,7 +34,7 @@ tl::unexpected<OutsideFailure> Failed(Status status, std::string reason) {
   return tl::unexpected<OutsideFailure>({status, std::move(reason)});
 }
 
-/// These functions make a failure from an error. BadOutput: the program's output is wrong. OurFailure: our message
+/// These functions make a failure from an error. BadOutput: the program's output is wrong. OurFailure: Etude's message
 /// cannot be sent. NotAsked: this machine is the cause.
 tl::unexpected<OutsideFailure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
 tl::unexpected<OutsideFailure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
@@ -90,7 +90,7 @@ struct OutsideMethod::State {
   int repeated = 0;                ///< lines ignored since the problem was sent
 
   struct Failures {
-    int times = 0;  ///< failures in a row
+    int times = 0;  ///< number of failures in a row
     OutsideFailure last;
   };
   std::map<std::string, Failures> failures;  ///< by the name of the step

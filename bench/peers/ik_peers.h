@@ -31,9 +31,9 @@ class IkPeer {
   virtual IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) = 0;
 };
 
-/// Makes the dense rival: the algorithm of Etude's `levenberg-marquardt` (active set, same restarts), written for speed
-/// alone. It has arrays of fixed size, no input checks and no trace, and is compiled with its own flags. It supports
-/// trees of at most 32 angles and 4 effectors with equal axis weights.
+/// Makes a dense implementation of the algorithm of Etude's `levenberg-marquardt` (active set, same restarts), written
+/// for speed alone. It has arrays of fixed size, no input checks and no trace, and is compiled with its own flags. It
+/// supports trees of at most 32 angles and 4 effectors with equal axis weights.
 std::unique_ptr<IkPeer> MakeDensePeer(const KinematicTree& tree);
 
 const char* DensePeerFlags();

@@ -138,7 +138,7 @@ Method Batch(const std::string& target, Precision precision) {
           }};
 }
 
-// Returns the method of another library. Ends the program if the library's model differs from our tree, because the
+// Returns the method of another library. Ends the program if the library's model differs from Etude's tree, because the
 // library would then solve different problems.
 Method Peer(const std::string& name, std::shared_ptr<IkPeer> peer, int max_iterations) {
   constexpr double kRounding = 1e-9;

@@ -204,7 +204,7 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({path_.string(), 0, 0}, "another run is writing into it; choose another folder with -o");
     }
-    // If the previous owner deleted the file before we locked it, try again.
+    // If the previous owner deleted the file before this process locked it, try again.
     struct stat locked {
     }, named{};
     if (::fstat(lock_, &locked) == 0 && ::stat(file.c_str(), &named) == 0 && locked.st_ino == named.st_ino) return {};

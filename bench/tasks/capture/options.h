@@ -194,7 +194,7 @@ struct PersonSource {
   /// True for methods that use silhouettes. Masks are then kept, and pictures are marked only if `has_keypoints`.
   bool for_silhouettes = false;
   bool has_keypoints = false;          ///< true: pictures are marked although `for_silhouettes` is set
-  SeatedSegmenter* program = nullptr;  ///< replaces the segmenter
+  SeatedSegmenter* program = nullptr;  ///< a program that replaces the segmenter, or null
   bool has_true_marks = false;         ///< exact marks at the true joints, where the picture shows them
   bool has_coloured_marks = false;     ///< marks from the suit's colours
   auto operator<=>(const PersonSource&) const = default;

@@ -15,8 +15,8 @@ namespace etude {
 /// afterwards on the recorded session.
 Result<ReadyCoach> MakeWatching(const CoachStage& stage);
 
-/// Runs a recogniser on a recorded session. It receives the requests of the session. Calls `judged` with the evidence
-/// for every performance when its window closes.
+/// Runs a recogniser on a recorded session. The recogniser receives the requests of the session. Calls `judged` with
+/// the evidence for every performance when its window closes.
 void FollowPerformances(const SessionLog& log, const Recogniser& recogniser, const FilterOptions& filter,
                         const std::function<void(const LoggedPerformance&, double evidence)>& judged);
 

@@ -11,10 +11,10 @@
 namespace etude {
 
 struct CoachedTraining {
-  int sessions = 300;  ///< number of sessions, each three minutes with another person
+  int sessions = 300;  ///< number of sessions of three minutes, each with another person
   std::uint64_t seed = 1;
   BoostingOptions boosting{.trees = 200, .rate = 0.08};
-  OnProgress progress = {};  ///< called with the number of sessions
+  OnProgress progress = {};  ///< called with the number of finished sessions
 };
 
 /// Trains the model of recogniser `coached`. Simulated people of all kinds and skills dance these songs with a coach

@@ -45,7 +45,7 @@ std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const Seen
       if (move && is_here) asked.push_back({*move, {event.window.begin - begin, event.window.end - begin}});
     }
     auto trace = FollowStream(recogniser, repertoire.taught.size(), PartOf(seen, {begin, end}), asked);
-    assert(trace);  // windows lie within their recording and never overlap
+    assert(trace);  // every window is within one recording
     traces.push_back(*std::move(trace));
   }
   return traces;

@@ -14,7 +14,7 @@ struct RecogniserTraining {
   std::uint64_t seed = 1;
   BoostingOptions asked{.trees = 300, .rate = 0.08, .takes_turns = true};
   BoostingOptions spotted{};
-  OnProgress progress = {};  ///< called with the number of sessions
+  OnProgress progress = {};  ///< called with the number of finished sessions
 };
 
 /// Trains the model of recogniser `learnt`. Simulated people perform the repertoire's moves in front of both sensors,
