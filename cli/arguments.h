@@ -32,7 +32,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help);
 /// Adds --seed. If the option is not given, `seed` is nullopt; the scenario or the program then has its own default.
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
-/// Adds --seed-file, for every command that draws the dice of worlds. The command refuses --seed beside it.
+/// Adds --seed-file, for every command that draws the dice of worlds. The command refuses --seed together with it.
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file);
 /// Reads the key of secret worlds; nullopt if `file` is "". Warns if other users can read the file; fails if a seed is
 /// also given.
