@@ -77,7 +77,7 @@ Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, con
                        const BodyMotion& motion);
 /// Measures the difference between body and silhouette in each camera, per cent.
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person);
-/// Returns the median over cameras and frames; 100 without any value.
+/// Returns the median over cameras and frames; 100 if there is no value.
 double MedianOf(const CameraResiduals& residuals);
 /// Writes the page of a capture from keypoints or marks.
 /// @param views their cameras are in world coordinates

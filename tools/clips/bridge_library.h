@@ -24,7 +24,7 @@ struct BridgeLibraryOptions {
   int most_per_class = 0;          ///< maximum number of bridge frames per clip and pose; 0 = all
   bool within_class = false;       ///< compare only frames with the same ten tags
   OpenOptions reading;
-  OnProgress on_progress = {};     ///< gets the number of clips read
+  OnProgress on_progress = {};     ///< receives the number of clips that have been read
 };
 
 /// The clips of `etude bridge`, performed by one body and tagged.

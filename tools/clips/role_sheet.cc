@@ -34,7 +34,8 @@ std::vector<glm::dvec3> PositionsOf(const Clip& clip) {
   return positions;
 }
 
-/// Returns the directions that point right and up in the picture. Up is Y or Z, along which the body extends further.
+/// Returns the directions that point right and up in the picture. Up is Y or Z: the axis along which the body extends
+/// further.
 std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& positions,
                                          const std::array<RoleOnSheet, kRoleCount>& roles) {
   glm::dvec3 low = positions.front(), high = low;

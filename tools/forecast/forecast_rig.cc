@@ -317,7 +317,7 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   forecast.p95_mm = Quantile(errors, k95Percent);
   forecast.worst = *std::ranges::max_element(forecast.places, {},
                                              [](const ForecastPlace& place) { return place.error_mm.value_or(-1); });
-  // Compute the errors of a person who stands there, and the gain from each change.
+  // Compute the errors of a person who stands in the volume, and the gain from each change.
   RETURN_IF_ERROR(AddJoints(cameras, options, forecast));
   AddWorths(cameras, options, forecast);
   options.listener.print(fmt::format(
