@@ -18,7 +18,7 @@ struct Expectation {
   std::optional<double> at_most, at_least;  ///< the bound of `statistic`, if `of` is not compared with a method
   std::string statistic = "median";         ///< median, mean or p95; only for bounds
   double confidence = 0.95;  ///< confidence level of a comparison's interval; the level of its test is 1 − confidence
-  std::vector<SweptValue> where;            ///< the conditions in which it is judged; empty = all of them
+  std::vector<SweptValue> where;  ///< the conditions in which it is judged; empty = all of them
   Place place;
 };
 

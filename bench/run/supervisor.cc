@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kPollMilliseconds = 20;      // a measured memory size or time is at most this old
 constexpr double kAheadS = 0.05;           // seconds of work given to a worker at a time, estimated from earlier worlds
-constexpr double kLongWorldS = 1;  // begun last, a longer world costs more than preparing its condition twice
+constexpr double kLongWorldS = 1;          // begun last, a longer world costs more than preparing its condition twice
 constexpr int kGatherMicroseconds = 2000;  // if no worker waits, pause for more answers
 constexpr int kMaxDeathsInSetup = 3;       // a single death may be chance (a shortage of memory, a stray kill)
 constexpr double kMaxSetupS = 600;         // maximum duration of a set-up, in which clips are loaded
