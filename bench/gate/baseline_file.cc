@@ -60,7 +60,7 @@ class Lines {
   std::optional<Error> error_;
 };
 
-// The letters 'm', 't' and 'c' are missing, because a run in which the machine ended a cell gives no baseline.
+// The letters 'm', 't' and 'c' are missing, because a run with such a cell gives no baseline.
 constexpr std::string_view kLetters = "oufbs";
 constexpr std::string_view kAnswers = "ou";     // statuses with an answer
 constexpr std::int64_t kMaxTrials = 1'000'000;  // as for scenarios

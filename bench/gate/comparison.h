@@ -24,8 +24,8 @@ std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot
 std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after);
 
 /// Compares two snapshots world by world and judges each difference with JudgeMoves, then JudgeTail. `exact` names the
-/// scenarios in which no value may differ. A world in which the machine ended either cell is left out. Precondition:
-/// WhyNotComparable returns no reason.
+/// scenarios in which no value may differ. A world in which a cell timed out, crashed or ran out of memory is left
+/// out. Precondition: WhyNotComparable returns no reason.
 SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
                                     const TailRules& tails = {});
 

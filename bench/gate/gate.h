@@ -13,7 +13,7 @@ namespace etude {
 struct RatioResult {
   std::string scenario;
   TimeRatio rule;
-  int pairs = 0;  ///< worlds of all conditions in which neither method was ended by the machine
+  int pairs = 0;  ///< worlds of all conditions in which neither method timed out, crashed or ran out of memory
   std::optional<double> median, ci_low, ci_high;  ///< median of the ratios of processor times, and its interval
   /// Unmet if the whole confidence interval lies above the limit. Undecided if only the median lies above it (times
   /// vary on a busy machine), or if too few worlds have both times. Otherwise met.

@@ -47,7 +47,7 @@ struct TailWorld {
 struct MetricMove {
   MoveIdentity identity;
   Movement movement = Movement::kSame;
-  int worlds = 0;                       ///< worlds in which the machine ended neither cell
+  int worlds = 0;                       ///< worlds with no cell that timed out, crashed or ran out of memory
   int differing = 0;                    ///< worlds among these whose values differ, were lost or were gained
   int lost = 0;                         ///< values that the second snapshot does not have
   int gained = 0;                       ///< values that the first snapshot does not have

@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
-constexpr int kPictures = 4, kStepPx = 9;  // the person's movement from picture to picture
+constexpr int kPictures = 4, kStepPx = 9;  // the person moves by kStepPx from picture to picture
 
 std::uint8_t Level(double value) { return static_cast<std::uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value + 0.5); }
 

@@ -163,7 +163,8 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   if (!line) return OurFailure(line.error());
   const auto read = [&](const std::string& said) { return ReadAnswer(said, problem_id); };
   RETURN_IF_ERROR(
-      // Read these lines before `answered` changes. A line with this id answers an earlier copy of the problem.
+      // Read the pending lines while `answered` still contains this id. A pending line with this id answers an earlier
+      // copy of the problem.
       ReadPendingLines(read));
   answered.erase(problem_id);
   auto answer = Exchange(*line, options.time_s, read);

@@ -169,7 +169,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared, options.outside, "", options.key));
   // Measure the speed of this machine, by which stored costs are scaled.
   ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));
-  const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // seconds of one worker
+  const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // for one worker
   const auto start = Clock::now();
   double total = 0;
   std::size_t first_world = 0, measured = 0;

@@ -39,7 +39,7 @@ Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, c
 
 /// Returns the distance of two performances, centimetres: the root mean square per joint, with the trunk scaled to 50
 /// cm, by dynamic time warping of both performances as a whole (Sakoe and Chiba 1978, symmetric). It is the usual
-/// reference method for such data sets. Nullopt if one of the performances shows no body.
+/// reference method for data sets of labelled performances. Nullopt if one of the performances shows no body.
 std::optional<double> WarpedDistanceCm(const SkeletonStream& a, const SkeletonStream& b);
 
 /// Scores how well recognised moves agree with labels, over several recordings.
