@@ -58,8 +58,8 @@ long ErrorLog::Size() const {
   return memory_ >= 0 && ::fstat(memory_, &status) == 0 ? static_cast<long>(status.st_size) : 0;
 }
 
-// Punching a hole frees memory and cannot lose output that the program appends at the same time. Truncating could lose
-// such output, so it is done only when the file comes near the program's size limit.
+// Punching a hole in the file frees memory and cannot lose output that the program appends at the same time. Truncating
+// the file could lose that output, so it is done only when the file comes near the program's size limit.
 void ErrorLog::Trim() {
   const long end = Size() - kTailBytes;
   if (end <= kMaxBytes) return;

@@ -23,9 +23,9 @@ class Marking {
   /// of the joints in its limbs and the point of its head that is marked.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-  /// Marks one picture and returns the marks as methods receive them. If both annotators drew a stroke or disc, the
-  /// result has the mean of the two; if one did, it has that one. The result is empty if the frame is not marked. The
-  /// frames of a camera must come in order.
+  /// Marks one picture and returns the marks as methods receive them. A stroke or disc that both annotators drew is the
+  /// mean of the two; one that a single annotator drew is returned unchanged. The result is empty if the frame is not
+  /// marked. The frames of a camera must come in order.
   Marks Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture);
 
   /// Returns exact marks at the joints of `pose`, for the limbs and ends that are visible in the picture. Nothing is

@@ -70,7 +70,7 @@ std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const Eviden
 }
 
 /// Returns the move recognised in a performance. In a labelled recording, the performance is cut out and classified as
-/// a whole, as in the papers on such data sets. In a session, the evidence within the window decides.
+/// a whole, as in the papers on labelled data sets. In a session, the evidence within the window decides.
 std::optional<std::size_t> NameOf(const DetectionEvent& event, const DetectionWorld& world, const SeenStream& seen,
                                   const Repertoire& repertoire, const Recogniser& recogniser,
                                   const FrameInterval& window, const EvidenceTrace& trace) {
