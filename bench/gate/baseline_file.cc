@@ -63,7 +63,7 @@ class Lines {
 // The letters 'm', 't' and 'c' are missing, because a run with such a cell gives no baseline.
 constexpr std::string_view kLetters = "oufbs";
 constexpr std::string_view kAnswers = "ou";     // statuses with an answer
-constexpr std::int64_t kMaxTrials = 1'000'000;  // as for scenarios
+constexpr std::int64_t kMaxTrials = 1'000'000;  // the same limit as in a scenario file
 constexpr std::int64_t kMaxVersions = 1'000'000;
 
 /// Returns the seal of a baseline: the digest of its JSON values without the key `seal`. White space does not affect

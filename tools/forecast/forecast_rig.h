@@ -42,7 +42,7 @@ inline constexpr int kForecastColumns = 20, kForecastHeights = 10, kForecastRows
 struct ForecastPlace {
   glm::dvec3 place_m{0};
   int cameras = 0;                      ///< number of cameras whose pictures contain the place
-  double lost = 1;                      ///< probability that a point there cannot be triangulated
+  double lost = 1;                      ///< probability that a point in this place cannot be triangulated
   std::optional<double> error_mm = {};  ///< root mean square distance, mm; absent if two cameras never see the place
 };
 
