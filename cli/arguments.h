@@ -32,7 +32,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help);
 /// Adds --seed. If the option is not given, `seed` is nullopt; the scenario or the program then has its own default.
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
-/// Adds --seed-file, for every command that draws the dice of worlds. The command refuses --seed beside it.
+/// Adds --seed-file, for every command that draws the dice of worlds. The command refuses --seed together with it.
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file);
 /// Reads the key of secret worlds; nullopt if `file` is "". Warns if other users can read the file; fails if a seed is
 /// also given.
@@ -51,8 +51,8 @@ CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string&
 /// The names of the joint-map option, for every command that opens clips.
 constexpr const char* kJointMapOption = "--joint-map,--map";
 /// Adds --seed, --trials, --clips, --joint-map, --unit, --up, --rate, --keep-floor and --marker-set, for every command
-/// that makes worlds from scenarios. The last five are written to `clip_facts` as lines of a joint-map file. The third option returned is
-/// --clips.
+/// that makes worlds from scenarios. The values of the last five are written to `clip_facts` as lines of a joint-map
+/// file. The third option in the result is --clips.
 std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts);

@@ -86,14 +86,15 @@ Performer PerformerNamed(const std::string& name) {
   return name == "none" ? Performer::kNone : Performer::kFile;
 }
 
-/// Writes the files of a motion into the folder of a data set. If files of the whole data set exist already, they stay.
+/// Writes the files of a motion into the folder of a data set. Existing files that describe the whole data set are
+/// kept.
 Result<void> WriteBids(const BidsFiles& files, const std::filesystem::path& folder, bool overwrite) {
   std::vector<std::pair<FilePath, const std::string*>> written;
   for (const auto& [name, bytes] : files) {
     const bool is_of_set = name.find('/') == std::string::npos;
     if (is_of_set && std::filesystem::exists(folder / name)) continue;
     RETURN_IF_ERROR(CheckOutput((folder / name).string(), overwrite));
-    written.emplace_back(Inside(folder) / name, &bytes);  // never through a link in the folder
+    written.emplace_back(Inside(folder) / name, &bytes);  // does not follow links in the folder
   }
   for (const auto& [path, bytes] : written) RETURN_IF_ERROR(WriteFileAtomically(path, *bytes));
   return {};

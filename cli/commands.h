@@ -43,7 +43,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
 /// Prints the tables of a finished run, and the reasons of methods without an answer. Returns kNothingWorked if a
 /// method has no answer or no cell is ok.
 int ShowOutcome(const RunOutcome& outcome);
-/// Returns true if our standard output was closed before the start, so that nobody reads it.
+/// Returns true if standard output was closed before the program started, so that nobody reads it.
 bool OutputWasClosed();
 /// Prints a title and indented lines; prints nothing if there are no lines.
 void PrintList(const std::string& title, const std::vector<std::string>& lines);

@@ -56,7 +56,7 @@ constexpr const char* kExamples =
     "Exit codes: 0 fine, 1 a method has no answer (gate: regression; replay, verify: a difference), 2 bad input\n"
     "(nothing is written), 3 incomplete, 130 interrupted.";
 
-/// Lists the options and subcommands that are allowed where a wrong word stands.
+/// Lists the options and subcommands that may be used in place of a wrong word.
 std::vector<std::string> KnownWords(const CLI::App& app) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty(); })) {
@@ -151,7 +151,7 @@ void OpenStandardStreams() {
 }
 
 /// Raises the stack limit to the kernel's usual 8 MiB, if that is allowed. Fails if less than 1 MiB is allowed, because
-/// some of our libraries would overflow such a stack.
+/// some libraries would overflow such a stack.
 Result<void> TakeStack() {
   constexpr rlim_t kUsualStack = rlim_t{8} << 20, kMinStack = rlim_t{1} << 20;
   rlimit limit{};
@@ -178,7 +178,7 @@ int Main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) command_line += " " + ShellWord(argv[i]);
   Action action;
   DefineCommands(app, command_line, action);
-  // Parse; unknown words after --help are an error, too.
+  // Parse the command line. Unknown words are an error even after --help.
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -204,7 +204,7 @@ bool OutputWasClosed() { return output_was_closed; }
 
 int main(int argc, char** argv) {
   etude::OpenStandardStreams();
-  // The parent may have set SIGCHLD to be ignored, which would lose the exit status of our children.
+  // The parent may have set SIGCHLD to be ignored, which would lose the exit status of this process's children.
   std::signal(SIGCHLD, SIG_DFL);
   etude::EndWhenMappedFilesAreCut();
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a file-size limit then fails with an error that is reported

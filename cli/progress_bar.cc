@@ -32,7 +32,7 @@ bool ProgressBar::IsTooSoon(double share) const {
 
 void ProgressBar::Show(const Progress& progress) {
   if (progress.written) {
-    if (!is_writing_) *this = ProgressBar(Begins::kWhenItTakesLong);  // writing has its own bar
+    if (!is_writing_) *this = ProgressBar(Begins::kWhenItTakesLong);  // a second bar shows the writing of results
     is_writing_ = true;
     const double share = *progress.written;
     return Show(share, "results summarised", Remaining(share, 1 - share, SecondsSince(began_)));

@@ -16,7 +16,7 @@ class ProgressBar {
  public:
   enum class Begins {
     kAtOnce,
-    /// Soon on a terminal; in a log only if the work takes so long that somebody may look into the log.
+    /// Shown soon on a terminal; in a log only if the work takes so long that somebody may look into the log.
     kWhenItTakesLong,
   };
   explicit ProgressBar(Begins begins = Begins::kAtOnce);

@@ -134,7 +134,7 @@ Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& 
       }
     }
   };
-  // Take line by line, then the frames that the reader still holds.
+  // Handle the input line by line, then the frames that the reader has buffered.
   for (std::string line; std::getline(std::cin, line);) {
     std::vector<SensedFrame> frames;
     const auto taken = live.Take(line, frames);

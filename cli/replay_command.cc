@@ -136,7 +136,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
                                                    .sealing = options.sealing,
                                                    .stop = interrupt.requested(),
                                                    .on_progress = ProgressOf("cells")}));
-  // Print the differences, and the baseline's values if asked.
+  // Print the differences, and the baseline's values if they were requested.
   const std::vector<CellCheck>& checks = replayed.checks;
   const auto same = std::ranges::count(checks, true, &CellCheck::same);
   if (options.as_json) RETURN_IF_ERROR(PrintFacts("replay", FactsOf(checks, baseline ? &*baseline : nullptr)));

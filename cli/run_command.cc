@@ -189,7 +189,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   options.stop = interrupt->requested();
   ProgressBar bar;
   ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
-  interrupt.reset();  // everything is written
+  interrupt.reset();  // from here on, Ctrl-C ends the program, because everything is written
   // Report clips that were left out, and damaged lines.
   TellUnlocked(outcome);
   TellChanges(outcome.changes);

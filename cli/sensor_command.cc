@@ -34,7 +34,7 @@ constexpr const char* kSensorExamples =
 struct SensorReading {
   std::string reference;                 ///< a recording of the same motion by an optical system, "" = none
   std::optional<double> rate_hz;         ///< the recordings' frame rate
-  std::optional<double> reference_rate;  ///< Hz
+  std::optional<double> reference_rate;  ///< the frame rate of the reference, Hz
 };
 
 void AddSensorReading(CLI::App& command, SensorReading& reading) {

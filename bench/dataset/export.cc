@@ -44,7 +44,7 @@ not there are the frames of a film: `ffmpeg -i camera-1.mkv -start_number 0 came
     etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
 )";
 
-/// /// Returns the canonical absolute path of a folder, without a slash at its end.
+/// Returns the canonical absolute path of a folder, without a slash at its end.
 fs::path Named(const fs::path& path) {
   std::error_code error;
   const fs::path named = fs::weakly_canonical(fs::absolute(path, error), error);
@@ -68,7 +68,8 @@ bool IsOfExport(const fs::path& name) {
   return std::ranges::any_of(kParts, [&](const char* part) { return name == part || name == TemporaryName(part); });
 }
 
-/// Fills a folder under a temporary name and renames it when it is complete. The destructor deletes an incomplete one.
+/// Fills a folder under a temporary name and renames it when it is complete. The destructor deletes an incomplete
+/// folder.
 class NewFolder {
  public:
   static Result<NewFolder> Begin(const fs::path& path) {
@@ -131,13 +132,13 @@ class NewFolder {
   }
 
   fs::path path_, partial_;
-  int lock_;  ///< −1 when finished
+  int lock_;  ///< file descriptor that has the lock; −1 after Finish
 };
 
 Result<void> SavePayload(const Payload& payload, const FilePath& folder, const char* name) {
   RETURN_IF_ERROR(SaveJson(folder / name, *payload.json, OnDisk::kLater));
   for (const Attachment& file : payload.files) {
-    if (IsPictureOfTake(file.name)) continue;  // a frame of a film
+    if (IsPictureOfTake(file.name)) continue;  // a frame of a film, which SaveFilms writes
     RETURN_IF_ERROR(WriteFileAtomically(folder / file.name, file.bytes, OnDisk::kLater));
   }
   return {};
@@ -247,7 +248,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   RETURN_IF_ERROR(RefuseFiles(suite));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   ASSIGN_OR_RETURN(auto manifest, MakeManifest(suite, scenarios, options.program_version));
-  // Check how the key may be used, and create the folder.
+  // Check that the key was not used before, and create the folder.
   const KeyUse use{"export", suite.suite, DigestOfRun(manifest), {}, options.output};
   if (options.key && !options.reuse_key) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   ASSIGN_OR_RETURN(auto folder, NewFolder::Begin(options.output));

@@ -19,7 +19,7 @@ struct ExportOptions {
   std::optional<int> trials;           ///< default: each scenario's own
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
   std::string joint_map;               ///< if not empty, replaces the scenarios' joint maps
-  std::string clip_facts = {};         ///< RunOptions::clip_facts
+  std::string clip_facts = {};         ///< additional lines of the joint map (RunOptions::clip_facts)
   bool depth = false;                  ///< also write the pictures of the truth (TaskWorld::MakeTruePictures)
   std::string output;
   std::string program_version;

@@ -23,8 +23,8 @@ bool IsPlain(char c) {
 
 std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
 
-/// Returns the name of the world that an answer file is for: "007" for "7.json", "007.json" and "007.JSON". Returns
-/// nullopt if the extension is not .json.
+/// Returns the name of the world to which an answer file belongs: "007" for "7.json", "007.json" and "007.JSON".
+/// Returns nullopt if the extension is not .json.
 std::optional<std::string> WorldOf(const fs::path& name) {
   std::string extension = name.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

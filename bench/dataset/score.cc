@@ -72,7 +72,7 @@ std::string NameOf(const Plan& plan, std::size_t w) {
                      WorldName(plan.scenario_of(w), world.condition, world.trial));
 }
 
-constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;  // kMaxReplyBytes; 60 s of poses take 3 MB
+constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;  // as kMaxReplyBytes; 60 s of poses take 3 MB
 
 Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file, kMaxAnswerBytes));
@@ -111,7 +111,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
     faults.broken.push_back(ToString(judged.error()));
     return ended(Status::kBadOutput, judged.error().message);
   }
-  // Make the row. If the scenario has outside metrics, its metrics are completed after these have run.
+  // Make the row. If the scenario has outside metrics, they are added to the row after they have run.
   FinishedCell cell{scenario.IdentityOf(world.condition, world.trial, method), {}};
   cell.row.result = *std::move(judged);
   cell.is_measured = !has_programs || !cell.row.result.recording;

@@ -21,12 +21,12 @@ struct ScoreOptions {
   bool alone = false;                 ///< true: the scenarios' own methods are not run
   bool allow_missing = false;         ///< true: a world without an answer is a failed cell, not an error
   int jobs = 0;                       ///< worker processes for the scenarios' own methods; 0 = one per processor
-  std::optional<std::uint64_t> seed;  ///< for scenario files; a manifest has its own
+  std::optional<std::uint64_t> seed;  ///< the seed of scenario files; a manifest states its own
   std::optional<SecretKey> key = {};  ///< the key of secret worlds
   std::optional<int> trials;
   std::vector<std::string> clips;
   std::string joint_map;
-  std::string clip_facts = {};  ///< RunOptions::clip_facts
+  std::string clip_facts = {};  ///< additional lines of the joint map (RunOptions::clip_facts)
   OutsideRules outside;
   std::string command_line;
   std::string program_version;

@@ -60,10 +60,10 @@ class Lines {
   std::optional<Error> error_;
 };
 
-// The letters 'm', 't' and 'c' are missing, because a run in which the machine ended a cell gives no baseline.
+// The letters 'm', 't' and 'c' are missing, because a run with such a cell gives no baseline.
 constexpr std::string_view kLetters = "oufbs";
 constexpr std::string_view kAnswers = "ou";     // statuses with an answer
-constexpr std::int64_t kMaxTrials = 1'000'000;  // a scenario's own limit
+constexpr std::int64_t kMaxTrials = 1'000'000;  // the same limit as in a scenario file
 constexpr std::int64_t kMaxVersions = 1'000'000;
 
 /// Returns the seal of a baseline: the digest of its JSON values without the key `seal`. White space does not affect
@@ -339,7 +339,7 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot) {
   // Join the lines and append the seal.
   auto head = WriteJson({{"schema", kBaselineSchema}, {"etude", snapshot.program_version}, {"suite", snapshot.suite}});
   if (!head) return head;
-  head->pop_back();  // the closing brace
+  head->pop_back();  // removes the closing brace
   const std::string text = fmt::format("{},\n\"scenarios\":[{}\n],\n\"statuses\":[{}\n],\n\"values\":[{}\n]", *head,
                                        scenarios.text(), statuses.text(), values.text());
   ASSIGN_OR_RETURN(const auto json, ReadJson(text + "}", "a baseline"));

@@ -15,8 +15,8 @@ constexpr int kUnsealedSchema = 1;
 
 /// What to do if a baseline does not match its seal.
 enum class BaselineSeal {
-  kMustHold,  ///< fail
-  kMayBreak,  ///< read the baseline, and set Snapshot::unsealed
+  kMustHold,  ///< the reader fails
+  kMayBreak,  ///< the baseline is read, and Snapshot::unsealed is set
 };
 
 /// Returns a snapshot as JSON, in the order of the run. Each scenario and each method × metric has a line of its own,

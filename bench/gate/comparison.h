@@ -16,16 +16,16 @@ struct SnapshotComparison {
   std::vector<std::string> settings_changed;         ///< methods with the same name but different settings
 };
 
-/// Returns the reasons why the worlds of two snapshots cannot be paired. The snapshots may differ in seed, number of
-/// trials, parameters of the task, clips, or version of a metric. Empty = they can be compared.
+/// Returns the reasons why the worlds of two snapshots cannot be paired. Possible reasons are different seeds, numbers
+/// of trials, parameters of the task, clips, or versions of a metric. Empty = they can be compared.
 std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot& after);
 
 /// Removes the scenarios that cannot be compared from both snapshots, and returns the reasons (WhyNotComparable).
 std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after);
 
 /// Compares two snapshots world by world and judges each difference with JudgeMoves, then JudgeTail. `exact` names the
-/// scenarios in which no value may differ. A world in which the machine ended either cell is left out. Precondition:
-/// WhyNotComparable returns no reason.
+/// scenarios in which no value may differ. A world in which a cell timed out, crashed or ran out of memory is left
+/// out. Precondition: WhyNotComparable returns no reason.
 SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
                                     const TailRules& tails = {});
 

@@ -29,7 +29,7 @@ bool KeepsAnswers(const Study& study, const SnapshotScenario& snapshot) {
 ScenarioSummary SummaryOf(Study study, const SnapshotScenario& snapshot) {
   study.unit = SamplingUnit::kWorld;
   study.expectations.clear();
-  for (ComparedMethod& method : study.methods) method.has_oracle = true;  // methods with oracles have no rivals
+  for (ComparedMethod& method : study.methods) method.has_oracle = true;  // oracles: no rivals are computed
   ScenarioTable table(study);
   Row row;
   row.scenario = study.scenario;

@@ -14,7 +14,7 @@ namespace etude {
 struct FallenAnswer {
   std::string scenario, condition;  ///< the condition as a CompactLabel
   std::string method, baseline;
-  Verdict before = Verdict::kInconclusive, after = Verdict::kInconclusive;  ///< on these worlds
+  Verdict before = Verdict::kInconclusive, after = Verdict::kInconclusive;  ///< verdicts on each snapshot's worlds
 
   /// Returns true if "better" became "worse". Only this is a regression: near a practical threshold, a tiny change
   /// turns "better" into "no difference".

@@ -68,7 +68,7 @@ class ScenarioTaker {
 
  private:
   SnapshotScenario taken_;
-  std::map<std::pair<std::string, std::string>, std::size_t> slots_;  ///< in `cells`, by condition and method
+  std::map<std::pair<std::string, std::string>, std::size_t> slots_;  ///< index in `cells`, by condition and method
   std::vector<SweptValue> condition_;
   std::string label_;
 };

@@ -12,7 +12,8 @@
 
 namespace etude {
 
-/// Names, each with the digest of everything that its values depend on. If the digests are equal, so are the values.
+/// Names (of conditions, methods or worlds), each with the digest of everything that its values depend on. If the
+/// digests are equal, so are the values.
 using NamedDigests = std::vector<std::pair<std::string, std::string>>;
 
 struct FinishedScenario {
@@ -47,7 +48,7 @@ struct SnapshotValues {
 
 /// The statuses and values of one method under one condition, by trial.
 struct SnapshotCells {
-  std::string condition;  ///< CompactLabel
+  std::string condition;  ///< the condition as text (CompactLabel)
   std::string method;
   std::string statuses;                 ///< one letter per trial (StatusLetter)
   std::vector<SnapshotValues> metrics;  ///< in the order of SnapshotScenario::metrics
@@ -61,7 +62,7 @@ struct SnapshotScenario {
   NamedDigests methods;                              ///< by method: its settings
   std::vector<std::pair<std::string, int>> metrics;  ///< the metrics kept, with their versions
   std::vector<SnapshotCells> cells;                  ///< conditions × methods
-  NamedDigests files = {};                           ///< FinishedScenario::files
+  NamedDigests files = {};  ///< as FinishedScenario::files: name of each world and digest of its truth
 };
 
 /// The part of a run that is kept as a baseline. Later runs are compared with it world by world.

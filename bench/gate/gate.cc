@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-/// Returns the processor times of one method, seconds, by world (condition, trial). Cells that the machine ended and
-/// cells that took less than the clock's resolution are left out.
+/// Returns the processor times of one method, seconds, by world (condition, trial). Cells whose status depends on the
+/// machine (DependsOnMachine), and cells that took less than the clock's resolution, are left out.
 std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, const std::string& scenario,
                                                         const std::string& method) {
   std::map<std::pair<std::string, int>, double> seconds;

@@ -13,7 +13,7 @@ namespace etude {
 struct RatioResult {
   std::string scenario;
   TimeRatio rule;
-  int pairs = 0;  ///< worlds of all conditions in which neither method was ended by the machine
+  int pairs = 0;  ///< worlds of all conditions in which neither method timed out, crashed or ran out of memory
   std::optional<double> median, ci_low, ci_high;  ///< median of the ratios of processor times, and its interval
   /// Unmet if the whole confidence interval lies above the limit. Undecided if only the median lies above it (times
   /// vary on a busy machine), or if too few worlds have both times. Otherwise met.
@@ -43,7 +43,7 @@ struct GateReport {
   std::string baseline_version;  ///< the version of the program that made the baseline
   std::string program_version;   ///< the version of the program that made the run
   std::vector<GateExpectation> expectations;
-  std::vector<GateAnswer> answers;  ///< comparisons with baselines; only fallen ones (`fallen`) decide anything
+  std::vector<GateAnswer> answers;  ///< comparisons with baselines; of these, only `fallen` affects the verdict
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
   std::vector<FallenAnswer> fallen;     ///< answers with a worse verdict than before; one that flips fails the gate

@@ -194,7 +194,7 @@ std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& me
 
 int WorldsThatFail(int compared, const TailRule& rule) {
   if (rule.worlds == 0) return 0;
-  constexpr double kRounding = 1e-9;  // 0.02 × 150 must give 3
+  constexpr double kRounding = 1e-9;  // rounding tolerance: 0.02 × 150 must give 3
   return std::max(rule.worlds, static_cast<int>(std::ceil(rule.share * compared - kRounding)));
 }
 

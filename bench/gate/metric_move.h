@@ -39,7 +39,7 @@ struct MoveIdentity {
 struct TailWorld {
   int trial = 0;
   std::optional<double> before, after;         ///< nullopt = the cell has no value
-  char ended_before = 'o', ended_after = 'o';  ///< StatusLetter
+  char ended_before = 'o', ended_after = 'o';  ///< status letter of the cell in each snapshot (StatusLetter)
   bool lost = false;                           ///< true: the cell had a value or an answer before, and has none now
 };
 
@@ -47,7 +47,7 @@ struct TailWorld {
 struct MetricMove {
   MoveIdentity identity;
   Movement movement = Movement::kSame;
-  int worlds = 0;                       ///< worlds in which the machine ended neither cell
+  int worlds = 0;                       ///< worlds with no cell that timed out, crashed or ran out of memory
   int differing = 0;                    ///< worlds among these whose values differ, were lost or were gained
   int lost = 0;                         ///< values that the second snapshot does not have
   int gained = 0;                       ///< values that the first snapshot does not have
@@ -65,7 +65,7 @@ struct MetricMove {
 struct MoveColumns {
   std::vector<std::optional<double>> before, after;
   std::vector<bool> compared;
-  std::string ended_before, ended_after;  ///< StatusLetter by trial; used by the tail rule only
+  std::string ended_before, ended_after;  ///< letters of StatusLetter, by trial; used by the tail rule only
 };
 
 /// Compares two columns world by world. `movement` stays kSame until JudgeMoves sets it. `seed` keys the random

@@ -12,7 +12,7 @@ namespace etude {
 namespace {
 
 constexpr std::array kSizes = {1.0, 2.0, 4.0};  // means of injected differences, in practical thresholds
-constexpr double kDeviation = 3;                // their standard deviation, in practical thresholds
+constexpr double kDeviation = 3;                // standard deviation of injected differences, in practical thresholds
 
 struct Tally {
   int count = 0, of = 0;

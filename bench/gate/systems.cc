@@ -29,7 +29,8 @@ struct MeasuredSystem {
 };
 
 constexpr int kQuickCells = 2192;
-/// All are in task capture: Mesa 26.2 draws some pixels a few levels differently, and a camera's last digits differ.
+/// The differences on Debian sid. All concern task capture: Mesa 26.2 draws some pixels a few levels differently, and
+/// the last digits of a camera differ.
 constexpr std::array<Difference, 13> kSidDiffers = {{
     {"auc_200mm", 3.2e-4},
     {"bone_length_error_cm", 4e-16},

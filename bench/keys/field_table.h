@@ -218,7 +218,7 @@ struct FieldTable {
     RefuseMisplacedKeys(mapping, keys);
   }
 
-  /// Reads the keys, then runs `check` on the values together.
+  /// Reads the keys, then runs `check`, which tests combinations of values.
   void Read(Fields& mapping, Options& options) const {
     ReadKeys(mapping, options);
     if (check && mapping.ok()) check(mapping, options);
@@ -241,7 +241,7 @@ Result<Options> ReadMapping(const Node& node, const std::string& what, const Fie
                             Options options = {}) {
   Fields fields(node, what);
   table.ReadKeys(fields, options);
-  RETURN_IF_ERROR(fields.Finish());  // first, because an unknown key explains a missing value
+  RETURN_IF_ERROR(fields.Finish());  // unknown keys are reported first, because they may explain a missing value
   if (table.check) table.check(fields, options);
   RETURN_IF_ERROR(fields.Finish());
   return options;

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// Returns the value of `key` in `mapping`; its default if the mapping does not have it.
+/// Returns the value of `key` in `mapping`, or the key's default if the mapping does not have the key.
 std::string ValueOf(const std::string& key, std::span<const KeyInfo> keys, const Node& mapping) {
   const Node* value = mapping.Find(key);
   if (value != nullptr) return value->scalar;

@@ -42,7 +42,7 @@ ValueKind MappingKind(std::string allowed, std::span<const KeyInfo> keys);
 /// The condition under which a key is allowed: another key of its mapping has one of these values.
 struct KeyCondition {
   std::string key;                  ///< "solver"; empty: no condition
-  std::vector<std::string> values;  ///< any of these
+  std::vector<std::string> values;  ///< the key is allowed with any of these values
 };
 
 /// A key of a scenario file, with everything that its reference page, error messages and schema need.
@@ -67,7 +67,7 @@ std::string NumberText(double number);
 std::vector<KeyInfo> MergeAlike(std::vector<KeyInfo> keys);
 
 /// Returns true if the values of `mapping` allow `key` in it. `keys` are all keys that the mapping may have; an absent
-/// key counts with its default. If the key on which `key` depends is not allowed, `key` is not allowed either.
+/// key has its default value. If the key on which `key` depends is not allowed, `key` is not allowed either.
 bool MayStand(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping);
 
 /// Adds an error for every key of `mapping` whose condition (KeyInfo::only_with) does not hold, because the key would

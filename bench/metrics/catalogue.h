@@ -54,8 +54,7 @@ struct MetricInfo {
   Aggregate aggregate = Aggregate::kMedian;
   std::string weight = {};  ///< the metric that weights the cells in a mean; "" = all count alike
   Reading reading = Reading::kAmount;
-  bool is_success = false;  ///< its value tells whether, or how far, a cell reached its task's goal, which status `ok`
-                            ///< does not
+  bool is_success = false;  ///< its value says how far a cell reached its task's goal, which status `ok` does not say
   double practical = 0;     ///< the smallest difference that matters, in the metric's unit
   std::string definition;   ///< one sentence
 

@@ -22,8 +22,7 @@ struct CoachedPerformance {
 /// A correction that the coach decided to give.
 struct GivenCorrection {
   int decided_frame = 0;
-  std::optional<int> act_frame;  ///< the first frame of the act, without the transition to it; empty if the session
-                                 ///< ended before
+  std::optional<int> act_frame;  ///< first frame of the act, without its transition; empty if the session ended first
 };
 
 /// A coached session (docs/reference/metrics.md, Coach). Performances and corrections are in order of time.

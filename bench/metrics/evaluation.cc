@@ -69,7 +69,7 @@ std::optional<double> ShareBelow(std::span<const double> values, double limit_mm
 std::optional<double> AucTo150(std::span<const double> values) {
   constexpr int kThresholds = 31;
   constexpr double kStep_mm = 5;
-  std::size_t below = 0, count = 0;  // over all thresholds
+  std::size_t below = 0, count = 0;  // summed over all thresholds
   for (const double value : values) {
     if (std::isnan(value)) continue;
     ++count;
@@ -182,7 +182,7 @@ std::optional<double> BendErrorDeg(const PointTracks& found, const PointTracks& 
     for (const auto& [upper, middle, lower] : bends) {
       const auto angle = [&, a = upper, b = middle, c = lower](std::span<const glm::dvec3> p) {
         const glm::dvec3 in = p[b] - p[a], out = p[c] - p[b];
-        const bool has_angle = glm::dot(in, in) > 0 && glm::dot(out, out) > 0;  // false for NaN, too
+        const bool has_angle = glm::dot(in, in) > 0 && glm::dot(out, out) > 0;  // also false if a component is NaN
         return has_angle ? Degrees(AngleBetween(in, out)) : kUnseen;
       };
       errors.push_back(std::abs(angle(found.Frame(f)) - angle(truth.Frame(f))));

@@ -30,8 +30,7 @@ struct EvaluatedPair {
   std::vector<glm::dvec3> found_root, true_root;
   /// Global rotations of the joints, frames × joints. Each is empty if its file has no rotations.
   std::vector<glm::dquat> found_turns, true_turns;
-  /// The answer's feet: left ankle, left toes, right ankle, right toes. No points if the answer lacks one of these
-  /// joints.
+  /// The answer's feet: left ankle, left toes, right ankle, right toes. Empty if the answer lacks one of these joints.
   PointTracks feet;
   /// The contacts with the floor that each file states, frames × the four columns of `feet`; the ankle columns hold the
   /// heels' contacts. Empty if the file states none.
@@ -50,7 +49,7 @@ class SeenMean {
   // one.
   static constexpr std::size_t kSums = 4;
   double sums_[kSums] = {}, counts_[kSums] = {};
-  std::size_t next_ = 0;  // index of the sum that the next value joins
+  std::size_t next_ = 0;  // index of the sum to which the next value is added
 };
 /// Returns the mean of the values that are not NaN; nothing if all are NaN.
 std::optional<double> MeanOfSeen(std::span<const double> values);
@@ -93,8 +92,8 @@ struct FloorErrors {
 FloorErrors MeasureFloor(const PointTracks& found);
 
 /// The global rotations of answer and truth as channels (QuaternionChannels). Of a quaternion's two signs, the answer
-/// takes the one nearer to the truth's quaternion. NaN where a joint is not seen in both. Nothing if answer or truth
-/// has no rotations.
+/// takes the one nearer to the truth's quaternion. A value is NaN where a joint is not seen in both motions. There are
+/// no channels if answer or truth has no rotations.
 struct RotationChannels {
   ChannelTracks found, truth;
 };

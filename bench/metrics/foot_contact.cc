@@ -22,7 +22,7 @@ double FloorStep(const PointTracks& feet, std::size_t f, std::size_t column) {
 /// Returns, for each step between frames, true if the toes skate.
 std::vector<bool> Skates(const PointTracks& feet, std::size_t toes, double rate_hz) {
   constexpr double kFast_mps = 0.5;
-  constexpr std::ptrdiff_t kReach = 2;  // the mean runs over five steps; those outside the motion count as zero
+  constexpr std::ptrdiff_t kReach = 2;  // the mean is over five steps; steps outside the motion count as zero
   const auto steps = static_cast<std::ptrdiff_t>(feet.FrameCount()) - 1;
   std::vector<double> speeds;
   for (std::ptrdiff_t f = 0; f < steps; ++f) speeds.push_back(rate_hz * FloorStep(feet, f, toes));
@@ -122,7 +122,7 @@ FloorErrors MeasureFloor(const PointTracks& found) {
   for (std::size_t f = 0; f < found.FrameCount(); ++f) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& p : found.Frame(f)) {
-      if (p.y < lowest) lowest = p.y;  // false for NaN
+      if (p.y < lowest) lowest = p.y;  // the comparison is false if p.y is NaN
     }
     if (std::isinf(lowest)) continue;
     below.push_back(kMm * std::max(-lowest, 0.0));

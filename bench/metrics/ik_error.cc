@@ -12,8 +12,8 @@
 namespace etude {
 namespace {
 
-/// Returns true if the largest errors of the parts `asked` are below `goal`, which counts as centimetres and as
-/// degrees.
+/// Returns true if the largest errors of the parts `asked` are below `goal`: position errors in centimetres, errors of
+/// axes in degrees.
 bool AreWithin(const IkErrorSummary& errors, const IkTargetParts& asked, double goal) {
   return (!asked.positions || errors.position_max_cm < goal) && (!asked.axes || errors.axis_max_deg < goal);
 }

@@ -12,10 +12,10 @@ namespace etude {
 /// position_error_max_cm, orientation_error_deg, orientation_error_max_deg, solved_practical, solved_tight).
 struct IkErrorSummary {
   double position_cm = 0;      ///< mean over the effectors
-  double position_max_cm = 0;  ///< the worst effector
-  double orientation_deg = 0;  ///< mean over the effectors of the mean over each one's three axes
+  double position_max_cm = 0;  ///< the largest error of any effector
+  double orientation_deg = 0;  ///< mean over the effectors and their three axes
   double orientation_max_deg = 0;
-  double axis_max_deg = 0;  ///< the worst single axis of any effector
+  double axis_max_deg = 0;  ///< the largest error of any axis of any effector
 };
 
 /// Summarises the errors of one or more end effectors.

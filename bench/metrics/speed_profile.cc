@@ -69,7 +69,7 @@ std::vector<double> MeanJointSpeed(const BodyMotion& motion, int first, int last
 std::optional<double> LogDimensionlessJerk(std::span<const double> speed) {
   double peak = 0;
   for (double v : speed) peak = std::max(peak, std::abs(v));
-  double squares = 0;  // of the second differences: the jerk is the second derivative of the speed
+  double squares = 0;  // sum of the squared second differences: the jerk is the second derivative of the speed
   for (std::size_t i = 2; i < speed.size(); ++i) {
     const double difference = speed[i] - 2 * speed[i - 1] + speed[i - 2];
     squares += difference * difference;

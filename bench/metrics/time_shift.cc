@@ -176,7 +176,7 @@ class ShiftFinder {
 
   std::optional<TimeShift> Refine(double shift_s) const {
     constexpr int kMaxSteps = 50;
-    constexpr double kSettled_s = 1e-10, kMinRate_mps = 1e-4, kMaxWay = 2;  // frames
+    constexpr double kSettled_s = 1e-10, kMinRate_mps = 1e-4, kMaxWay = 2;  // kMaxWay in frames
     const double start_s = shift_s;
     for (int count = 0; count < kMaxSteps; ++count) {
       const Step step = StepAt(shift_s);

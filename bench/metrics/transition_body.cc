@@ -60,8 +60,8 @@ std::vector<glm::dvec3> MassAccelerations(std::span<const glm::dvec3> centres, d
 }
 
 /// Returns the largest angle by which a joint of a pose exceeds its limit, degrees; 0 if all joints are within their
-/// limits. `bears` holds the joints that bear the body. A foot's direction relative to the hips is judged only if the
-/// foot bears the body and the trunk is upright.
+/// limits. `bears` is the set of joints that support the body. A foot's direction relative to the hips is judged only
+/// if the foot supports the body and the trunk is upright.
 double BeyondJoints(const BodyPose& pose, const JointSet& bears) {
   constexpr double kKnee = 25, kMinElbow = 20, kMinKnee = 20, kNeck = 75, kTrunk = 75, kInward = 60, kOutward = 110;
   constexpr double kUpright = 0.7;
@@ -105,7 +105,7 @@ double Overlap(const BodyPose& pose) {
 struct BodyFrame {
   bool flight = false;
   std::optional<double> zmp_cm, slip_mps2;  // nothing if no joint supports the body
-  double glide_cm = 0;                      // least travel of a support in this frame
+  double glide_cm = 0;                      // distance that the slowest supporting joint moves in this frame
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
   std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each foot at rest, radians
 };
@@ -229,10 +229,10 @@ BodyMeasures Reduced(std::span<const BodyFrame> frames) {
 /// Measures one of the joined clips by itself, at the time of the join.
 class BesideClip {
  public:
-  /// `begin` is the shown motion's frame at which poses[0] stands. Measures the clip from frame `first` to frame `last`
-  /// of the shown motion, and one second more on either side.
+  /// `begin` is the frame of the shown motion that corresponds to poses[0]. Measures the clip from frame `first` to
+  /// frame `last` of the shown motion, and one second more on either side.
   BesideClip(std::span<const BodyPose> poses, int begin, int first, int last, double rate_hz) {
-    // Include one more second on either side, because support depends on the frames around.
+    // Include one more second on either side, because the support in a frame also depends on the frames around it.
     constexpr int kAround = 30;
     const int from = std::clamp(first - begin - kAround, 0, static_cast<int>(poses.size()) - 1);
     const int to = std::clamp(last - begin + kAround, from, static_cast<int>(poses.size()) - 1);
@@ -264,8 +264,8 @@ class BesideClip {
   }
 
   std::span<const BodyPose> poses() const { return poses_; }
-  /// Returns the index in poses() of a shown frame, if this joint bears the clip's body in that frame or no joint does.
-  /// Returns nullopt otherwise.
+  /// Returns the index in poses() of a shown frame, if this joint supports the clip's body in that frame, or if no
+  /// joint supports it. Returns nullopt otherwise.
   std::optional<int> BearsAt(int frame, std::size_t joint) const {
     const int now = frame - begin_;
     if (now < 0 || now >= static_cast<int>(poses_.size())) return std::nullopt;
@@ -323,8 +323,8 @@ double SlowestOf(const JointSet& joints, const Speed& speed) {
   return slowest.value_or(0);
 }
 
-/// Sets a measurement of a frame to 0 if it is at most 1.25 times the largest that the clips themselves reach within
-/// three frames of it.
+/// Sets a measurement of a frame to 0 if it is at most 1.25 times the largest value that the clips themselves reach
+/// within three frames of it.
 void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame) {
   constexpr int kReach = 3;
   constexpr double kAllowance = 1.25;
@@ -370,7 +370,8 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
     BodyFrame frame = FrameOf(moving, f - from, held);
     Excuse(clips, f, frame);
     // Glide is the distance moved by the slowest supporting joint or, without support, by the slowest joint of the
-    // feet. If this joint supports the body in a clip too, the movement relative to the clip counts if it is shorter.
+    // feet. If this joint also supports the body in a clip, the shorter of two distances is taken: its own movement, or
+    // its movement relative to the clip.
     if (!held.flight) {
       frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
         double slowest = TravelOf(view.shown, f, j).value_or(0);

@@ -81,7 +81,7 @@ double JoinSlideCmps(const JoinView& view) {
 }
 
 bool IsCalmlyNatural(const JoinView& view, double limit_cm) {
-  constexpr double kMinLimit_cm = 1;  // so that a clip that stands still does not forbid all motion
+  constexpr double kMinLimit_cm = 1;  // lower bound: without it, a clip that stands still would forbid all motion
   constexpr double kOwnAllowance = 1.25;
   const double limit = std::max(limit_cm, kMinLimit_cm);
   const int end = JoinEnd(view);

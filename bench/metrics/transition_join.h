@@ -87,12 +87,13 @@ std::vector<Support> JoinSupport(const JoinView& view);
 constexpr int kFloatingFrames = 4;
 /// Returns `unsupported_frames`: the largest number of unsupported frames in a row.
 int UnsupportedFrames(std::span<const Support> support);
-/// Returns true if the transition counts for `supported_share`.
+/// Returns true if the transition counts for `supported_share`: the body is unsupported in fewer than kFloatingFrames
+/// frames in a row.
 bool IsSupported(std::span<const Support> support);
 
-/// Returns `balance_cm`: the horizontal distance from the centre of mass to the joints that bear the body
-/// (BalanceOffset), as a mean over the frames of `support` in which some joints bear it. Returns nothing if there is no
-/// such frame. `support` is the result of JoinSupport.
+/// Returns `balance_cm`: the horizontal distance from the centre of mass to the joints that support the body
+/// (BalanceOffset), as a mean over the frames of `support` in which some joints support it. Returns nothing if there is
+/// no such frame. `support` is the result of JoinSupport.
 std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> support);
 
 /// The start of the wanted clip, which the transition skips. If the motion continues without a transition, no clip is

@@ -71,7 +71,8 @@ struct Stay {
   int until_frame = 0;
 };
 
-/// Returns `wait_s`: the time from the request until the wanted clip plays, seconds. Clips that play in between count.
+/// Returns `wait_s`: the time from the request until the wanted clip plays, seconds. The time of clips that play in
+/// between is included.
 double WaitSeconds(std::span<const Stay> stays, double rate_hz);
 
 }  // namespace etude

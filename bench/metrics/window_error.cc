@@ -42,7 +42,7 @@ class PowerSpectrum {
       powers[k] = powers[(length_ - k) % length_] = re * re + im * im;
     }
     for (const double power : powers) sum += power;
-    constexpr double kRounding = 1e-24;  // of the power that such values can have
+    constexpr double kRounding = 1e-24;  // relative to the largest power that the values can have
     if (sum > kRounding * static_cast<double>(length_) * squares) return sum;
     powers.assign(length_, 0.0);
     return 0;
@@ -78,7 +78,7 @@ ChannelTracks QuaternionChannels(std::span<const glm::dquat> rotations, std::siz
   constexpr std::size_t kParts = 4;
   ChannelTracks tracks{kParts * joints, {}};
   tracks.values.reserve(kParts * rotations.size());
-  std::vector<glm::dquat> last(joints, glm::dquat(0, 0, 0, 0));  // zero: none is known yet
+  std::vector<glm::dquat> last(joints, glm::dquat(0, 0, 0, 0));  // zero until a rotation of the joint is known
   for (std::size_t i = 0; i < rotations.size(); ++i) {
     glm::dquat q = rotations[i];
     glm::dquat& before = last[i % joints];

@@ -1,5 +1,5 @@
-// Times how long it takes to find the person in a picture of 640 × 480, with our segmenters and, if OpenCV is
-// installed, with its functions.
+// Times how long it takes to find the person in a picture of 640 × 480, with Etude's segmenters and, if OpenCV is
+// installed, with OpenCV's functions.
 //   build/release/bench/micro/person_bench --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
 
@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
-constexpr int kPictures = 4, kStepPx = 9;  // the person's movement from picture to picture
+constexpr int kPictures = 4, kStepPx = 9;  // the person moves by kStepPx from picture to picture
 
 std::uint8_t Level(double value) { return static_cast<std::uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value + 0.5); }
 
@@ -128,7 +128,7 @@ void OursDetect(benchmark::State& state) {
 BENCHMARK(OursDetect)->Unit(benchmark::kMicrosecond);
 
 #ifdef ETUDE_HAS_OPENCV
-/// Returns the number of pixels, over all pictures, in which the peer's mask differs from our mask.
+/// Returns the number of pixels, over all pictures, in which the peer's mask differs from Etude's mask.
 template <typename Finder>
 std::size_t DifferentFromOurs(Finder& peer) {
   PersonFinder ours(Background(), {.segmenter = Segmenter::kHue, .change = {}});

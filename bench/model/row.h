@@ -111,7 +111,7 @@ struct Row {
   std::vector<SweptValue> condition;  ///< empty if nothing is swept
   int trial = 0;
   std::string clip;                ///< "" for tasks without clips
-  std::vector<std::string> units;  ///< units from which the world was drawn (Study::unit); empty = it is its own unit
+  std::vector<std::string> units;  ///< units from which the world was drawn (Study::unit); empty if it is its own unit
   std::string method;
   CellResult result;  ///< `series` and `recording` are stored in files of their own
 

@@ -31,7 +31,7 @@ class RowSource {
 };
 
 struct CellSeries {
-  std::string cell;  ///< Row::Id()
+  std::string cell;  ///< identity of the cell (Row::Id)
   std::vector<Series> series;
 };
 

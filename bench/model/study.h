@@ -13,12 +13,12 @@ namespace etude {
 /// A claim that a scenario makes about its results. It is judged after the run and shown in the report.
 struct Expectation {
   std::string metric;
-  std::string of;                           ///< the method judged
-  std::string below, above;                 ///< the method it is compared with in the same worlds; at most one is set
-  std::optional<double> at_most, at_least;  ///< the bound of its statistic, if no method is compared
+  std::string of;            ///< the method that is judged
+  std::string below, above;  ///< the method with which `of` is compared in the same worlds; at most one is set
+  std::optional<double> at_most, at_least;  ///< the bound of `statistic`, if `of` is not compared with a method
   std::string statistic = "median";         ///< median, mean or p95; only for bounds
-  double confidence = 0.95;                 ///< of a comparison's interval; its test has level 1 − confidence
-  std::vector<SweptValue> where;            ///< the conditions in which it is judged; empty = all of them
+  double confidence = 0.95;  ///< confidence level of a comparison's interval; the level of its test is 1 − confidence
+  std::vector<SweptValue> where;  ///< the conditions in which it is judged; empty = all of them
   Place place;
 };
 
@@ -35,9 +35,9 @@ struct TimeRatio {
 /// measured.
 struct TailRule {
   double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
-  int worlds = 4;     ///< this many far worse worlds of one comparison are a regression; 0 = never …
-  /// … if the far worse worlds are also at least this share of the compared worlds, because in a large number of worlds
-  /// rounding may change a few.
+  int worlds = 4;     ///< at least this many far worse worlds of one comparison are a regression; 0 = never
+  /// In a regression, the far worse worlds must also be at least this share of the compared worlds, because in a large
+  /// number of worlds rounding may change a few.
   double share = 0.05;
   int lost = 1;  ///< this many worlds that lost their value or answer are a regression; 0 = never
 };
@@ -45,8 +45,7 @@ struct TailRule {
 /// The rules by which `etude gate` compares one scenario with a baseline.
 struct GateRules {
   std::vector<std::string> metrics;  ///< metrics to compare; success and the headline metrics if the file names none
-  bool exact = false;                ///< true: every difference is a regression; false: only one above the practical
-                                     ///< threshold
+  bool exact = false;                ///< true: every difference is a regression, even below the practical threshold
   TailRule tail;
   std::vector<TimeRatio> time_ratios;
 };
@@ -54,8 +53,8 @@ struct GateRules {
 /// One of the methods that a scenario compares.
 struct ComparedMethod {
   std::string name;
-  std::string against;      ///< the method it is compared with; the first method is compared with itself
-  bool has_oracle = false;  ///< the truth replaces some of its stages; it shows an upper bound and does not compete
+  std::string against;      ///< the method with which it is compared; the first method is compared with itself
+  bool has_oracle = false;  ///< true: the truth replaces some stages, so it is an upper bound and no competitor
   std::vector<std::string> oracle = {};  ///< the stages that the truth replaces
   std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method
   std::string description = {};  ///< a sentence about the method, or its settings

@@ -70,16 +70,16 @@ struct LeftOut {
   double difference = 0;
 };
 
-/// The result of a comparison for other units (clips, people, …) like the units from which its worlds were drawn
-/// (bench/statistics/beyond.h). If every world is its own unit, it equals the result on the worlds.
+/// The result of a comparison, generalised from the units of its worlds (clips, people, …) to other units like them
+/// (bench/statistics/beyond.h). If every world is its own unit, the result equals the result on the worlds.
 struct Beyond {
   int units = 0;      ///< units that have a pair
   int differing = 0;  ///< units whose mean difference is not zero
   /// The pseudo-median of the units' mean differences, and its 95 % interval. The verdict is judged from this interval.
   std::optional<double> difference, low, high;
   std::optional<double> mean, mean_low, mean_high;  ///< the mean of the units' means, and its 95 % interval
-  PairedTest test;                                  ///< the test that decides
-  std::optional<double> p_holm;                     ///< corrected over the scenario's comparisons (Holm)
+  PairedTest test;                                  ///< the test that decides the verdict
+  std::optional<double> p_holm;                     ///< p after Holm's correction over the scenario's comparisons
   std::optional<Verdict> verdict;                   ///< nothing = too few units for a verdict
   std::string why_open;                             ///< why there is no verdict or an inconclusive one
   std::vector<LeftOut> left_out;                    ///< in the order of the units' names; empty if worlds are the units
@@ -95,7 +95,7 @@ struct Comparison {
   int differing = 0;  ///< pairs whose values differ
   /// Worlds without a pair: only the baseline has a value, only the method has one, or neither has one.
   int only_baseline = 0, only_method = 0, neither = 0;
-  std::optional<double> difference, ci_low, ci_high;  ///< the aggregate and its 95 % interval
+  std::optional<double> difference, ci_low, ci_high;  ///< the aggregate of the differences and its 95 % interval
   IntervalKind interval = IntervalKind::kNone;
   /// The mean of the paired differences and its 95 % interval. It is computed for every metric.
   std::optional<double> mean, mean_low, mean_high;
@@ -108,10 +108,10 @@ struct Comparison {
   /// Rank-biserial correlation, −1…1. It is positive if `method` is better or, for a metric without a direction, if its
   /// values are larger.
   std::optional<double> effect_size;
-  Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
+  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on these worlds
   std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
   std::vector<std::string> notes;            ///< further warnings for readers of the figures
-  Beyond beyond;                             ///< the comparison for other units like the sampled ones
+  Beyond beyond;                             ///< the result for other units like the sampled ones
 };
 
 /// The step that decided an answer. Success is compared first, then the value, then the tail.
@@ -127,7 +127,7 @@ struct Answer {
   std::string method;
   std::string baseline = {};      ///< the method that the scenario names, or the strongest rival
   std::string value_metric = {};  ///< ValueMetricOf; "" if the scenario has only its success
-  Verdict verdict = Verdict::kInconclusive;  ///< for these worlds
+  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on these worlds
   AnswerStep decided_by = AnswerStep::kNone;
   std::optional<Verdict> beyond = {};  ///< the deciding step's verdict for other units; nothing = too few units
   /// The comparison of `Study::success`, in which failed cells count 0; nullopt if no cell has a value.
@@ -168,7 +168,7 @@ struct ConditionSummary {
 };
 
 /// The verdict of one comparison under every value of the parameters that `across` names. If the verdict depends on a
-/// parameter of our own simulation, e.g. on how people learn, it says nothing about the methods.
+/// parameter of the simulation itself, e.g. the law of learning, it says nothing about the methods.
 struct AcrossVerdict {
   std::vector<SweptValue> condition;  ///< the values of the other swept parameters
   std::string metric;

@@ -37,7 +37,7 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
 struct ConformanceCheck {
   std::string name;  ///< a sentence that is true if the method passes
   bool passed = false;
-  std::string found;  ///< the observation, whether the method passed or not
+  std::string found;  ///< what was observed, also if the method passed
 };
 
 /// Sends the specimens of the method's task to the method and calls `report` after every check. The checks are: the

@@ -34,7 +34,7 @@ tl::unexpected<OutsideFailure> Failed(Status status, std::string reason) {
   return tl::unexpected<OutsideFailure>({status, std::move(reason)});
 }
 
-/// These functions make a failure from an error. BadOutput: the program's output is wrong. OurFailure: our message
+/// These functions make a failure from an error. BadOutput: the program's output is wrong. OurFailure: Etude's message
 /// cannot be sent. NotAsked: this machine is the cause.
 tl::unexpected<OutsideFailure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
 tl::unexpected<OutsideFailure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
@@ -90,7 +90,7 @@ struct OutsideMethod::State {
   int repeated = 0;                ///< lines ignored since the problem was sent
 
   struct Failures {
-    int times = 0;  ///< failures in a row
+    int times = 0;  ///< number of failures in a row
     OutsideFailure last;
   };
   std::map<std::string, Failures> failures;  ///< by the name of the step
@@ -163,7 +163,8 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   if (!line) return OurFailure(line.error());
   const auto read = [&](const std::string& said) { return ReadAnswer(said, problem_id); };
   RETURN_IF_ERROR(
-      // Read these lines before `answered` changes. A line with this id answers an earlier copy of the problem.
+      // Read the pending lines while `answered` still contains this id. A pending line with this id answers an earlier
+      // copy of the problem.
       ReadPendingLines(read));
   answered.erase(problem_id);
   auto answer = Exchange(*line, options.time_s, read);
@@ -272,7 +273,7 @@ void OutsideMethod::State::EndSession() {
 
 std::string OutsideMethod::State::Stop(int patience_ms) {
   session.reset();
-  setting_files = {};  // deleted first, because we may be killed while waiting for the program
+  setting_files = {};  // deleted first, because this process may be killed while it waits for the program
   setting_in_force.reset();
   return program.Stop(patience_ms);
 }

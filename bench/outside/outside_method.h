@@ -23,7 +23,7 @@ struct OutsideOptions {
   double memory_mb = 4096;           ///< limit of resident memory, with all processes of the program
   std::string error_file = {};       ///< file for its standard error, up to 1 MiB; "" = it shares ours
   /// The shortest time limit, in seconds, of the handshake and of each setting; `time_s` applies if it is longer.
-  /// Programs load libraries and models then.
+  /// During these steps, programs load libraries and models.
   double start_s = 30;
   Fence fence = {};                     ///< the sandbox in which the program runs
   std::vector<std::string> files = {};  ///< files that the sandbox shows the program (ProgramView)

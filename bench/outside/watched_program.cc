@@ -58,8 +58,8 @@ long ErrorLog::Size() const {
   return memory_ >= 0 && ::fstat(memory_, &status) == 0 ? static_cast<long>(status.st_size) : 0;
 }
 
-// Punching a hole frees memory and cannot lose output that the program appends at the same time. Truncating could lose
-// such output, so it is done only when the file comes near the program's size limit.
+// Punching a hole in the file frees memory and cannot lose output that the program appends at the same time. Truncating
+// the file could lose that output, so it is done only when the file comes near the program's size limit.
 void ErrorLog::Trim() {
   const long end = Size() - kTailBytes;
   if (end <= kMaxBytes) return;
@@ -83,7 +83,7 @@ std::string ErrorLog::LastLine() const {
   const std::size_t last = tail.find_last_not_of(" \t\r\n");
   if (last == std::string::npos) return "";
   tail.resize(last + 1);
-  return tail.substr(tail.find_last_of('\n') + 1);  // npos + 1 = 0
+  return tail.substr(tail.find_last_of('\n') + 1);  // without a line end, npos + 1 = 0 keeps the whole tail
 }
 
 // The file is created only if there is output. If it cannot be written, the output is lost, but the cell does not fail.
@@ -209,7 +209,7 @@ OutsideOutcome<void> WatchedProgram::Measure() {
   // The reported peak has a tolerance of 10 % + 4 MB. Within it, an upper bound is good enough.
   const double held_mb = group_.IsUp() ? group_.HeldMb() + scratch.names_mb
                                        : meter_->HeldMb(scratch.Mb(), std::min(options_.memory_mb, 1.1 * peak_mb_ + 4));
-  cpu_s_ = std::max(cpu_s_, load.cpu_s);  // the process may have ended meanwhile
+  cpu_s_ = std::max(cpu_s_, load.cpu_s);  // load.cpu_s is smaller if a process has ended meanwhile
   peak_mb_ = std::max(peak_mb_, held_mb);
   if (held_mb > options_.memory_mb) return TooMuchMemory();
   for (const auto& [count, limit, what] : {std::tuple{load.processes, ProgramLimits::kProcesses, "processes"},

@@ -27,7 +27,8 @@ class ErrorLog {
   ErrorLog& operator=(const ErrorLog&) = delete;
   ~ErrorLog();
 
-  /// Returns the path that must be opened as the program's standard error; "" if the program shares our standard error.
+  /// Returns the path that must be opened as the program's standard error; "" if the program shares Etude's standard
+  /// error.
   std::string path() const;
   /// Discards the part of the collected output that exceeds the limit, but keeps its end.
   void Trim();

@@ -1,4 +1,5 @@
-// Times the pictures of `capsules_vga_labels` in bench/micro/render_bench, drawn by OSMesa or EGL without our renderer.
+// Times the pictures of `capsules_vga_labels` in bench/micro/render_bench, drawn by OSMesa or EGL without Etude's
+// renderer.
 #include <benchmark/benchmark.h>
 
 #include "bench/peers/bare_draw.h"

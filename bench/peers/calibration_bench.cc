@@ -1,5 +1,5 @@
-// Times the calibration of one camera and its lens from 15 views of a board: our function and, if OpenCV is installed,
-// cv::calibrateCamera. Both minimise the same sum of squares, so the program also compares their results.
+// Times the calibration of one camera and its lens from 15 views of a board: Etude's function and, if OpenCV is
+// installed, cv::calibrateCamera. Both minimise the same sum of squares, so the program also compares their results.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -57,7 +57,7 @@ struct Joint {
 
 struct Goal {
   Vector axes[3], position;
-  double scale, axis_scale;  // of rows: square roots of the weights, per kPositionScale of length and per radian
+  double scale, axis_scale;  // square roots of the weights of rows, per kPositionScale of length and per radian
 };
 
 struct Pose {

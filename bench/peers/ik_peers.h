@@ -31,9 +31,9 @@ class IkPeer {
   virtual IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) = 0;
 };
 
-/// Makes the dense rival: the algorithm of our `levenberg-marquardt` (active set, same restarts), written for speed
-/// alone. It has arrays of fixed size, no input checks and no trace, and is compiled with its own flags. It supports
-/// trees of at most 32 angles and 4 effectors with equal axis weights.
+/// Makes a dense implementation of the algorithm of Etude's `levenberg-marquardt` (active set, same restarts), written
+/// for speed alone. It has arrays of fixed size, no input checks and no trace, and is compiled with its own flags. It
+/// supports trees of at most 32 angles and 4 effectors with equal axis weights.
 std::unique_ptr<IkPeer> MakeDensePeer(const KinematicTree& tree);
 
 const char* DensePeerFlags();
@@ -49,7 +49,7 @@ struct KdlSettings {
 /// Makes KDL's TreeIkSolverPos_NR_JL: Newton–Raphson steps with angles clamped to their limits.
 std::unique_ptr<IkPeer> MakeKdlNewton(const KinematicTree& tree, const KdlSettings& settings);
 /// Makes KDL's TreeIkSolverPos_Online. It takes the Newton–Raphson steps of MakeKdlNewton, scaled down to maximum
-/// speeds, until our goals are met.
+/// speeds, until the goals of IkOptions are met.
 std::unique_ptr<IkPeer> MakeKdlOnline(const KinematicTree& tree, const KdlSettings& settings);
 
 /// Makes Simbody's Assembler with a marker and an orientation sensor at every effector; `restrictQ` sets the limits.

@@ -1,6 +1,6 @@
-// Times our inverse kinematics, for single problems and in batches, and the inverse kinematics of other libraries. All
-// methods solve the same problems to the same accuracy in one process. In every round, every method solves every
-// problem; the fastest round of each problem counts. A problem is solved if, by our forward kinematics, every
+// Times Etude's inverse kinematics, for single problems and in batches, and the inverse kinematics of other libraries.
+// All methods solve the same problems to the same accuracy in one process. In every round, every method solves every
+// problem; each problem's shortest time is reported. A problem is solved if, by Etude's forward kinematics, every
 // effector's position and axes are within the goals, and all angles are within their limits.
 //
 //     ik_peers_bench [--trials=50] [--rounds=3] [--only=parts of methods' names, commas between]
@@ -96,7 +96,7 @@ Method Ours(const std::string& solver, int max_iterations, const SolverSettings&
   });
 }
 
-// Returns our plain version, without SIMD.
+// Returns Etude's plain version, without SIMD.
 Method Plain() {
   return OneByOne(kCompared, [options = Tightly(200)](const IkProblem& problem) {
     IkSolution solution = SolveGaussNewtonPlainly(Body(), problem, options);
@@ -104,7 +104,8 @@ Method Plain() {
   });
 }
 
-// Returns the method that solves one problem after the other, with a tree prepared once, like the rivals' models.
+// Returns the method that solves one problem after the other, with a tree prepared once, like the models of the other
+// libraries.
 Method Single(const std::string& target) {
   SetBatchTarget(target);
   const auto solver = std::make_shared<GaussNewtonSolver>(Body());
@@ -137,7 +138,7 @@ Method Batch(const std::string& target, Precision precision) {
           }};
 }
 
-// Returns the method of another library. Ends the program if the library's model differs from our tree, because the
+// Returns the method of another library. Ends the program if the library's model differs from Etude's tree, because the
 // library would then solve different problems.
 Method Peer(const std::string& name, std::shared_ptr<IkPeer> peer, int max_iterations) {
   constexpr double kRounding = 1e-9;

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-constexpr double kUnlimitedSpeed = 1e3;  // speed limit of effectors; limits on angles alone gave better results
+constexpr double kUnlimitedSpeed = 1e3;  // effectively no limit; limiting only the angles gave better results
 
 KDL::Vector ToVector(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 KDL::Rotation ToRotation(const glm::dmat3& m) { return {ToVector(m[0]), ToVector(m[1]), ToVector(m[2])}; }
@@ -30,7 +30,7 @@ KDL::Tree ToKdl(const KinematicTree& tree) {
   KDL::Tree made("root");
   const TreeState rest = StandingState(tree);
   std::vector<std::string> limb_names(tree.joints.size(), "root");  // the last segment of each joint
-  std::vector<KDL::Frame> offsets(tree.joints.size());              // from that segment to the limb
+  std::vector<KDL::Frame> offsets(tree.joints.size());              // from a joint's last segment to its limb
   for (std::size_t n = 0; n < tree.joints.size(); ++n) {
     const TreeJoint& joint = tree.joints[n];
     KDL::Frame base(ToRotation(joint.R_PJ), ToVector(joint.p_PJ));

@@ -13,7 +13,7 @@ namespace etude {
 class OpenCvPerson {
  public:
   enum class Kind {
-    kSameHue,      ///< the paper's hue by OpenCV's arithmetic on whole pictures; gives the same masks as ours
+    kSameHue,      ///< the paper's hue by OpenCV's arithmetic on whole pictures; gives the same masks as Etude's
     kHsv,          ///< the hue of cvtColor, in 180 steps: faster
     kHsvContours,  ///< kHsv, but the largest piece is found by contours instead of labels
   };

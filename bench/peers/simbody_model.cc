@@ -34,7 +34,7 @@ struct SimbodyModel::Parts {
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter{system};
   std::vector<SimTK::MobilizedBody> limbs;  // the body of each joint
-  std::vector<SimTK::Transform> in_body;    // its frame in that body
+  std::vector<SimTK::Transform> in_body;    // the joint's frame in its body
   std::vector<Angle> angles;
   std::vector<Effector> effectors;
   SimTK::State state;
@@ -42,8 +42,8 @@ struct SimbodyModel::Parts {
   SimTK::Markers* markers = nullptr;  // owned by the assembler
   SimTK::OrientationSensors* sensors = nullptr;
 
-  // Gimbal rotates by Rx Ry Rz and Universal by Rx Ry, like our joints. Pin rotates about Z, so our X axis becomes its
-  // Z axis.
+  // Gimbal rotates by Rx Ry Rz and Universal by Rx Ry, like the tree's joints. Pin rotates about Z, so a joint's X axis
+  // becomes its Z axis.
   void AddJoint(const Joint& joint) {
     using SimTK::MobilizedBody;
     if (joint.parent < 0 || joint.dof_count == 0) {

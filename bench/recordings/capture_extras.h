@@ -61,7 +61,7 @@ struct CaptureExtras {
   double scene = 0;                ///< 0 = the studio
   bool wears_everyday = false;     ///< true: on that stage, the performer wears everyday clothes
   bool wears_coded = false;        ///< true: the performer wears the coded suit
-  std::array<Rgb8, 16> colours{};  ///< the performer's colours, by Part
+  std::array<Rgb8, 16> colours{};  ///< the performer's colours, indexed by Part
   std::vector<double> brightness;  ///< one per frame
   std::vector<View> views;
   std::vector<Moment> moments;

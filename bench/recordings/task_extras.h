@@ -49,7 +49,7 @@ struct TransitionExtras {
 
   std::optional<int> transition_frame;  ///< the first of `transition_frames`
   std::vector<int> transition_frames;   ///< the last frames before a change of clip
-  std::string from, to;                 ///< clips
+  std::string from, to;                 ///< the clip that is left, and the clip that is entered
   std::string branch;                   ///< the kind of transition: "front half", "in-between", …
   std::string why;                      ///< one sentence
   std::optional<int> request_frame;     ///< negative: before the start of the recording
@@ -77,7 +77,7 @@ struct DetectionExtras {
   /// A performance that was asked for.
   struct Event {
     std::string move, truth, fault;  ///< truth: right, grey or wrong; fault: "none", or the names of faults
-    std::string danced;              ///< empty: no move
+    std::string danced;              ///< the move that was performed; empty if none was
     int begin_frame = 0, end_frame = 0;
     bool called_right = false;
     double score = 0;
@@ -135,7 +135,7 @@ struct CoachExtras {
 /// file.
 struct PlausibilityExtras {
   struct Fault {
-    std::string kind, text;              ///< FaultName; MotionFault::text
+    std::string kind, text;              ///< the fault's name (FaultName) and its description (MotionFault::text)
     int begin_frame = 0, end_frame = 0;  ///< first and last frame, both inclusive
   };
   double floor_m = 0;

@@ -65,8 +65,8 @@ class ResultWriter {
 
 /// The action of a reader if a folder's seal is broken (seal.h).
 enum class Sealing {
-  kRequired,  ///< fail
-  kIgnored,   ///< read the folder, and set `RunData::unsealed`
+  kRequired,  ///< the reader fails
+  kIgnored,   ///< the folder is read, and `RunData::unsealed` is set
 };
 
 /// Reads a result folder. Fails, with file and line if possible, if a file is missing, incomplete or of another schema,

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr int kSealVersion = 1;
 
-using Digests = std::map<std::string, std::string>;  // by path in the folder
+using Digests = std::map<std::string, std::string>;  // digests by path in the folder
 
 bool IsSealed(const fs::path& from_folder) {
   const std::string first = from_folder.begin()->string();

@@ -33,7 +33,7 @@ constexpr std::string_view kHashed = "ED";  // the algorithm that signs the file
 std::string Encode(std::span<const unsigned char> bytes) {
   std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
   sodium_bin2base64(text.data(), text.size(), bytes.data(), bytes.size(), sodium_base64_VARIANT_ORIGINAL);
-  text.pop_back();  // the terminating zero
+  text.pop_back();  // removes the terminating zero
   return text;
 }
 

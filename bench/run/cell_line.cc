@@ -156,7 +156,7 @@ CellUsage ReadUsage(LineReader& reader) {
 }  // namespace
 
 std::string WithSum(std::string json) {
-  json.pop_back();  // the closing brace
+  json.pop_back();  // removes the closing brace
   return fmt::format("{}{}{:016x}{}", json, kSumBegin, Fingerprint(json), kSumEnd);
 }
 

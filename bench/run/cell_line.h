@@ -29,7 +29,7 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished);
 struct CellLineHead {
   std::size_t cell = 0;
   Status status = Status::kFailed;
-  bool is_measured = true;  ///< FinishedCell::is_measured
+  bool is_measured = true;  ///< false if other programs must still measure the cell (FinishedCell::is_measured)
 };
 
 /// The beginning of the line of a cell that other programs must still measure.

@@ -28,7 +28,8 @@ Result<CellResult> JudgeAnswer(TaskWorld& world, const Json& answer);
 /// Runs the cells of one world after another. Each world is built once. Outside methods keep running between worlds.
 class CellRunner {
  public:
-  /// Outside methods run in `fence`. Their standard error goes to files in `error_folder`; "" = to our standard error.
+  /// Outside methods run in `fence`. Their standard error goes to files in `error_folder`; "" = to Etude's standard
+  /// error.
   CellRunner(const PreparedScenario& scenario, std::string error_folder, const Fence& fence);
   ~CellRunner();
 
@@ -44,8 +45,8 @@ class CellRunner {
   FinishedCell Measure(int condition, FinishedCell answered);
 
  private:
-  /// Measures the peak resident size of this process. Reading it takes as long as a short cell, so the value is cached
-  /// for 5 ms.
+  /// Measures the peak resident size of this process. Reading it takes as long as running a short cell, so the value is
+  /// cached for 5 ms.
   class PeakMemory {
    public:
     void Begin();

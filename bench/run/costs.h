@@ -19,8 +19,9 @@ std::string WorkOf(const Scenario& scenario);
 struct KeptCost {
   double once = 0;    ///< cost of start-up, preparation of conditions, and statistics
   double trial = 0;   ///< cost of one world of every condition, with all methods
-  double spread = 0;  ///< ScenarioForecast::spread; 0 = not measured
-  /// ScenarioForecast::units for this number of trials and this seed; 0 = not stored, because each world is a unit.
+  double spread = 0;  ///< standard deviation of differences (ScenarioForecast::spread); 0 = not measured
+  /// The number of units (ScenarioForecast::units) for this number of trials and this seed; 0 = not stored, because
+  /// each world is a unit.
   int units = 0;
   int trials = 0;
   std::uint64_t seed = 0;

@@ -72,7 +72,7 @@ bool IsKnown(const Scenario& scenario, const ScenarioSetup& setup, const KeptCos
          (WorldsAreUnits(scenario.unit) || cost.UnitsOf(setup.trials, setup.seed));
 }
 
-/// Returns ScenarioForecast::spread, computed from the cells in a table.
+/// Computes ScenarioForecast::spread from the cells in a table.
 double SpreadOf(const Study& study, const ScenarioTable& table, const std::string& metric) {
   const auto asked = std::ranges::find_if(study.methods, [](const auto& one) { return one.name != one.against; });
   if (asked == study.methods.end()) return 0;
@@ -88,8 +88,8 @@ double SpreadOf(const Study& study, const ScenarioTable& table, const std::strin
   return deviations.empty() ? 0 : Quantile(deviations, 0.5);
 }
 
-/// Runs worlds until the clock reaches `until`, at least one, and returns their mean time, seconds. Adds their cells to
-/// `table`. The first world includes one-time costs, so it is left out if there are others.
+/// Runs at least one world, and further worlds until the clock reaches `until`. Returns their mean time, seconds. Adds
+/// their cells to `table`. The first world includes one-time costs, so it is left out if there are others.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
                               Clock::time_point start, ScenarioTable& table) {
   const Scenario& scenario = prepared.scenario();
@@ -132,14 +132,15 @@ std::size_t CountIn(const Shard& shard, std::size_t first, std::size_t count) {
 }  // namespace
 
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
-  // Check all input like a run. Scenarios with a stored cost were valid when it was measured.
+  // Check all input as a run does. Scenarios with a stored cost need no check, because they were valid when the cost
+  // was measured.
   ASSIGN_OR_RETURN(auto suite, ReadSuiteToRun(options));
   if (!suite.seed.IsPlain()) ThrowOtherDice(suite);
   ASSIGN_OR_RETURN(const auto kept, ReadKeptCosts());
   std::vector<ScenarioForecast> told;
   std::vector<Study> studies;
   std::vector<const KeptCost*> costs;
-  std::vector<std::optional<std::size_t>> prepared_at;  // the index of each scenario that is prepared
+  std::vector<std::optional<std::size_t>> prepared_at;  // index among the prepared scenarios
   std::vector<ScenarioSetup> unknown;
   for (ParsedSuite parsed(suite); const ScenarioSetup& setup : suite.scenarios) {
     ASSIGN_OR_RETURN(const Scenario scenario, parsed.Find(setup));

@@ -20,8 +20,8 @@ struct ScenarioForecast {
   double seconds_per_world = 0;  ///< wall time of a world with all methods, on one worker
   int comparisons = 0;           ///< number of comparisons under one Holm correction
   SamplingUnit unit = SamplingUnit::kWorld;
-  int units = 0;            ///< number of units in the first condition; worlds, if each is a unit
-  std::string metric = {};  ///< the metric whose differences answers compare (ValueMetricOf), or success
+  int units = 0;            ///< number of units in the first condition; the number of worlds if each is a unit
+  std::string metric = {};  ///< the metric that answers compare (ValueMetricOf), or the success metric
   /// The standard deviation over worlds of the differences in `metric` between two methods, in the metric's unit: the
   /// first method that is compared with another, and its baseline. It is the median over conditions. It is stored, or
   /// comes from the worlds that were run to measure the time. 0 = there are fewer than kMinSample pairs.
@@ -36,7 +36,7 @@ struct Forecast {
   Pace pace;
 };
 
-/// Checks all input like Run, estimates the time, and writes nothing. For a shipped scenario with its own clips and
+/// Checks all input as Run does, estimates the time, and writes nothing. For a shipped scenario with its own clips and
 /// recordings, the stored cost is scaled by this machine's speed; clips are not read and recognisers are not trained.
 /// For any other scenario, the first worlds are run until `sample_seconds` have passed, at least one per scenario.
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds);

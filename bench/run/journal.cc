@@ -232,7 +232,7 @@ Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, Cel
       content.damaged.push_back(number);
       continue;
     }
-    // A second line of a cell counts as damaged, too.
+    // A second line of the same cell also counts as damaged.
     if (!cell->is_measured && answered == nullptr) continue;
     const LineInFile place{cell->is_measured ? file : answered_file, offset, line.size()};
     ASSIGN_OR_RETURN(const bool counts, AddCell(*cell, place, {path.string(), number}, plan, content.head.shard,

@@ -54,7 +54,7 @@ Json DescribeClips(const ClipLibrary& library) {
 /// answers.
 Json DescribeFiles(const PreparedScenario& scenario) {
   Json files = Json::array();
-  std::map<std::string, Result<std::string>> known;  // several worlds may lie in one file
+  std::map<std::string, Result<std::string>> known;  // several worlds may be in one file
   for (const JudgedFiles& world : scenario.setup().files) {
     std::vector<std::string> references = {world.truth};
     references.insert(references.end(), world.answers.begin(), world.answers.end());

@@ -34,7 +34,7 @@ class OutsideMetrics {
 Result<void> CheckMetricVectors(std::span<const PreparedScenario> scenarios, const Fence& fence);
 
 /// Returns the file in `folder` to which a scenario's program writes its standard error. Returns "" if `folder` is "":
-/// the program then writes to our standard error. Programs of one scenario must have different names.
+/// the program then writes to Etude's standard error. Programs of one scenario must have different names.
 std::string ErrorFileOf(const std::string& folder, const Scenario& scenario, const std::string& program);
 
 }  // namespace etude

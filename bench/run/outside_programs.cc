@@ -122,8 +122,8 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
       RETURN_IF_ERROR(CheckShown(scenario, program, ViewOf(command, program.entry->files), folder, key));
     }
   }
-  // Hide our installed program and scenarios, but not the examples, because methods import them. Also hide the clips
-  // that are publicly available.
+  // Hide the installed program and scenarios of Etude, but not the examples, because methods import them. Also hide the
+  // clips that are publicly available.
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   fence.Hide(program);
   fence.Hide(program.parent_path().parent_path() / "share/etude/scenarios");

@@ -31,7 +31,7 @@ struct Shard {
 Result<Shard> ParseShard(const std::string& text);
 std::string ToString(const Shard& shard);
 
-/// A world, and the indices of those of its methods that must be run, ascending.
+/// An order for a worker: a world, and the ascending indices of those of its methods that must be run.
 struct Order {
   std::size_t world = 0;
   std::vector<std::size_t> methods;
@@ -96,7 +96,7 @@ class OrderQueue {
 
   std::vector<Condition> conditions_;  ///< in the order of the plan
   std::function<bool(int scenario)> is_long_;
-  std::vector<std::size_t> open_;  ///< conditions that were begun and have, or had, orders left
+  std::vector<std::size_t> open_;  ///< begun conditions; the orders of some may be used up
   std::size_t begun_ = 0;          ///< the number of conditions that were begun or had no orders
   std::size_t left_ = 0;
 };

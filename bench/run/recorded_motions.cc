@@ -58,7 +58,7 @@ Result<ClipFile> ReadPair(const std::string& extras_json, const std::string& pat
 class ResultFolders : public RecordedMotions {
  public:
   bool IsRecording(std::string_view text) const override {
-    // Recordings of version 1 begin with the second text.
+    // Recordings of version 2 begin with the first text, those of version 1 with the second text.
     return text.starts_with(R"({"recording":)") || text.starts_with(R"({"tracks":)");
   }
 

@@ -131,7 +131,7 @@ class JournalRecorder {
   CellTable* answered_;  ///< null if no program measures cells
   Journal journal_;
   std::uint32_t file_, answered_file_;  ///< numbers of the journal in the two tables
-  Progress progress_, unsynced_;        ///< the progress that is on the disk, and the progress that is written
+  Progress progress_, unsynced_;  ///< the progress of the cells that are synced to the disk, and of all written cells
   const std::function<void(const Progress&)>& on_progress_;
 };
 

@@ -113,7 +113,7 @@ std::vector<TemporaryFolder> RunFolder::FindLeft() const {
 }
 
 Result<bool> RunFolder::TakeUp() {
-  std::vector<TemporaryFolder> left = FindLeft();  // the destructor deletes them, unless one is moved out
+  std::vector<TemporaryFolder> left = FindLeft();  // their destructors delete the folders, unless one is moved out
   if (left.empty()) return false;
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(path_));
   if (state == FolderState::kFinished) return false;
@@ -204,7 +204,7 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({path_.string(), 0, 0}, "another run is writing into it; choose another folder with -o");
     }
-    // If the previous owner deleted the file before we locked it, try again.
+    // If the previous owner deleted the file before this process locked it, try again.
     struct stat locked {
     }, named{};
     if (::fstat(lock_, &locked) == 0 && ::stat(file.c_str(), &named) == 0 && locked.st_ino == named.st_ino) return {};
@@ -239,7 +239,7 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   std::vector<ScenarioSummary> summaries;
   std::size_t cell = 0;
   bool is_stopped = false;
-  const auto told = [&](std::size_t read, std::size_t summarised) {  // both in rows
+  const auto told = [&](std::size_t read, std::size_t summarised) {  // both numbers count rows
     const double all = 2.0 * static_cast<double>(std::max<std::size_t>(1, plan.cell_count()));
     is_stopped = is_stopped || !goes_on(static_cast<double>(read + summarised) / all);
   };

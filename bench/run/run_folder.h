@@ -55,7 +55,7 @@ class RunFolder {
   std::vector<TemporaryFolder> FindLeft() const;
 
   std::filesystem::path path_;
-  bool is_ours_;                          ///< made by this run, and still without results to keep
+  bool is_ours_;                          ///< true: this run made the folder, and there are no results to keep yet
   bool is_kept_ = false;                  ///< Keep was called
   int lock_ = -1;                         ///< released by the system when the process ends
   std::optional<TemporaryFolder> aside_;  ///< holds the folder's old content, as `kOldRun`
@@ -64,9 +64,9 @@ class RunFolder {
 
 /// Writes the results of a whole run into its folder: cells, series, recordings, summary, timings, and last host.json.
 /// Then removes the journal, after which the folder counts as finished. `cells` must be complete. `jobs` processes
-/// share the statistics of large runs. `goes_on` receives the share of this work that is done, after every few thousand
-/// rows and after each part of the statistics. If it returns false, the folder stays unfinished. Returns true if the
-/// folder is finished.
+/// share the statistics of large runs. `goes_on` receives the finished share of this work after every few thousand rows
+/// and after each part of the statistics. If it returns false, the folder stays unfinished. Returns true if the folder
+/// is finished.
 Result<bool> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host,
                        int jobs, const std::function<bool(double share)>& goes_on);
 

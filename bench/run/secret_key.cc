@@ -42,7 +42,7 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
   char* text = std::getenv(kKeyVariable);
   if (text == nullptr) return std::nullopt;
   const auto words = ParseWords256(text);
-  std::memset(text, '0', std::strlen(text));  // other processes could read it in our environment
+  std::memset(text, '0', std::strlen(text));  // other processes could read it in this process's environment
   ::unsetenv(kKeyVariable);
   if (!words) return Fail({kKeyVariable}, "holds no key; allowed: 64 hexadecimal digits");
   return SecretKey{*words, ""};

@@ -76,9 +76,9 @@ std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, Sampling
   return {names.begin(), names.end()};
 }
 
-/// Returns the dice name of every condition. In secret worlds the name contains the swept values, so adding a value to
-/// a sweep changes no other condition's dice. The label is preceded by its length, so that no label can be read as the
-/// start of another.
+/// Returns, for every condition, the name that keys its random numbers. In secret worlds the name contains the swept
+/// values, so adding a value to a sweep changes no other condition's dice. The text of the swept values is preceded by
+/// its length, so that no text can be read as the start of another.
 std::vector<std::string> NameDice(const Scenario& scenario, const Seed& seed) {
   std::vector<std::string> names;
   for (const Condition& condition : scenario.conditions) {

@@ -46,7 +46,7 @@ struct ScenarioSetup {
 /// A method whose answers are read from files and scored; it is not run (etude score).
 struct ScoredMethod {
   std::string name;
-  bool alone = false;  ///< true: instead of the scenarios' own methods; false: in addition to them
+  bool alone = false;  ///< true: it replaces the scenarios' own methods; false: it is added to them
 };
 
 /// The version of the rule that makes secret worlds. Since version 2 clips are disguised (bench/tasks/base/disguise.h);
@@ -111,7 +111,7 @@ class PreparedScenario {
   std::unique_ptr<LabelledStreams> recordings_;
   std::unique_ptr<OpenOptions> opening_;
   std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
-  std::vector<std::string> dice_names_;       ///< one per condition: WorldKey::scenario
+  std::vector<std::string> dice_names_;       ///< one per condition; each becomes WorldKey::scenario
 };
 
 /// Finds the files of a scenario whose task judges files, and sets the number of trials to the number of worlds found.

@@ -177,7 +177,8 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   }
   if (uses_recordings) users.recordings.insert(file);
   if (is_recorded) scenario.streams.files = options.streams;
-  // New recordings need new labels.
+  // The scenario's labels belong to its own recordings. If the options give recordings or labels, the labels of the
+  // options replace them.
   if (is_recorded || (uses_recordings && !options.labels.empty())) scenario.streams.labels = options.labels;
   // With libraries or recordings, the scenario's own clips are not used.
   std::vector<std::string> clips = replaced ? options.clips : scenario.clips;

@@ -26,10 +26,10 @@ namespace {
 
 constexpr int kPollMilliseconds = 20;      // a measured memory size or time is at most this old
 constexpr double kAheadS = 0.05;           // seconds of work given to a worker at a time, estimated from earlier worlds
-constexpr double kLongWorldS = 1;          // a longer one at the end delays the run more than preparing twice
-constexpr int kGatherMicroseconds = 2000;  // if all workers have further orders, their answers are collected together
+constexpr double kLongWorldS = 1;          // begun last, a longer world costs more than preparing its condition twice
+constexpr int kGatherMicroseconds = 2000;  // if no worker waits, pause for more answers
 constexpr int kMaxDeathsInSetup = 3;       // a single death may be chance (a shortage of memory, a stray kill)
-constexpr double kMaxSetupS = 600;         // clips are loaded during it
+constexpr double kMaxSetupS = 600;         // maximum duration of a set-up, in which clips are loaded
 constexpr double kClockPerLimit = 20;      // the maximum wall time, per second of the limit on processor time
 constexpr double kGraceS = 10;             // time for a worker to end an outside method and report it
 constexpr int kShutdownGraceMs = 3000;     // time for a worker to end all its outside methods
@@ -46,10 +46,10 @@ struct Worker {
 
   ChildProcess process;
   Clock::time_point deadline;       ///< deadline of the current work; if it is missed, this machine was too slow
-  double cpu_s = 0;                 ///< processor time at the last measurement …
-  double cpu_began = 0;             ///< … and at the beginning of the current work
+  double cpu_s = 0;                 ///< processor time at the last measurement
+  double cpu_began = 0;             ///< processor time at the beginning of the current work
   bool ready = false;               ///< true: its set-up is done
-  std::deque<Order> orders;         ///< the current one, with the methods not yet answered, then further ones
+  std::deque<Order> orders;         ///< first the current order, with its unanswered methods; then further orders
   bool built = false;               ///< true: its current world is built
   bool dismissed = false;           ///< true: it has ended and is not replaced
   Clock::time_point began = {};     ///< start of its current world
@@ -78,9 +78,9 @@ class Supervisor {
         paces_(plan.scenarios().size()) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
-    AdoptOrphans();  // the outside methods of a killed worker become our children
+    AdoptOrphans();  // the outside methods of a killed worker become children of this process
     const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
-    std::size_t programs = 1;  // the maximum number that one worker runs at the same time
+    std::size_t programs = 1;  // the maximum number of programs that one worker runs at the same time
     for (const PreparedScenario& scenario : plan_.scenarios())
       programs = std::max(programs, ProgramsIn(scenario.scenario()).size());
     Fence fence = options_.fence;
@@ -92,7 +92,7 @@ class Supervisor {
     setup_line_ = setup_line;
     while (workers_.size() < jobs) {
       auto worker = StartWorker();
-      if (!worker && !workers_.empty()) break;  // fewer workers suffice
+      if (!worker && !workers_.empty()) break;  // the run continues with fewer workers
       if (!worker) return tl::unexpected(worker.error());
       workers_.push_back(std::move(*worker));
     }
@@ -156,7 +156,7 @@ class Supervisor {
 
   static ProcessUsage Measure(Worker& worker) {
     worker.measured = Clock::now();
-    const ProcessUsage usage = worker.process.MeasureAlone();  // the worker watches its outside methods
+    const ProcessUsage usage = worker.process.MeasureAlone();  // the worker itself measures its outside methods
     worker.cpu_s = usage.own_cpu_s;
     return usage;
   }
@@ -238,7 +238,7 @@ class Supervisor {
       }
       if (worker.dismissed) return {};
       if (!alive) return ReplaceEnded(worker);
-      if (worker.ready) RETURN_IF_ERROR(HandOut(worker));  // further orders
+      if (worker.ready) RETURN_IF_ERROR(HandOut(worker));  // give it further orders
     }
     // Enforce the limits of wall time, memory and processor time.
     const auto now = Clock::now();
@@ -369,7 +369,7 @@ class Supervisor {
   std::string setup_line_;
   std::vector<Worker> workers_;
   std::vector<Pace> paces_;  ///< one per scenario
-  int deaths_in_setup_ = 0;  ///< since the last worker became ready
+  int deaths_in_setup_ = 0;  ///< number of deaths since the last worker became ready
   std::size_t not_run_ = 0;  ///< number of cells that were not run
   std::string why_not_run_;  ///< the reason of the first of them
 };

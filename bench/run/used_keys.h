@@ -33,8 +33,8 @@ Result<void> CheckUnused(const SecretKey& key, const KeyUse& use);
 /// written.
 Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used);
 
-/// Adds the use to the key's list if it is not there yet. A replay asks programs that the manifest names, and these
-/// learn the worlds. Fails if the list cannot be written.
+/// Adds the use by a replay to the key's list if it is not there yet. A replay is a use, because the programs that the
+/// manifest names learn the key's worlds in it. Fails if the list cannot be written.
 Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use);
 
 }  // namespace etude

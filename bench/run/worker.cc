@@ -121,7 +121,7 @@ int RunWorker(std::istream& in, std::ostream& out) {
   // A job scheduler signals every process of a job, but only the parent decides when workers stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
-  std::signal(SIGBUS, SIG_DFL);     // a method's fault is a crash
+  std::signal(SIGBUS, SIG_DFL);     // an invalid memory access by a method is then a crash
   in.exceptions(std::ios::badbit);  // otherwise, a shortage of memory would look like the end of input
   try {
     const auto done = Work(in, out);

@@ -182,7 +182,7 @@ Json ScenarioSchema() {
   Json listed{{"allOf", {Ref("scenario"), Has("scenario")}}, {"properties", Json::object()}};
   Json tops = Json::array();
   for (const KeyInfo& key : FileKeys()) listed["properties"][key.key] = false;
-  for (const TaskKind& kind : AllTaskKinds()) {  // if `defaults` names the task of all scenarios of the file
+  for (const TaskKind& kind : AllTaskKinds()) {  // for files whose `defaults` name the task of all scenarios
     Json in_list = ListOf({{"if", {{"not", Has("task")}}}, {"then", Ref(kind.name)}});
     tops.push_back(If({{"properties", {{"defaults", Says("task", kind.name)}}}, {"required", {"defaults"}}},
                       {{"properties", {{"scenarios", std::move(in_list)}}}}));
@@ -198,7 +198,7 @@ Json ScenarioSchema() {
   of_list["properties"]["scenarios"]["items"] = std::move(listed);
   of_list["properties"]["defaults"] = {{"allOf", {Ref("scenario")}}, {"properties", {{"scenario", false}}}};
   of_list["allOf"] = std::move(tops);
-  Json only_defaults = of_list;  // a file that others include
+  Json only_defaults = of_list;  // for a file of defaults that other files include
   for (const char* key : {"required", "allOf"}) only_defaults.erase(key);
   only_defaults["properties"].erase("scenarios");
   // The schema of a file with a single scenario.

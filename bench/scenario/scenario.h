@@ -56,14 +56,13 @@ struct RecordingSelection {
 
 struct MethodEntry {
   std::string name;
-  std::string against;            ///< the method it is compared with; the first method is compared with itself
+  std::string against;            ///< the method with which it is compared; the first method is compared with itself
   Node node;                      ///< the mapping that its task reads; not used for an outside method without a seat
   std::vector<std::string> exec;  ///< an outside method's program and arguments; empty = built in
   std::string options_json;       ///< an outside method's `options`, sent to it unchanged
   std::optional<double> time_s;   ///< an outside method's own limit per problem or step, instead of Limits::time_s
   std::string seat = {};          ///< an outside method's seat in the task's loop; "" = it is asked once per world
-  std::vector<std::string> files = {};  ///< files that the sandbox shows an outside method; empty = its program's own
-                                        ///< folder
+  std::vector<std::string> files = {};  ///< files that a sandbox shows to the program; empty = the program's own folder
   std::string description = {};         ///< a sentence about the method, for readers of the results; "" = not described
 
   /// Returns true if the task runs the method: a built-in method as a whole, or, for a program with a seat, the other

@@ -144,7 +144,7 @@ class Collector {
   }
 
   const TextOf& text_of_;
-  std::vector<std::string> chain_;  ///< from the scenario file to the file being read
+  std::vector<std::string> chain_;  ///< the files from the scenario file to the file that is being read
   int inclusions_ = 0;
 };
 

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Returns the text of a file. `asked_at` is the place at which the file's name stands; an error names this place.
+/// Returns the text of a file. `asked_at` is the place where the file is named; errors state this place.
 using TextOf = std::function<Result<std::string>(const std::string& file, const Place& asked_at)>;
 
 /// Returns the mappings of the scenarios of `file`, in order. Defaults are inserted for keys that a scenario does not

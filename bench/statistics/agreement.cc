@@ -103,7 +103,7 @@ CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<
 }
 
 std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
-  std::map<std::string_view, const std::vector<Series>*> held;  // by cell
+  std::map<std::string_view, const std::vector<Series>*> held;  // the series of each cell, by cell
   for (const CellSeries& cell : run.series) held.emplace(cell.cell, &cell.series);
   // Collect the sums of each angle with their units.
   struct Collected {
@@ -112,7 +112,7 @@ std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
   };
   std::vector<AngleAgreement> found;
   std::vector<Collected> collected;
-  std::map<std::string, std::size_t> places;  // by condition, method and angle
+  std::map<std::string, std::size_t> places;  // index in `found`, by condition, method and angle
   ForEachRow(run, [&](const Row& row, std::size_t place) {
     std::vector<Series> read;
     const auto known = held.find(row.Id());

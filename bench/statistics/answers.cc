@@ -19,7 +19,7 @@ MetricInfo ShareMetric(const Study& study, const std::string& id) {
   MetricInfo metric = *FindMetric(id);
   metric.direction = Direction::kHigherIsBetter;
   metric.aggregate = Aggregate::kMean;
-  metric.reading = metric.reading == Reading::kAmount ? Reading::kYesNo : metric.reading;  // a world's tail
+  metric.reading = metric.reading == Reading::kAmount ? Reading::kYesNo : metric.reading;  // a tail is yes or no
   metric.practical = study.success_matters;
   return metric;
 }
@@ -52,7 +52,7 @@ PairedWorlds SuccessesOf(const Pairing& pairing, const std::string& success) {
   return worlds;
 }
 
-/// Returns a pair for each world whose difference is −1 if the method's value is far worse, 1 if it is far better, and
+/// Returns one pair for each world. Its difference is −1 if the method's value is far worse, 1 if it is far better, and
 /// else 0.
 PairedWorlds FarOff(const PairedWorlds& values, const MetricInfo& metric, double times) {
   PairedWorlds far = values;

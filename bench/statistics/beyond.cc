@@ -144,7 +144,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   beyond.mean_high = KeepThirtyBits(mean + half);
   // Choose the test by the counts, never by the result.
   if (SmallestP(beyond.units) * comparisons <= kAlpha) {
-    // If all values have the same size, their ranks are equal, and this is the sign test.
+    // If all values have the same size, their ranks are equal, and the test is then the sign test.
     beyond.test = SignedRankTest(values);
     beyond.test.how = "signed ranks of units, " + beyond.test.how;
   } else {

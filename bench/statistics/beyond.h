@@ -32,7 +32,7 @@ constexpr int kMinUnits = 6;
 /// 1958; for nodes of a network Snijders & Borgatti 1999).
 ///
 /// The estimate is the pseudo-median of these values, with its interval, because the interval of a mean over few units
-/// fails if the values are skewed or one is an outlier (docs/findings/verdicts.md). The mean is reported too, with
+/// fails if the values are skewed or one is an outlier (docs/findings/verdicts.md). The mean is also reported, with
 /// Student's interval from the jackknife's standard error. If every unit's value is −1, 0 or 1 (one yes-or-no world
 /// each), the estimate is the mean, with the interval of the difference of two shares. Such values are symmetric if
 /// their mean is zero, as the test requires. The test is Wilcoxon's signed-rank test of the values if it can reach 5 %

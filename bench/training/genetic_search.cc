@@ -28,7 +28,8 @@ const Result<PagmoEvolve*>& Module() {
 }
 
 using enum Feature;
-/// The features that are tuned, each with the corresponding feature of the other side. Both are tuned together.
+/// The features that are tuned, each with the corresponding feature of the body's other side. Both features of a pair
+/// are tuned together.
 constexpr Feature kTuned[][2] = {{kRH, kLH},       {kRHE, kLHE}, {kPosture, kPosture},
                                  {kTrunk, kTrunk}, {kRF, kLF},   {kRFK, kLFK}};
 

@@ -42,7 +42,7 @@ GeneticResult SearchGenetically(const std::function<double(std::span<const doubl
                                 std::span<const Genome> ancestors, const GeneticOptions& options = {});
 
 /// The type of the module's only function, which performs the search. The module's symbol `etude_pagmo_evolve` points
-/// to it. It also receives the seeds of the random genomes and of the algorithm.
+/// to it. The function also receives the seeds of the random genomes and of the algorithm.
 using PagmoEvolve = void(const std::function<double(std::span<const double>)>& score, std::span<const Genome> ancestors,
                          const GeneticOptions& options, unsigned population_seed, unsigned algorithm_seed,
                          GeneticResult& result);
@@ -52,10 +52,10 @@ using PagmoEvolve = void(const std::function<double(std::span<const double>)>& s
 /// overfit these pairs and do worse on other clips.
 constexpr double kFitnessRamp = 0.5;
 
-/// Fits the `genetic` weights (future work in paper A; the method is ours): the weights S ≥ 0 with sum 8 for which "d <
-/// 0.4" best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the result is no worse
-/// on the training pairs. The status is that of FitWeights; `iterations` counts generations. Unless the status is
-/// kFitted, the weights are `start`.
+/// Fits the `genetic` weights (paper A leaves them to future work; the method is Etude's): the weights S ≥ 0 with sum 8
+/// for which "d < 0.4" best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the
+/// result is no worse on the training pairs. The status is that of FitWeights; `iterations` counts generations. Unless
+/// the status is kFitted, the weights are `start`.
 WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
                                 const GeneticOptions& options = {});
 
@@ -70,8 +70,8 @@ Genome GenesOf(const FeatureWeights& weights);
 constexpr double kBreakpointReach = 0.2;
 
 /// Returns the number of genes of the memberships. There is one gene per breakpoint of the triangular and trapezoidal
-/// shapes inside the universe. Breakpoints at the ends of the universe are fixed, so that shoulders stay shoulders.
-/// Left and right limbs share their genes. Gaussian and singleton shapes are fixed.
+/// shapes inside the universe. Breakpoints at the ends of the universe are fixed, so that a shape that is flat up to an
+/// end (a shoulder) stays flat there. Left and right limbs share their genes. Gaussian and singleton shapes are fixed.
 std::size_t CountMembershipGenes(const Memberships& start);
 
 /// Returns the memberships for genes in [0, 1]. Every breakpoint of `start` is moved by (2 gene − 1) ·

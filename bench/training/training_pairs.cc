@@ -103,7 +103,7 @@ void UpdateGrades(std::span<const std::vector<TrainingFrame>> clips, const Membe
 }
 
 PairTable::PairTable(std::span<const LabelledPair> pairs) {
-  blocks_.resize((pairs.size() + kBlock - 1) / kBlock);  // all zeros
+  blocks_.resize((pairs.size() + kBlock - 1) / kBlock);  // the values of the blocks are zero at first
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     Block& block = blocks_[i / kBlock];
     for (std::size_t k = 0; k < kFeatureCount; ++k) {

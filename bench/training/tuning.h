@@ -26,8 +26,8 @@ struct TunedSystem {
   int generations = 0;  ///< generations of the genetic algorithm, or Newton steps
 };
 
-/// Tunes a fuzzy system until "d < 0.4" separates the close pairs of these clips as well as possible (future work in
-/// paper A; the methods are ours). `genetic` has no effect on kAdaptive.
+/// Tunes a fuzzy system until "d < 0.4" separates the close pairs of these clips as well as possible (paper A leaves
+/// this to future work; the methods are Etude's). `genetic` has no effect on kAdaptive.
 TunedSystem TuneSystem(ClipFrames clips, Tuning tuning, const GeneticOptions& genetic = {});
 
 /// Measures how well a system separates close pairs of clips.

@@ -65,7 +65,7 @@ inline void ExpectFinite(const char* name, const Array& array) {
   }
 }
 
-/// The shape that one T takes in an array; its numbers are stored row by row.
+/// The shape of one value of type T in an array. Its numbers are stored row by row.
 template <typename T>
 const std::vector<py::ssize_t> kShape{};
 template <>

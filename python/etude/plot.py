@@ -8,7 +8,7 @@ from etude.results import Pairs
 from etude.tables import condition_text
 
 Figure = needed("matplotlib.figure").Figure
-# The page's colours, in its order.
+# The colours of the report page, in the page's order.
 COLOURS = ("#41464b", "#1ea194", "#9c5201", "#8b19e6", "#316f93", "#ae8f16", "#470014", "#02175b")
 DASHES = ("-", "-", "-", "-", "--", "--", ":", ":")
 BAND, QUIET = "#e4e2da", "#8a8a86"

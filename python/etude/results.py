@@ -242,7 +242,7 @@ class Run:
                 if name == method:
                     world[2] = values[i]
         found = [(*key, *world) for key, world in worlds.items() if world[1] is not None and world[2] is not None]
-        # Count the other worlds, and find the summary's verdict.
+        # Count the worlds without a pair of values, and find the summary's verdict.
         counts = (sum(world[1] is not None and world[2] is None for world in worlds.values()),
                   sum(world[1] is None and world[2] is not None for world in worlds.values()),
                   sum(world[1] is None and world[2] is None for world in worlds.values()))

@@ -240,7 +240,7 @@ def table_of_columns(folder, metrics):
 
     here = {path.stem for path in folder.glob("*.npy")}
     named = [text or None for text in index["texts"]]
-    # Readers of the settings, which the index stores once per condition, trial and method.
+    # Make readers of the settings, which the index stores once per condition, trial and method.
     readers = {}
     for key in conditions[0] if conditions else ():
         of_conditions = [_as_row_has_it(each[key]) for each in conditions]
@@ -253,7 +253,7 @@ def table_of_columns(folder, metrics):
     for name in ("clip", "reason"):
         if name in here:
             readers[name] = lambda name=name: texts(name, named)
-    # Readers of the metrics; a metric without a file has no value in any cell.
+    # Make readers of the metrics. A metric without a file has no value in any cell.
     wanted = list(dict.fromkeys(name for kind in index["kinds"] for name in kind["metrics"]))
     nulls = {}
     for name in wanted:

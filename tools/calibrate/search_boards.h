@@ -18,7 +18,8 @@ struct CameraBoards {
   std::size_t most_corners = 0;
 };
 
-/// Prepares the search for the board that the options name: a board as OpenCV defines it, or a board of ours.
+/// Prepares the search for the board that the options name: a board as OpenCV defines it, or one of Etude's coded
+/// boards.
 Result<BoardViews> SearchFor(const CalibrateOptions& options);
 
 /// Searches the pictures of camera `camera`, a folder or a film, for boards and adds their views.

@@ -25,7 +25,7 @@ struct CaptureFilmsOptions {
   bool accepts_doubtful = false;     ///< for silhouettes: write the motion even if `CapturedFilms::doubt` is not empty
   /// For silhouettes: a folder with masks of each film, "" = the masks are computed from the films.
   std::string masks;
-  std::optional<int> mask_id;        ///< the value of the person's pixels; absent = any but the background's
+  std::optional<int> mask_id;        ///< the value of the person's pixels; absent = every value but the background's
   double stature_m = 0;              ///< for silhouettes: the person's height, metres; 0 = estimated
   std::string output;                ///< BVH, GLB, TRC or CSV, chosen by the extension
   std::string points;                ///< a TRC of the triangulated keypoints, "" = none

@@ -31,7 +31,7 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
   recover.cutoff_hz = options.smooth_hz;
   recover.max_gap_s = options.max_gap_s;
   constexpr double kMinOutlierShare =
-      0.004;  // of the picture's longer side; rounding and lenses cause errors up to this
+      0.004;  // share of the picture's longer side; rounding and lenses cause errors up to this size
   recover.min_outlier_px = kMinOutlierShare * longer_side;
   if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
   recover.mends = recover.match.may_be_swapped = true;
@@ -242,7 +242,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
   // Move the rig and the points into the world: metres, Y up, with the floor that the options define.
-  for (const FilmedView& view : views) {  // these cameras hold the repairs that the recovery made
+  for (const FilmedView& view : views) {  // these cameras contain the corrections that the recovery made
     const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
     if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
   }

@@ -77,7 +77,7 @@ Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, con
                        const BodyMotion& motion);
 /// Measures the difference between body and silhouette in each camera, per cent.
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person);
-/// Returns the median over cameras and frames; 100 without any value.
+/// Returns the median over cameras and frames; 100 if there is no value.
 double MedianOf(const CameraResiduals& residuals);
 /// Writes the page of a capture from keypoints or marks.
 /// @param views their cameras are in world coordinates
@@ -103,15 +103,15 @@ constexpr char kLost = '!';
 
 /// A column of the comparison table: the distances of some cameras' result from the reference.
 struct ComparedColumn {
-  std::string heading;  ///< the cameras, with `kLost` if they gave no motion
+  std::string heading;  ///< the names of the cameras; `kLost` is appended if no motion was recovered from them
   std::vector<MarkerAgreement> markers;
   MarkerAgreement all;
 };
 ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, const MarkerMotion& reference);
 
-/// Synchronises a reference with a motion whose frames were matched by number. If the frame rates differ, it measures
-/// and reports the drift between both, and removes it if that halves the share of large distances. It also reports
-/// different lengths.
+/// Synchronises a reference with a motion. Frames of the same number are taken as simultaneous. If the frame rates
+/// differ, the drift between both is measured and reported, and removed if that halves the share of large distances.
+/// Different lengths are also reported.
 MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference, MessageLog& told);
 
 /// Prints a table under the heading `words`: the medians (one row for each marker of the first column, and one row for

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns the median distance in pixels between a frame's keypoints and the projected points of all cameras; nullopt
-/// if no point is shared.
+/// if no keypoint has a triangulated point.
 std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places) {
   std::vector<double> distances;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {

@@ -71,7 +71,8 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
         for (Keypoint& keypoint : person.keypoints) keypoint.pixel = guess.fit.ToRig(keypoint.pixel);
       }
     }
-    // Keypoints from pictures that were scaled otherwise than the film do not show how the film itself was scaled.
+    // If the keypoints' pictures were scaled differently from the film, the keypoints do not show how the film itself
+    // was scaled.
     const bool is_films_own = guess.fit.scale == view.fit.scale && guess.fit.shift == view.fit.shift;
     if (is_films_own) view.fit = guess.fit;
   }

@@ -201,7 +201,7 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
     if (in.width == 0) FindSize(view, told);
     const bool is_turned = options.fit == "none" && in.width != in.height && in.width == view.facts.height &&
                            in.height == view.facts.width;
-    if (is_turned) {  // the keypoints decide later in which direction the film is turned
+    if (is_turned) {  // the keypoints will show in which direction the film is turned
       view.fit = {.quarter_turns = 1, .size = {in.width, in.height}};
       views.push_back(std::move(view));
       continue;
@@ -235,7 +235,7 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
                           reference.frames.size(), frames, std::min(reference.frames.size(), frames)));
   }
   const double own_rate = reference.rate_hz;
-  constexpr double kWritten = 1e-5;  // the file says 29.97 for 30000/1001
+  constexpr double kWritten = 1e-5;  // relative tolerance: a file rounds 30000/1001 to 29.97
   // If the rates differ, measure the drift, and undo it if that halves the share of large distances.
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);

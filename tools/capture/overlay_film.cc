@@ -33,7 +33,7 @@ std::vector<Box> Layout(std::span<const OverlayView> views, int& width, int& hei
     boxes.push_back({x, 0, wide, std::round(tall)});
     x += wide;
   }
-  width = static_cast<int>(x) / 2 * 2;  // the encoder wants even numbers
+  width = static_cast<int>(x) / 2 * 2;  // the encoder requires even numbers
   height = static_cast<int>(std::round(tall)) / 2 * 2;
   return boxes;
 }

@@ -24,7 +24,7 @@ struct OverlayView {
   PixelFit fit;  ///< maps the rig's pixels to the film's
   /// Frame k of the film was taken at k + offset frames of the motion.
   double offset = 0;
-  /// For each frame of the motion, in the film's pixels; nullopt if nobody was seen.
+  /// The person's keypoints in each frame of the motion, in the film's pixels; nullopt if nobody was seen.
   std::vector<std::optional<SeenPerson>> keypoints;
   /// Frame k was taken at (1 + drift) k + offset if the rates differ.
   double drift = 0;

@@ -16,16 +16,15 @@ namespace etude {
 /// The clips of a library, and the rules by which their frames are tagged and matched.
 struct BridgeLibraryOptions {
   std::vector<std::string> clips;  ///< references; each clip counts once
-  /// The corrective clips, which are added to the library; empty = the coach's own clips.
+  /// The corrective clips, which are added to the library; empty = the coach's own clips among `clips`.
   std::vector<std::string> to;
-                                   ///< among `clips`
   FuzzySystem system;
   double threshold = 0.4;          ///< frames match if their fuzzy distance is smaller
   int min_clips = 2;               ///< minimum number of clips in which the tags of a bridge frame must occur
   int most_per_class = 0;          ///< maximum number of bridge frames per clip and pose; 0 = all
   bool within_class = false;       ///< compare only frames with the same ten tags
   OpenOptions reading;
-  OnProgress on_progress = {};     ///< gets the number of clips read
+  OnProgress on_progress = {};     ///< receives the number of clips that have been read
 };
 
 /// The clips of `etude bridge`, performed by one body and tagged.

@@ -24,7 +24,7 @@ struct ClipSummary {
   int reached = 0;         ///< number of other clips that it leads into; only with pairs
   double frame_share = 0;  ///< with pairs, this and the next member are means over the other clips
   double in_between_share = 0;
-  std::optional<double> worst_wait_s;  ///< with pairs, over the clips that it leads into
+  std::optional<double> worst_wait_s;  ///< the longest wait; with pairs, over the clips that it leads into
 };
 
 ClipSummary Summarize(const TaggedClip& clip, const Coverage& coverage, int from) {

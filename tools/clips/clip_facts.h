@@ -31,7 +31,7 @@ struct BodyFacts {
   UpFinding up = {};  ///< the file's up axis, and the evidence for it
   double floor = 0;   ///< height in the file's unit
   bool dropped_t_pose = false;
-  std::vector<std::string> changes;  ///< BodyConversion::changes
+  std::vector<std::string> changes;  ///< the changes made to the file's body (BodyConversion::changes)
   MotionStatistics motion;
   /// The motion's faults at the file's own rate and heights (FaultsOf); absent if they were not searched for.
   std::optional<MotionFaults> faults = {};
@@ -54,7 +54,7 @@ struct ClipFacts {
 };
 
 /// Collects the facts of every clip that a reference stands for; ExpandReference must have returned the reference. The
-/// result is never empty: a file without clips gives facts, too, and an unreadable file gives only the complaint.
+/// result is never empty: a file without clips also gives facts, and an unreadable file gives only the complaint.
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
 /// Collects the facts of a clip whose roles are known, without its faults.
 ClipFacts FactsOf(const OpenedClip& clip);

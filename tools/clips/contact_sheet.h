@@ -21,8 +21,8 @@ struct SheetOptions {
 /// The maximum width and height of a sheet, pixels; a larger sheet is refused.
 constexpr int kMaxSheetSide = 16'000;
 
-/// Draws each clip as a block of pictures, evenly spread over its time. The blocks stand one below the other, all at
-/// one scale. Returns the bytes of a PNG file. Fails if the sheet is too large.
+/// Draws each clip as a block of pictures, evenly spread over its time. The blocks are placed one below the other, all
+/// at one scale. Returns the bytes of a PNG file. Fails if the sheet is too large.
 Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer);
 
 /// Draws the pictures of sensors in rows, one below the other, each picture in a box of the same size. Returns the

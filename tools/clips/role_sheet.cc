@@ -34,7 +34,8 @@ std::vector<glm::dvec3> PositionsOf(const Clip& clip) {
   return positions;
 }
 
-/// Returns the directions that point right and up in the picture. Up is Y or Z, along which the body extends further.
+/// Returns the directions that point right and up in the picture. Up is Y or Z: the axis along which the body extends
+/// further.
 std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& positions,
                                          const std::array<RoleOnSheet, kRoleCount>& roles) {
   glm::dvec3 low = positions.front(), high = low;
@@ -71,8 +72,8 @@ void Label(const std::array<RoleOnSheet, kRoleCount>& roles, std::vector<SheetJo
   }
 }
 
-/// Draws the labels of one side below each other. Each stands as near to the height of its joint as the other labels
-/// allow.
+/// Draws the labels of one side below each other. Each label is placed as near to the height of its joint as the other
+/// labels allow.
 void DrawColumn(Canvas& canvas, std::vector<const SheetJoint*> joints, bool is_left) {
   std::ranges::stable_sort(joints, {}, [](const SheetJoint* joint) { return joint->at.y; });
   const double bottom = canvas.height() - kFoot;

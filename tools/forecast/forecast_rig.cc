@@ -95,7 +95,7 @@ double ShareSeen(const std::vector<ForecastPlace>& places) {
   return static_cast<double>(seen) / static_cast<double>(places.size());
 }
 
-/// Returns the errors at those of `places` where `own` has an error too, mm.
+/// Returns the errors of `places`, mm, at those places that also have an error in `own`.
 std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std::vector<ForecastPlace>& places) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -317,7 +317,7 @@ Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   forecast.p95_mm = Quantile(errors, k95Percent);
   forecast.worst = *std::ranges::max_element(forecast.places, {},
                                              [](const ForecastPlace& place) { return place.error_mm.value_or(-1); });
-  // Compute the errors of a person who stands there, and the gain from each change.
+  // Compute the errors of a person who stands in the volume, and the gain from each change.
   RETURN_IF_ERROR(AddJoints(cameras, options, forecast));
   AddWorths(cameras, options, forecast);
   options.listener.print(fmt::format(

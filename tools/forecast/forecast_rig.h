@@ -42,7 +42,7 @@ inline constexpr int kForecastColumns = 20, kForecastHeights = 10, kForecastRows
 struct ForecastPlace {
   glm::dvec3 place_m{0};
   int cameras = 0;                      ///< number of cameras whose pictures contain the place
-  double lost = 1;                      ///< probability that a point there cannot be triangulated
+  double lost = 1;                      ///< probability that a point in this place cannot be triangulated
   std::optional<double> error_mm = {};  ///< root mean square distance, mm; absent if two cameras never see the place
 };
 
@@ -51,7 +51,7 @@ struct RigWorth {
   std::string change;                      ///< the change, in words for users
   std::optional<glm::dvec3> added_m = {};  ///< position of the added camera; absent if the change adds none
   double seen = 0;                         ///< share of all places that are in the pictures of at least two cameras
-  double median_mm = 0;                    ///< median error over the places that the unchanged rig sees, too
+  double median_mm = 0;                    ///< median error over the places that the unchanged rig also sees
 };
 
 /// The expected root mean square errors of one joint of a person who stands in the volume.

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-/// Returns a position for every joint in every frame. Where the twin shows none, the joint keeps its last position;
-/// before the first one, it has the first position.
+/// Returns a position for every joint in every frame. In a frame in which the twin does not show the joint, the joint
+/// keeps its last position. Before its first position, it has the first position.
 BodyMotion WholeMotion(const RealRecording& real) {
   BodyMotion motion{.rate_hz = real.recording.rate_hz, .poses = std::vector<BodyPose>(real.match.truth.size())};
   for (const Role role : AllRoles()) {

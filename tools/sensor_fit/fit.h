@@ -45,8 +45,8 @@ struct SensorFitOptions {
 /// the real recording. Each step simulates, compares and corrects. It fits each group's size and depth ratio, planted
 /// feet, correlations along bones, the white noise at rest, the share of fast errors, the stretch of shoulders, arms
 /// and hands (the hands' stretch follows from their jumps), and the reference distance. All other settings keep their
-/// values, because one recording does not determine them. The settings of groups that were never seen keep their
-/// values, too. Deterministic.
+/// values, because one recording does not determine them. The settings of groups that were never seen also keep their
+/// values. Deterministic.
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options);
 
 }  // namespace etude

@@ -18,8 +18,8 @@ struct SensorStatistics {
   using ByGroup = std::array<std::optional<double>, kJointGroupCount>;
 
   ByGroup error_mm;                             ///< root mean square distance from the twin
-  std::optional<double> shoulders_and_hips_mm;  ///< shoulders and hips together
-  std::optional<double> planted_feet_mm;        ///< ankles and feet whose twin is slower than 0.1 m/s
+  std::optional<double> shoulders_and_hips_mm;  ///< the same error of shoulders and hips together
+  std::optional<double> planted_feet_mm;        ///< the same error of ankles and feet whose twin is slower than 0.1 m/s
   /// Standard deviation along the line of sight ÷ along an axis across it.
   ByGroup depth_ratio;
   std::array<std::optional<double>, kBoneKindCount> correlation;  ///< correlation of the errors at both ends of a bone

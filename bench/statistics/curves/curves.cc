@@ -13,8 +13,8 @@ struct Admitted {
   int right = 0, wrong = 0;
 };
 
-/// Returns these numbers for every threshold from the highest to the lowest. The first entry has no event. Events with
-/// equal scores make one step.
+/// Returns the numbers of admitted events for every threshold from the highest to the lowest. The first entry has no
+/// event. Events with equal scores make one step.
 std::vector<Admitted> AdmitByScore(std::span<const JudgedEvent> events) {
   std::vector<JudgedEvent> sorted(events.begin(), events.end());
   std::ranges::stable_sort(sorted, std::ranges::greater{}, &JudgedEvent::score);

@@ -16,8 +16,8 @@ namespace etude {
 /// answer: "events[2].score: \"high\" is not a number".
 class AnswerFields {
  public:
-  /// Reads the object `json`, which must outlive this object. `path` is the position of `json` in the answer; "" = it
-  /// is the answer itself.
+  /// Reads the object `json`, which must outlive this object. `path` is the position of `json` in the answer; it is
+  /// empty if `json` is the whole answer.
   explicit AnswerFields(const Json& json, std::string path = "");
 
   /// Returns true if the key exists, and marks it as known.

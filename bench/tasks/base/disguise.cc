@@ -25,8 +25,7 @@ constexpr double kSplineDeviation = 0.692;
 struct LimbTurn {
   Role child;
   double turn_deg = 0;  ///< standard deviation about each of three axes
-  double bend = 0;      ///< standard deviation of the relative change of the sine of the angle between the limb and its
-                        ///< parent
+  double bend = 0;      ///< standard deviation of the relative change of the length of BendAxis
 };
 
 constexpr std::array kTurns = {

@@ -32,7 +32,7 @@ struct FileStudy {
   }
 };
 
-/// Returns the error of functions that a task without problems for outside programs does not have.
+/// Returns the error for a request that concerns outside programs: a task that judges files has no problems for them.
 inline tl::unexpected<Error> FailOfFileTask() { return Fail({}, "a task that judges files asks no program"); }
 
 /// A world of a task that judges files. It sends no problem to a program.
@@ -43,8 +43,8 @@ class FileWorld : public TaskWorld {
   Result<CellResult> Judge(const Json& /*answer*/) final { return FailOfFileTask(); }
 };
 
-/// A task that judges files. The constructor of `World` receives the study, a world's files, and true if its cells keep
-/// their motion.
+/// A task that judges files. The constructor of `World` receives the study, a world's files, and a flag that is true if
+/// its cells keep their motion.
 template <typename Study, typename World>
 class FileTask final : public Task {
  public:

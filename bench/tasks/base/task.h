@@ -20,7 +20,8 @@
 
 namespace etude {
 
-/// An outside program that takes one seat of a world's loop and is asked in every step (docs/outside-methods.md).
+/// An outside program that does one part of a world's loop (its seat) and is asked in every step
+/// (docs/outside-methods.md).
 class LiveProgram {
  public:
   virtual ~LiveProgram() = default;
@@ -147,8 +148,8 @@ struct TaskKind {
   bool has_problems = true;      ///< true: a program without a seat may be asked one question per world
   bool uses_clips = true;        ///< true: its worlds use a scenario's `clips`
   bool uses_recordings = false;  ///< true: its worlds use a scenario's `streams`
-  /// The units from which worlds are drawn. The first is the default; a scenario may name one of the others. At least
-  /// one.
+  /// The units from which worlds are drawn. The first is the default; a scenario may name one of the others. The list
+  /// is never empty.
   std::vector<SamplingUnit> units = {SamplingUnit::kWorld};
   /// Finds the files of a task that judges files, once, when a run is set up. Such a task draws no random numbers and
   /// asks no program. `texts` are those of TaskInput. Null if the task makes its worlds.

@@ -37,7 +37,7 @@ class CaptureTaskWorld : public TaskWorld {
         keeps_motion_(keeps_motion) {}
 
   void PrepareShared() override {
-    if (!study_.sources.empty()) (void)stages_.GetTake();  // every cell reports a failure
+    if (!study_.sources.empty()) (void)stages_.GetTake();  // a failure is ignored here, because every cell reports it
   }
 
   CellResult Run(std::size_t method) override {

@@ -78,7 +78,7 @@ std::string PictureName(std::size_t camera, std::optional<std::size_t> frame, co
   return fmt::format("camera-{}-{:04}.{}", camera + 1, *frame, extension);
 }
 
-/// Simulates a first and a second Kinect's depth camera at the place of one camera.
+/// Simulates the depth cameras of the first and the second Kinect at the place of one camera.
 class DepthCameras {
  public:
   DepthCameras(const WorldKey& key, std::size_t camera)

@@ -35,8 +35,8 @@ CaptureBody OnTurningRoot(CaptureBody body) {
   return body;
 }
 
-/// Fits poses of paper B's body. It alternates between two steps: fit all angles and the root's rotation, and move the
-/// root to the best position for them.
+/// Fits poses of paper B's body. It alternates between two steps (block coordinate descent): it fits all angles and the
+/// root's rotation, and it moves the root to the best position for them.
 class PaperFitter {
  public:
   explicit PaperFitter(const CaptureBody& body) : body_(body), turning_(OnTurningRoot(body)), fitter_(turning_) {}

@@ -137,7 +137,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
 void CheckMethod(Fields& fields, CaptureMethod& method) {
   const Oracle& oracle = method.oracle;
   if (method.recovery == Recovery::kKeypoints) {
-    method.lengths = LengthSource::kMeasured;  // it uses no other lengths
+    method.lengths = LengthSource::kMeasured;  // this kind of recovery always measures the limb lengths
     if (oracle.lengths)
       fields.Complain(fields.Raw("oracle")->place, "'recovery: keypoints' measures the lengths itself");
   }

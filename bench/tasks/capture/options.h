@@ -85,9 +85,10 @@ enum class Sync {
   kEstimated,  ///< "estimated": times are estimated from the motion of the marks
 };
 
-/// The stages of the pipeline that the truth replaces, to measure their cost in the final error. With `marks`, strokes
-/// and discs are at the true joints wherever a picture shows the limb or end. With `start` or `ik`, the truth is the
-/// pose of the method's body that is nearest to the true pose (`FindNearestPoses`).
+/// Selects the stages of the pipeline whose results are replaced by the truth, which shows how much of the final error
+/// each stage causes. With `marks`, strokes and discs are at the true joints wherever a picture shows the limb or end.
+/// With `start` or `ik`, the truth is the pose of the method's body that is nearest to the true pose
+/// (`FindNearestPoses`).
 struct Oracle {
   bool calibration = false;
   bool segmentation = false;
@@ -190,10 +191,10 @@ struct PersonSource {
   Segmenter segmenter = Segmenter::kHue;
   PersonPieces pieces = PersonPieces::kLargest;
   bool is_truth = false;
-  /// True for methods that use silhouettes. Masks are then kept, and the pictures are not marked …
+  /// True for methods that use silhouettes. Masks are then kept, and pictures are marked only if `has_keypoints`.
   bool for_silhouettes = false;
-  bool has_keypoints = false;          ///< … unless this is set
-  SeatedSegmenter* program = nullptr;  ///< replaces the segmenter
+  bool has_keypoints = false;          ///< true: pictures are marked although `for_silhouettes` is set
+  SeatedSegmenter* program = nullptr;  ///< a program that replaces the segmenter, or null
   bool has_true_marks = false;         ///< exact marks at the true joints, where the picture shows them
   bool has_coloured_marks = false;     ///< marks from the suit's colours
   auto operator<=>(const PersonSource&) const = default;

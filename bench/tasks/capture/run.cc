@@ -250,7 +250,7 @@ Result<void> Recover(CaptureStages& stages, CaptureRun& run) {
       break;
     case Recovery::kEnds:
       RecoverEnds(run);
-      return {};  // already smoothed, each position with its own uncertainty
+      return {};  // RecoverEnds has already smoothed each position with its own uncertainty
     case Recovery::kBundle:
       RecoverBundle(run);
       break;

@@ -27,8 +27,8 @@ struct CaptureRun {
 /// Returns the options with which RecoverFrames runs this method.
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
-/// Returns the limits on gaps for a live method. A live method sees marked frames only, so the limits count marked
-/// frames. They stand for the same durations as if every frame were marked.
+/// Returns the limits on gaps for a live method. A live method receives marked frames only, so each limit is a number
+/// of marked frames. It is scaled to the same duration as if every frame were marked.
 BridgeOptions LiveBridgeOptions(const StudioOptions& options);
 
 /// Returns the body with which a method begins. Its limb lengths are known, or are measured from the marks. Fails, with

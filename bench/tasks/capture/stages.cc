@@ -168,7 +168,8 @@ Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, const Calibrati
   return cameras;
 }
 
-/// Returns the true measurements that the oracles of a method replace, for the frames that the annotator marks.
+/// Returns the true measurements that replace the measured ones in a method with this oracle, for the frames that the
+/// annotator marks.
 std::vector<KnownMeasurement> KnownMeasurementsOf(const CaptureWorld& world, const Oracle& oracle,
                                                   const std::vector<bool>& marked) {
   std::vector<KnownMeasurement> known(world.truth.size());

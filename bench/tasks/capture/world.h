@@ -39,12 +39,12 @@ struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< at 30 Hz, around the floor's origin, facing +Z in its middle frame
   PersonalLimbs person;            ///< the performer
   PersonalLimbs measured;          ///< the limb lengths as measured beforehand, as in paper B
-  std::array<Rgb8, 16> colours{};  ///< the performer's colours, by Part
+  std::array<Rgb8, 16> colours{};  ///< the performer's colours, indexed by Part
   std::optional<OwnFigure> own;    ///< drawn instead of the stage's people
   glm::dvec3 middle{0};            ///< the expected position of the performer on the floor
   std::vector<Camera> cameras;     ///< at least two, each with its lens
   std::vector<bool> in_view;       ///< per frame; true if two cameras see the whole body
-  Room room;                       ///< its brightness is that of the background pictures; used by the studio alone
+  Room room;                       ///< the empty room; its brightness is that of the background pictures
   StageOptions stage_options;      ///< the options of `stage`
   StagedRoom stage;                ///< the room and people that `scene` adds
   std::vector<double> brightness;  ///< brightness of each frame

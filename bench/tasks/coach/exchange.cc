@@ -150,7 +150,7 @@ class SeatedLearner final : public Player {
 
   SeatedCoachProgram& program_;
   BodyPose pose_;
-  std::vector<std::optional<PerformanceTruth>> truths_;  ///< the truth of the latest performance, by repetition
+  std::vector<std::optional<PerformanceTruth>> truths_;  ///< for each repetition, the truth of its latest performance
   bool given_up_ = false;
 };
 

@@ -63,7 +63,8 @@ std::unique_ptr<Recogniser> MakeSeatedRecogniser(SeatedCoachProgram& program);
 ///     {"mode": "dance", "move": "clap", "repetition": 3,
 ///      "verdicts": [{"move": "clap", "repetition": 2, "verdict": "wrong", "mistake": "not reached", "evidence": 0.3}]}
 ///
-/// The answer {"correct": true} interrupts the dance at once, or as soon as the coach dances.
+/// The answer {"correct": true} makes the coach interrupt the dance. If the coach does not dance at present, it
+/// interrupts as soon as it dances again.
 std::unique_ptr<MomentSource> MakeSeatedPolicy(SeatedCoachProgram& program);
 
 /// Makes a learner that asks a program. A step holds the content of the screen and the coach's decisions in this frame:

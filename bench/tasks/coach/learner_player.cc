@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// The number of frames from the time of the screen that the learner sees to the time of the requested pose.
+/// The learner's reaction time in frames: from the content of the screen that the learner sees to the requested pose.
 constexpr double kFramesAhead = static_cast<double>(SkeletonSensor::kAhead) + 1;
 
 PerformanceTruth TruthOf(Truth truth) {

@@ -35,8 +35,8 @@ class LearnerPlayer final : public Player {
   /// The frame of the dance that was shown in the previous frame; empty if the dance was not shown.
   std::optional<double> last_frame_;
   int danced_ = -1;          ///< the repetition that the learner danced in the previous frame; −1: none
-  int performances_ = 0;     ///< performances begun so far; if a repetition is danced again, it counts again
-  int about_ = -1;           ///< the move of the latest correction
+  int performances_ = 0;     ///< number of performances begun; each repeat of a repetition counts again
+  int about_ = -1;           ///< the move of the latest correction; −1: none
   std::vector<int> latest_;  ///< for each repetition of the dance, its latest performance; −1: none
 };
 

@@ -13,7 +13,7 @@ Result<ReadyCoach> MakeWatching(const CoachStage& stage) {
   CoachMethod method;
   method.name = "watching";
   method.policy.policy = FindPolicy("never");
-  // This is above the largest evidence, 1. No performance therefore counts as right before its window has closed.
+  // No evidence exceeds 1, so with this threshold no performance counts as right before its window has closed.
   constexpr double kNever = 2;
   method.sight.threshold = kNever;
   std::vector<CoachMethod> methods;

@@ -15,8 +15,8 @@ namespace etude {
 /// afterwards on the recorded session.
 Result<ReadyCoach> MakeWatching(const CoachStage& stage);
 
-/// Runs a recogniser on a recorded session. It receives the requests of the session. Calls `judged` with the evidence
-/// for every performance when its window closes.
+/// Runs a recogniser on a recorded session. The recogniser receives the requests of the session. Calls `judged` with
+/// the evidence for every performance when its window closes.
 void FollowPerformances(const SessionLog& log, const Recogniser& recogniser, const FilterOptions& filter,
                         const std::function<void(const LoggedPerformance&, double evidence)>& judged);
 
@@ -26,9 +26,9 @@ void FollowPerformances(const SessionLog& log, const Recogniser& recogniser, con
 double ThresholdOf(std::vector<double> right, double minutes, double needless_per_min);
 
 /// Sets CoachOptions::right_from for methods that do not set it. This is the evidence at or above which a performance
-/// counts as right. It is found on sessions of other people under the same condition who are never interrupted: the
-/// condition's number of right performances per minute must be taken for mistakes. `key` is the key of any judged
-/// world; the dice of the other people differ from those of the judged ones. Methods with an oracle for judgement, or
+/// counts as right. The threshold is found on uninterrupted sessions of other people under the same condition. It is
+/// such that the condition's number of right performances per minute is taken for mistakes. `key` is the key of any
+/// judged world; the other people are drawn with random numbers of their own. Methods with an oracle for judgement, or
 /// with a program as the recogniser, are not changed.
 Result<void> SetThresholds(const CoachCondition& condition, const CoachStage& stage, const WorldKey& key,
                            std::vector<CoachMethod>& methods);

@@ -51,7 +51,7 @@ struct CoachMethod {
   Coach::PolicyChoice policy{&AllPolicies().front(), {}};
   /// A yoked method corrects at the times at which a session with this policy corrects.
   const Policy* partner = &AllPolicies().front();
-  bool knows_truth = false;  ///< `oracle: [judgement]`
+  bool knows_truth = false;  ///< true: the coach knows the truth about performances (`oracle: [judgement]`)
   TransitionMethod transition;
   CoachOptions coach;
   Seat seat = Seat::kNone;

@@ -28,7 +28,7 @@ class Player {
   /// Returns the body's next pose, after the coach showed `shown`. The pose is for a time SkeletonSensor::kAhead frames
   /// (0.23 s) after `shown`, because nobody reacts at once: a simple visual reaction takes 0.2 to 0.25 s.
   virtual BodyPose Next(const CoachOutput& shown) = 0;
-  /// Returns the latest performance in this repetition of the dance; nullopt if it has not begun.
+  /// Returns the latest performance in this repetition of the dance; nullopt if none has begun in it.
   virtual std::optional<PlayedPerformance> PerformanceOf(int repetition) const = 0;
   /// Returns true if the player's patience has run out.
   virtual bool HasGivenUp() const = 0;

@@ -35,13 +35,14 @@ CoachCondition DrawCondition(const WorldKey& key) {
   if (dice.Chance(0.5)) condition.sight.sensor = SensorV1();
   condition.sight.session.people = People::kMixed;
   condition.learner.skill = dice.Uniform(0.1, 0.8);
-  // Without this, performances with full mistakes would be rare, and the model must learn not to miss them.
+  // Give half of the sessions full severity. Full mistakes would otherwise be rare, and the model must learn to detect
+  // them.
   if (dice.Chance(0.5)) condition.learner.severity = 1;
   return condition;
 }
 
-/// Adds a bag for each window that is not grey. A bag contains only the nearest measures, because others cannot
-/// influence the fit.
+/// Adds a bag for each window that is not grey. A bag contains only the nearest measures, because the farther ones
+/// cannot influence the fit.
 void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
   std::vector<PerformanceMeasures> measured;
   const auto recogniser =

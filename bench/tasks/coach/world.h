@@ -43,7 +43,7 @@ struct CoachWorld {
   MusicClockOptions music;
   int frames = 0;  ///< length of the session
   LearnerOptions learner;
-  int test_after = 20;  ///< delay of the retention test, as a number of performances that would fill that time
+  int test_after = 20;  ///< delay of the retention test, in durations of one performance
 };
 
 /// Makes the world of `key`. The scenario in `key` must outlive the world.

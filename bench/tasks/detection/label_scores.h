@@ -23,9 +23,10 @@ std::optional<double> Accuracy(std::span<const Classified> verdicts);
 struct LeaveOneOut {
   std::vector<std::string> people;         ///< sorted
   std::vector<Classified> verdicts;        ///< verdicts on right performances with a beginning and an end
-  /// The same performances, classified by the nearest whole performance of any other person. They serve as a yardstick.
+  /// The same performances, classified by the nearest whole performance of any other person. This is a baseline for
+  /// comparison.
   std::vector<Classified> nearest;
-  std::vector<Moment> points, detections;  ///< those in recordings with action points, on one time axis
+  std::vector<Moment> points, detections;  ///< those of recordings with action points, on one time axis
   /// The number of performances whose move nobody else performed right. `verdicts` contains them as not recognised.
   int untaught_performances = 0;
 };
@@ -38,7 +39,7 @@ Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, c
 
 /// Returns the distance of two performances, centimetres: the root mean square per joint, with the trunk scaled to 50
 /// cm, by dynamic time warping of both performances as a whole (Sakoe and Chiba 1978, symmetric). It is the usual
-/// yardstick for such data sets. Nullopt if one of the performances shows no body.
+/// reference method for data sets of labelled performances. Nullopt if one of the performances shows no body.
 std::optional<double> WarpedDistanceCm(const SkeletonStream& a, const SkeletonStream& b);
 
 /// Scores how well recognised moves agree with labels, over several recordings.

@@ -29,7 +29,7 @@ struct AlarmTrial {
   std::function<bool(const Detection&)> is_performance;
 };
 
-/// Returns the smallest threshold of spotting, to 1 in 2¹⁶, at which all trials together give at most
+/// Returns the smallest threshold of spotting, to a resolution of 2⁻¹⁶, at which all trials together give at most
 /// `false_alarms_per_min`. The rate falls as the threshold rises, apart from alarms that a refractory time hides.
 /// Returns 1 if the rate is higher even at a threshold of 1. At least one trial is required, and each must have frames.
 double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);

@@ -57,13 +57,13 @@ struct DetectionOptions {
   std::string moves;  ///< only with recordings: a file of taught moves (etude teach)
   SessionOptions session;
   double noise = 1;
-  /// The sensor's options without the noise factor. The task reads the sensor that the condition names.
+  /// The sensor's options without the noise factor. The task sets them from the sensor that the condition names.
   SkeletonSensorOptions sensor = SensorV2();
   double turn_deg = 0;
   std::optional<double> distance_m;  ///< if absent, drawn in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
-  bool has_cameras = false;  ///< `sensor: cameras`; of the members above, only `session` is then used
+  bool has_cameras = false;  ///< true with `sensor: cameras`; of the members above, only `session` is then used
   CameraSensing cameras;
   std::optional<double> threshold;                ///< threshold of methods that do not set their own
   std::optional<OperatingPoint> operating_point;  ///< sets the thresholds of methods that do not set their own
@@ -75,7 +75,7 @@ struct DetectionOptions {
 struct DetectionMethod {
   std::string name;
   FilterOptions filter;
-  bool sees_truth = false;  ///< `oracle: [stream]`
+  bool sees_truth = false;  ///< true: the method receives the true motion (`oracle: [stream]`)
   /// If cameras are the sensor: the method by which pictures become skeletons; nullopt = the defaults of task capture.
   std::optional<CaptureMethod> capture = {};
   RecogniserOptions recogniser;

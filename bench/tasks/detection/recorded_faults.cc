@@ -67,7 +67,7 @@ double WarpedStrayDeg(const SkeletonStream& meant, const SkeletonStream& danced)
   struct Way {
     double cost = std::numeric_limits<double>::infinity();
     int steps = 0;
-    std::array<double, kPosePartCount - 1> squares{};  // without the lift of the hips
+    std::array<double, kPosePartCount - 1> squares{};  // one sum for each limb; the lift of the hips is left out
   };
   const auto from = DescribeStream(meant, PoseParts::kLimbs), to = DescribeStream(danced, PoseParts::kLimbs);
   if (from.empty() || to.empty()) return 0;

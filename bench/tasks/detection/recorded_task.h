@@ -28,7 +28,8 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
 /// (`are_taught`), if there is a single person or a recording whose person is unknown.
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
 
-/// The moves that recognisers were taught, and the methods with these recognisers. Some people may have been left out.
+/// The moves that recognisers were taught, and the methods with these recognisers. The recordings of some people may
+/// have been left out when the moves were taught.
 struct Fold {
   Repertoire repertoire;
   std::vector<ReadyMethod> methods;

@@ -45,7 +45,7 @@ std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const Seen
       if (move && is_here) asked.push_back({*move, {event.window.begin - begin, event.window.end - begin}});
     }
     auto trace = FollowStream(recogniser, repertoire.taught.size(), PartOf(seen, {begin, end}), asked);
-    assert(trace);  // windows lie within their recording and never overlap
+    assert(trace);  // every window is within one recording
     traces.push_back(*std::move(trace));
   }
   return traces;
@@ -70,7 +70,7 @@ std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const Eviden
 }
 
 /// Returns the move recognised in a performance. In a labelled recording, the performance is cut out and classified as
-/// a whole, as in the papers on such data sets. In a session, the evidence within the window decides.
+/// a whole, as in the papers on labelled data sets. In a session, the evidence within the window decides.
 std::optional<std::size_t> NameOf(const DetectionEvent& event, const DetectionWorld& world, const SeenStream& seen,
                                   const Repertoire& repertoire, const Recogniser& recogniser,
                                   const FrameInterval& window, const EvidenceTrace& trace) {

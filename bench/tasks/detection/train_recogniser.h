@@ -14,16 +14,16 @@ struct RecogniserTraining {
   std::uint64_t seed = 1;
   BoostingOptions asked{.trees = 300, .rate = 0.08, .takes_turns = true};
   BoostingOptions spotted{};
-  OnProgress progress = {};  ///< called with the number of sessions
+  OnProgress progress = {};  ///< called with the number of finished sessions
 };
 
 /// Trains the model of recogniser `learnt`. Simulated people perform the repertoire's moves in front of both sensors,
-/// with various noises, turns and distances. Performances are measured as in use, and the model is fitted to the
-/// truth. Grey performances are left out. The worlds have other dice than those of every scenario, so no judged person
-/// is among them.
+/// with various noises, turns and distances. Performances are measured as the recogniser measures them in use, and the
+/// model is fitted to the truth. Grey performances are left out. The random numbers differ from those of every
+/// scenario, so no judged person is among the simulated people.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
 
-/// Keeps only the nearest performances of a bag, nearest first. Others cannot influence the fit.
+/// Keeps only the nearest performances of a bag, nearest first. The farther ones cannot influence the fit.
 void KeepNearest(std::vector<PerformanceMeasures>& performances);
 
 }  // namespace etude

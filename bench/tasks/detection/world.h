@@ -17,7 +17,8 @@ namespace etude {
 
 /// Returns the occluders between the sensor and a performer at the origin, for `frames` frames. kTable is a desk with a
 /// closed front, 75 cm high, 80 cm in front of the performer. kChair is a chair, 90 cm high, a little to the side.
-/// kPerson is a second person who sways 1.2 m in front of the performer, beside the line to the sensor. (All ours.)
+/// kPerson is a second person who sways 1.2 m in front of the performer, beside the line to the sensor. All measures
+/// are Etude's choices.
 Occluders MakeOccluders(OccluderKind kind, const SensorPlacement& sensor, std::size_t frames);
 
 /// The moves that may be performed, and the moves that recognisers were taught.

@@ -49,7 +49,7 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
   const auto first = std::find_if(pattern.begin(), pattern.end(), [](const fs::path& part) {
     return part.string().find_first_of("*?[") != std::string::npos;
   });
-  const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);  // a folder: 1
+  const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);  // 1 for a folder
   std::error_code error;
   for (const std::string& file : files) {
     fs::path path = Split(file).path;
@@ -128,7 +128,7 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
 struct PairColumns {
   std::size_t truth = 0;
   std::optional<std::size_t> name;
-  std::vector<std::size_t> answers;  ///< by method
+  std::vector<std::size_t> answers;  ///< the column of each method's answers
 };
 
 Result<PairColumns> ReadHeading(const std::vector<std::string>& heading, std::span<const EvaluationMethod> methods,

@@ -304,7 +304,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   MatchAngles(truth, sampled, matched);
   // Count the frames before the answer's beginning and after its end.
   for (std::size_t f = 0; f < frames; ++f) {
-    constexpr double kRounding = 1e-6;  // of a frame, as in `Sampled`
+    constexpr double kRounding = 1e-6;  // tolerance in frames, as in `Sampled`
     const double at = (start_s + static_cast<double>(f) / rate_hz) * answer.rate_hz;
     if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) ++matched.uncovered;
   }

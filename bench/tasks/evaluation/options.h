@@ -29,7 +29,7 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
 /// A method of task evaluation: answers from elsewhere, or a control that tests the metrics.
 struct EvaluationMethod {
   std::string name;
-  std::vector<std::string> answers;  ///< files, patterns, folders; empty where `pairs` names them
+  std::vector<std::string> answers;  ///< files, patterns, folders; empty if the condition's `pairs` name the files
   bool is_control = false;           ///< true: its answer is the truth with the spoiler's faults
   Spoiler spoiler;                   ///< the faults of a control's answer
 };
@@ -39,8 +39,8 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields();
 /// Returns the names of the sets of joints: "roles", "same", "roles-20", "h36m-17", "lsp-14", "coco-17", "smpl-22",
 /// "smpl-24".
 std::vector<std::string> JointSetNames();
-/// Returns the joints of a set, by its name. A joint that has a role is given as its role. Empty for "roles" and
-/// "same".
+/// Returns the joints of a set, by its name. A joint that has a role is given as its role. The result is empty for
+/// "roles" and "same", which depend on the files.
 std::vector<std::string> JointsOfSet(std::string_view set);
 
 }  // namespace etude

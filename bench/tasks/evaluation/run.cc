@@ -29,7 +29,7 @@ constexpr AlignedError kErrors[] = {{"mpjpe_unaligned_mm", Alignment::kNone, "no
                                     {"mpjpe_each_frame_mm", Alignment::kFrame, kNoFit},
                                     {"mpjpe_each_frame_scaled_mm", Alignment::kFrameScaled, kNoFit}};
 constexpr std::size_t kSegmentFrames = 100;  // length of a segment of W-MPJPE and WA-MPJPE
-constexpr std::size_t kWindowFrames = 30;    // length of a window of NPSS: a gap of LAFAN1, where it lasts a second
+constexpr std::size_t kWindowFrames = 30;    // length of a window of NPSS: LAFAN1's gap of one second
 
 std::optional<double> Times(double factor, std::optional<double> value) {
   return value ? std::optional(factor * *value) : std::nullopt;

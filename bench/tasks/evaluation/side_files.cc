@@ -18,7 +18,7 @@ Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::
   }
   constexpr std::string_view kEndings[] = {"_x_m", "_y_m", "_z_m"};
   StatisticsByJoint statistics;
-  std::map<std::string, int, std::less<>> axes;  // by joint: how many have been read
+  std::map<std::string, int, std::less<>> axes;  // for each joint, the number of axes read so far
   for (std::size_t column = 0; column < names.size(); ++column) {
     const std::string& name = names[column];
     const auto axis = std::ranges::find_if(kEndings, [&](std::string_view end) { return name.ends_with(end); });

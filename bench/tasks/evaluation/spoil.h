@@ -14,12 +14,12 @@ struct Spoiler {
   double moved_cm = 0;        ///< shift along X
   double lifted_cm = 0;
   double gliding_cm_s = 0;    ///< speed along X
-  double feet_locked_cm = 0;  ///< ankles and toes rest where the toes came below this height, until they leave it
-  double mirrored_share = 0;  ///< of the take's end: the motion of the other side, about the body's middle
-  int kept_frames = 1;        ///< one of so many frames, with straight lines in between
-  double late_ms = 0;         ///< the first pose stands until then
-  double frozen_share = 0;    ///< of the take's end, which stands still
-  double hidden_percent = 0;  ///< of all joints: the worst are not shown (HideWorst)
+  double feet_locked_cm = 0;  ///< ankles and toes are held at rest while the toes are below this height
+  double mirrored_share = 0;  ///< share at the take's end in which left and right are exchanged
+  int kept_frames = 1;        ///< only every n-th frame is kept, with linear interpolation in between
+  double late_ms = 0;         ///< delay; the first pose is held until then
+  double frozen_share = 0;    ///< share at the take's end in which the body stands still
+  double hidden_percent = 0;  ///< share of all joints that are hidden, those with the largest errors (HideWorst)
 
   bool operator==(const Spoiler&) const = default;
 };

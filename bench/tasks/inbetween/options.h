@@ -12,7 +12,7 @@ namespace etude {
 /// A condition of task inbetween. The defaults are those of LAFAN1's protocol.
 struct InbetweenOptions {
   std::vector<std::string> truth;     ///< files whose windows are judged
-  std::vector<std::string> training;  ///< files that give L2P's deviations, offsets, and the fillers' library
+  std::vector<std::string> training;  ///< training files: for L2P's deviations, the offsets, and the library of fillers
   std::string people;                 ///< the person in a file's name, as *_{person}; "" = each file is a unit
   int window = 65, offset = 40;       ///< length of a window, and distance of successive windows, frames
   int training_window = 50, training_offset = 20;
@@ -20,7 +20,7 @@ struct InbetweenOptions {
   int gap = 30;                   ///< hidden frames
   int future = 10;                ///< frames that a window must have after the gap
   int given = 1;                  ///< number of future frames that are given
-  std::optional<double> rate_hz;  ///< rate to which motions are sampled; nothing: each file's own
+  std::optional<double> rate_hz;  ///< rate to which motions are sampled; if absent, each file's own
   glm::dvec3 facing{0, 1, 0};     ///< the root's axis that is turned to X in the last past frame
   bool own_offsets = false;       ///< true: each file's own offsets; false: those of the first training file
 };

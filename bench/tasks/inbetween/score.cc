@@ -121,7 +121,7 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
 std::string WhyNotClean(const HiddenWindow& hidden) {
   if (hidden.motion.rate_hz != kJudgedRateHz) return fmt::format("the rate is not {:g} Hz", kJudgedRateHz);
   for (const Role role : AllRoles()) {
-    if (role == Role::kLeftHand || role == Role::kRightHand) continue;  // at the wrist, if the file has none
+    if (role == Role::kLeftHand || role == Role::kRightHand) continue;  // a hand that the file lacks is at the wrist
     if (hidden.roles[Index(role)] < 0) return fmt::format("the file has no {}", RoleName(role));
   }
   return "";

@@ -31,7 +31,7 @@ struct HiddenWindow {
   std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1: none
   std::vector<glm::dvec3> deviations;      ///< L2P's divisors: standard deviations of each joint's position in
                                            ///< training, metres; empty: unknown
-  std::shared_ptr<const JudgedFile> file;  ///< measured once a file; windows share it, and outlive the file's motion
+  std::shared_ptr<const JudgedFile> file;  ///< shared by all windows of a file; they outlive the file's motion
 };
 
 /// Returns the ids of all metrics, in the order in which they are measured.

@@ -27,7 +27,7 @@ double OwnRate(double rate_hz, const InbetweenOptions& options) {
 /// Returns the number of frames that `frames` frames become at the protocol's rate.
 std::size_t SampledFrames(std::size_t frames, double own_rate_hz, const InbetweenOptions& options) {
   if (!options.rate_hz || frames == 0) return frames;
-  constexpr double kRounding = 1e-6;  // of a frame, as in `Sampled`
+  constexpr double kRounding = 1e-6;  // tolerance in frames, as in `Sampled`
   const double last = static_cast<double>(frames - 1) * *options.rate_hz / OwnRate(own_rate_hz, options);
   return static_cast<std::size_t>(last + kRounding) + 1;
 }
@@ -105,7 +105,8 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
     return Fail(place, "no file has a window of {} frames: {}", options.window, found.left_out.front().second);
   }
   if (!options.people.empty()) {
-    // FindPeople's pattern is for the file's name. In the names of windows, '@' and the first frame follow it.
+    // FindPeople's pattern is for the file's name. In the names of windows, '@' and the first frame follow the file's
+    // name.
     RETURN_IF_ERROR(FindPeople(options.people + kBeforeFirst + '*', condition.Find("people")->place, found.worlds));
   }
   return found;
@@ -156,7 +157,7 @@ Result<std::vector<TrainingTree>> Train(const InbetweenOptions& options, const O
   std::vector<glm::dquat> turns;
   for (const std::string& file : files) {
     ASSIGN_OR_RETURN(auto judged, OpenJudged(file, options, opening));
-    // Find the joint tree, or begin a new one.
+    // Find the statistics of this joint tree, or begin new ones.
     TreeMotion& motion = judged.motion;
     auto known = std::ranges::find_if(trees, [&](const TrainingTree& one) { return one.tree.IsLike(motion.tree); });
     if (known == trees.end()) {

@@ -43,7 +43,7 @@ struct TrainingTree {
   std::vector<glm::dvec3> Deviations() const;
 };
 
-/// Reads the training files. Unless `library` is null, adds them to it. Returns one entry per joint tree, in the order
+/// Reads the training files. Adds them to `library` unless it is null. Returns one entry per joint tree, in the order
 /// of the trees' first files. Fails if a file cannot be read, or if there are too many frames for a library.
 Result<std::vector<TrainingTree>> Train(const InbetweenOptions& options, const OpenOptions& opening,
                                         GapLibrary* library);

@@ -27,7 +27,8 @@ std::string FixedFolder(const std::string& pattern) {
   return before.substr(0, before.rfind('/') + 1);
 }
 
-/// Lists the clips of a file. If the file cannot be read, returns the file itself, so that its row states the reason.
+/// Lists the clips of a file. If the file cannot be read, returns the file itself, so that the row of this file states
+/// the reason.
 std::vector<std::string> ClipsIn(const std::string& reference) {
   constexpr std::array kOfSeveral = {".glb", ".gltf", ".fbx", ".vrm", ".vrma", ".c3d", ".trc"};
   const SplitReference split = Split(reference);

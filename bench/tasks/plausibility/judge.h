@@ -20,7 +20,7 @@ std::vector<std::string> LimitedMetrics();
 /// kMinFramesForFaults frames. With `keeps_motion`, the body is recorded with its faults.
 CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool keeps_motion = false);
 
-/// Returns the part of such a reason that describes limits and faults.
+/// Returns the part of a reason of JudgeAlone that describes limits and faults.
 std::string_view FaultWords(std::string_view reason);
 
 }  // namespace etude

@@ -11,7 +11,7 @@ namespace etude {
 
 /// A condition of task plausibility.
 struct PlausibilityOptions {
-  std::optional<double> floor_m;  ///< FaultOptions::floor_m
+  std::optional<double> floor_m;  ///< height of the floor; if absent, see FindMotionFaults
   std::string people;             ///< a pattern for names, such as "{person}_*"; "" = each clip is a unit of its own
   std::map<std::string, double> limits;  ///< the largest allowed value of metrics, by id
 };

@@ -5,8 +5,9 @@
 namespace etude {
 namespace {
 
-/// The default threshold on mean joint distances, centimetres (ours). Of all pairs of frames of two clips, 0.4 % have a
-/// smaller mean joint distance. About as many, 0.5 %, have a d of paper A below 0.4.
+/// The default threshold on mean joint distances, centimetres. It accepts about as many pairs as paper A's threshold:
+/// of all pairs of frames of two clips, 0.4 % have a smaller mean joint distance, and 0.5 % have a d of paper A below
+/// 0.4.
 constexpr double kThresholdCm = 6;
 
 void SetThreshold(Fields& /*method*/, PoseDistanceMethod& options) {

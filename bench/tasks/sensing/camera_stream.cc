@@ -20,7 +20,7 @@ CaptureWorld WorldOf(const CameraSensing& sensing, const BodyMotion& motion, con
 }  // namespace
 
 std::vector<BodyPose> PlacesAround(const BodyPose& first) {
-  constexpr double kAside = 0.5, kUp = 0.4;  // metres *(ours)*: a step, and an arm raised above the head
+  constexpr double kAside = 0.5, kUp = 0.4;  // metres (Etude's choice): a step aside, and an arm raised above the head
   std::vector<BodyPose> places = {first};
   for (const glm::dvec3& way : {glm::dvec3(kAside, 0, 0), glm::dvec3(-kAside, 0, 0), glm::dvec3(0, 0, kAside),
                                 glm::dvec3(0, 0, -kAside), glm::dvec3(0, kUp, 0)}) {

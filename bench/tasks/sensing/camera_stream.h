@@ -36,9 +36,9 @@ class CameraTake {
   /// `sensing` must outlive this object. The motion must have 30 Hz.
   CameraTake(const CameraSensing& sensing, const BodyMotion& motion, const WorldKey& key);
 
-  /// Takes the pictures, which all methods share. Without this call, the first method takes them, and the time counts
-  /// for it.
-  void Film() { (void)stages_.GetTake(); }  // every method reports a failure
+  /// Takes the pictures, which all methods share. Without this call, the first method takes the pictures, and the time
+  /// counts as that method's own.
+  void Film() { (void)stages_.GetTake(); }  // a failure is ignored here, because every method reports it
 
   /// Returns the stream of the whole motion. Fails, with the reason, if there is no renderer, the cameras cannot be
   /// calibrated, or no body can be made.

@@ -19,7 +19,7 @@ Result<std::vector<TrackingWorld>> MakeCrowd(const CrowdOptions& options) {
   ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}));
   const KinematicTree body = MakeBodyTree({});
   const TrackingOptions tracking{.duration_s = options.frames / options.rate_hz, .rate_hz = options.rate_hz};
-  constexpr int kTries = 4;  // tries per character, because acts are short
+  constexpr int kTries = 4;  // tries per character, because some clips are too short for a window
   std::vector<TrackingWorld> crowd;
   for (int trial = 0; std::ssize(crowd) < options.characters && trial < kTries * options.characters; ++trial) {
     const LibraryClip& clip = library.clips[static_cast<std::size_t>(trial) % library.clips.size()];

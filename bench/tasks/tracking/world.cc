@@ -27,7 +27,7 @@ std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const Library
   const std::vector<BodyPose>& poses = clip.motion.poses;
   const bool loops = clip.move && clip.move->loops;
   const double step = kJudgedRateHz / options.rate_hz;
-  const double last = static_cast<double>(poses.size()) - 1;  // frame of the clip
+  const double last = static_cast<double>(poses.size()) - 1;  // index of the clip's last frame
   // Compute the length of the window, and draw its start.
   auto frames = static_cast<std::size_t>(std::lround(options.duration_s * options.rate_hz));
   if (!loops) frames = std::min(frames, static_cast<std::size_t>(last / step) + 1);
@@ -86,8 +86,8 @@ class OpenAngles {
   }
 
  private:
-  static constexpr double kOpenAngle = Radians(35);  // standard deviation before the targets are met, which removes
-                                                     // most of it
+  static constexpr double kOpenAngle = Radians(35);  // standard deviation of the change that is drawn; the
+                                                     // solver then removes most of it to meet the targets
 
   const KinematicTree& tree_;
   const GaussNewtonSolver solver_;

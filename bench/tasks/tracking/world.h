@@ -14,10 +14,10 @@ namespace etude {
 /// as far as joints and limits allow (FindStartState), so every target can be reached unless it is disturbed. The
 /// motion differs from the clip, because the clip has joints that this body lacks.
 ///
-/// No angle of the truth turns faster than 1200° per second *(ours: a boxer's elbow)*. Without this bound, an arm that
-/// exceeds its limit would jump from one end of its range to the other within a frame, and a straight arm would spin.
-/// With the bound, an arm that exceeds its limit stays at the end where it left its range, even if the other end is
-/// nearer.
+/// No angle of the truth turns faster than 1200° per second, the speed of a boxer's elbow. Without this bound, an arm
+/// that exceeds its limit would jump from one end of its range to the other within a frame, and a straight arm would
+/// spin. With the bound, an arm that exceeds its limit stays at the end where it left its range, even if the other end
+/// is nearer.
 struct TrackingWorld {
   KinematicTree tree;
   std::vector<TreeState> truth;                      ///< one per frame; the root is given to solvers

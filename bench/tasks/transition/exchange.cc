@@ -108,7 +108,7 @@ FrameWindow RecordedFrames(const TransitionOutcome& outcome, const Stage& stage)
   const JoinView view = ViewOf(outcome, stage);
   FrameWindow window = AroundPoints(outcome.splice, kSeconds);
   const int judged = view.first + static_cast<int>(JoinSupport(view).size()) - 1;
-  const int landed = judged + static_cast<int>(view.rate_hz);  // until then, a body in flight has landed
+  const int landed = judged + static_cast<int>(view.rate_hz);  // one second later: by then, a body in flight has landed
   window.last = std::max(window.last, std::min(landed, static_cast<int>(view.shown.size()) - 1));
   return window;
 }

@@ -260,7 +260,7 @@ std::optional<std::string> TransitionRun::WhySkipped() const {
 }
 
 void TransitionRun::PrepareShared() {
-  for (const TransitionMethod& method : basis_.methods) WeightsOf(method.weights);  // learnt once, then cached
+  for (const TransitionMethod& method : basis_.methods) WeightsOf(method.weights);  // learn and cache the weights
 }
 
 CellResult TransitionRun::Run(std::size_t index) {
