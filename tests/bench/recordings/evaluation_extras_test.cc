@@ -36,6 +36,8 @@ TEST(EvaluationExtras, OthersAreRefused) {
   EXPECT_TRUE(testing::AnswersAreKept("tests/bench/recordings/evaluation_complaints.txt", [](const std::string& edit) {
     return testing::Message(ReadEvaluationExtras(testing::Edited(WriteEvaluationExtras(SampleOfPair()), edit)));
   }));
+  const std::string nameless = testing::Edited(WriteEvaluationExtras(SampleOfPair()), R"("answer" => "other")");
+  EXPECT_THAT(testing::Message(ReadEvaluationExtras(nameless)), ::testing::HasSubstr("not a readable recording"));
 }
 
 }  // namespace

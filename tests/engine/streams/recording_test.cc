@@ -23,8 +23,7 @@ using testing::WavingMotion;
 using testing::WithClock;
 
 std::string ComplaintOf(const std::string& text, const StreamReading& reading = {}) {
-  const auto read = ReadStreamRecording(text, "s", reading);
-  return read ? std::string("(read)") : ToString(read.error());
+  return testing::Refusal(ReadStreamRecording(text, "s", reading));
 }
 
 MadeStream Made(const std::string& text, const StreamReading& reading = {}, const StreamOptions& options = {}) {

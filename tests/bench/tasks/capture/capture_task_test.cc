@@ -29,14 +29,6 @@ Result<std::unique_ptr<Task>> Make(const std::string& yaml, const std::map<std::
   return task;
 }
 
-std::string DigestOf(const CellResult& cell, std::string_view stage) {
-  for (const auto& [name, digest] : cell.digests) {
-    if (name == stage) return digest;
-  }
-  ADD_FAILURE() << stage << " is not among the digests";
-  return "";
-}
-
 TEST(CaptureTask, ShowsEveryMethodTheSameMarksAndRepeatsItself) {
   ASSERT_OK(
       task,
