@@ -239,32 +239,22 @@ def seen_people(cameras, mistake, truth):
         frames = []
         for k in range(SLOW_FRAMES if name == "cam2" and mistake == SLOW else FRAMES):
             time = k / RATE
-            if name == "cam2" and mistake == SLOW:
-                time = k / SLOW_RATE
-            if name == "cam2" and mistake == NTSC:
-                time = k / NTSC_RATE
-            if name == "cam2" and mistake in ("late by 3 frames", LATE_AND_NOISY):
-                time = (k + 3) / RATE
-            if name == "cam2" and mistake == "late by 0.4 frames":
-                time = (k + 0.4) / RATE
-            if name == "cam2" and mistake == "rate off by 2 %":
-                time = 1.02 * k / RATE
+            if name == "cam2":
+                time = {SLOW: k / SLOW_RATE, NTSC: k / NTSC_RATE, "late by 3 frames": (k + 3) / RATE, LATE_AND_NOISY: (k + 3) / RATE,
+                        "late by 0.4 frames": (k + 0.4) / RATE, "rate off by 2 %": 1.02 * k / RATE}.get(mistake, time)
             person = {key: p + noise_px * dice.normal(size=2) for key, p in camera.person(truth(time)).items()}
             people = [person]
             if mistake == "two people, identities cross":
                 # Somebody passes behind, and in the picture through, the one who is wanted.
                 people.append(camera.person(figure(k / RATE, (1 - k / RATE, -1.1), 0.7)))
                 people = people[::-1] if k % 2 else people
-            if name == "cam2" and (mistake == "sides swapped in 20 frames" and 20 <= k < 40 or mistake == "sides swapped for ever"):
-                people[0] = swapped(person)
-            if name == "cam2" and mistake == "legs swapped in 20 frames" and 20 <= k < 40:
-                people[0] = swapped(person, "legs")
-            if name == "cam2" and mistake == "turned by 180":
-                people[0] = {key: np.array([WIDTH - 1, HEIGHT - 1]) - p for key, p in person.items()}
-            if name == "cam2" and mistake == "turned by 90":
-                people[0] = {key: np.array([HEIGHT - 1 - p[1], p[0]]) for key, p in person.items()}
-            if name == "cam2" and mistake == "mirrored":
-                people[0] = {key: np.array([WIDTH - 1 - p[0], p[1]]) for key, p in swapped(person).items()}
+            if name == "cam2":
+                is_amid = 20 <= k < 40
+                exchanged = {"sides swapped in 20 frames": is_amid and swapped(person), "sides swapped for ever": swapped(person),
+                             "legs swapped in 20 frames": is_amid and swapped(person, "legs"), "mirrored": swapped(person)}
+                turned = {"turned by 180": lambda p: [WIDTH - 1 - p[0], HEIGHT - 1 - p[1]], "mirrored": lambda p: [WIDTH - 1 - p[0], p[1]],
+                          "turned by 90": lambda p: [HEIGHT - 1 - p[1], p[0]]}.get(mistake, lambda p: p)
+                people[0] = {key: np.array(turned(p)) for key, p in (exchanged.get(mistake) or people[0]).items()}
             frames.append(people)
         seen[name] = frames
     return seen

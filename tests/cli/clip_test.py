@@ -271,13 +271,7 @@ class Map(Clips):
     def test_a_run_keeps_what_it_was_taught(self):
         odd = self.write("odd.bvh", lopsided(WALK.read_text()).replace("JOINT LeftForeArm\n", "JOINT Q1\n"))
         taught = pathlib.Path(self.write("taught.yaml", "roles:\n  left_elbow: Q1\n"))
-        scenario = self.write("t.yaml", f"""scenario: t
-question: Does it run?
-task: transition
-clips: [{odd}, 'builtin:sway']
-trials: 1
-methods: [{{name: cut, choice: now, join: cut}}]
-""")
+        scenario = self.cut_scenario(odd, "builtin:sway")
         self.assertIn("no joint found for left_elbow", self.ends(2, "run", scenario, "-o", self.out).stderr)
         self.ends(0, "run", scenario, "-o", self.out, "--joint-map", taught)
         taught.unlink()  # the manifest holds its text

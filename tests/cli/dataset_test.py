@@ -49,9 +49,7 @@ class DataSets(EtudeCase):
 
     def test_a_clips_name_is_no_formula_to_a_spreadsheet(self):
         shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", self.folder / "=cmd|' !A0.bvh")
-        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\n"
-                                        f"clips: ['{self.folder}/*.bvh', 'builtin:sway']\ntrials: 2\n"
-                                        "methods: [{name: cut, choice: now, join: cut}]\n")
+        scenario = self.cut_scenario(self.folder / "*.bvh", "builtin:sway", trials=2)
         self.assertEqual(self.etude("export", scenario, "-o", self.folder / "data").returncode, 0)
         with open(self.folder / "data" / "inputs" / "index.csv", newline="") as file:
             self.assertEqual([line["clip"] for line in csv.DictReader(file)], ["'=cmd|' !A0", "builtin:sway"])

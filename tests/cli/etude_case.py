@@ -118,6 +118,12 @@ class EtudeCase(unittest.TestCase):
         path.write_text(text)
         return str(path)
 
+    def cut_scenario(self, *clips, trials=1, more="", clip_key=None):
+        """The path of a scenario of task transition with one method, and more."""
+        clip_key = clip_key or f"clips: {[str(clip) for clip in clips]}"
+        return self.write("t.yaml", f"scenario: t\nquestion: Does it run?\ntask: transition\n{clip_key}\ntrials: {trials}\n"
+                                    f"methods:\n  - {{name: cut, choice: now, join: cut}}\n{more}")
+
     @staticmethod
     def etude(*arguments, text=None):
         """Runs the program; `text` is what it reads from its standard input."""

@@ -272,8 +272,7 @@ class Evaluate(EtudeCase):
 
     def test_a_run_is_an_answer_like_any_file(self):
         run = self.folder / "run"
-        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\nclips: ['builtin:sway', 'builtin:clap']\ntrials: 1\n"
-                                        "methods: [{name: cut, choice: now, join: cut}]\nvideo: {}\n")
+        scenario = self.cut_scenario("builtin:sway", "builtin:clap", more="video: {}\n")
         self.run_suite(scenario, out=run)
         said = self.evaluate(f"{run}#t/-/000@cut", f"{run}#t/-/000@cut")
         row, = self.rows()

@@ -17,24 +17,13 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "attack"))
 import damage  # noqa: E402
 import kills  # noqa: E402
 
-TRANSITION = """scenario: t
-question: Does it run?
-task: transition
-clips: ['builtin:clap', 'builtin:sway']
-trials: 2
-sweep: {wait_s: [1, 3]}
-methods:
-  - {name: cut, choice: now, join: cut}
-  - {name: outside, exec: [PYTHON, METHOD]}
-"""
 CAPTURE = """scenario: c
 question: Does it run?
 task: capture
 clips: ['builtin:clap']
 duration_s: 0.1
 trials: 1
-methods:
-  - {name: plain}
+methods: [{name: plain}]
 """
 # Answers with the frame asked at; of a folder that it is told, and can write to, it makes a file at its first answer.
 METHOD = """import json, os, shutil, sys
@@ -68,7 +57,8 @@ class Machine(EtudeCase):
         super().setUp()
         self.method = self.folder / "method.py"
         self.method.write_text(METHOD)
-        self.outside = self.write("t.yaml", TRANSITION.replace("PYTHON", PYTHON).replace("METHOD", str(self.method)))
+        self.outside = self.cut_scenario("builtin:clap", "builtin:sway", trials=2, more=(
+            f"  - {{name: outside, exec: [{PYTHON}, {self.method}]}}\nsweep: {{wait_s: [1, 3]}}\n"))
         self.capture = self.write("c.yaml", CAPTURE)
 
     def run_here(self, *arguments, environment=None, before=None, wrapped=(), **more):

@@ -23,10 +23,4 @@ class MotionFileCase(EtudeCase):
         self.refusal("clip", "info", path, says=complaint)
 
     def scenario(self):
-        return self.write("t.yaml", """scenario: t
-question: Does it run?
-task: transition
-clips: ['builtin:sway']
-trials: 1
-methods: [{name: cut, choice: now, join: cut}]
-""")
+        return self.cut_scenario("builtin:sway")

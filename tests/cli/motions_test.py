@@ -104,8 +104,7 @@ class Motions(MotionFileCase):
         clips = [f"{self.run_folder}#detection/-/000@{name}" for name in ("truth", "a")]
         for arguments in (("clip", "grades", *clips), ("bridge", *clips), ("teach", *clips, "-o", self.folder / "moves.yaml")):
             self.ends(0, *arguments)
-        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\nclips: ['builtin:clap']\ntrials: 1\n"
-                                        "methods: [{name: cut, choice: now, join: cut}]\n")
+        scenario = self.cut_scenario("builtin:clap")
         self.run_suite(scenario, "--clips", f"{self.run_folder}#transition/-/000@a", "builtin:wave")
         self.run_suite("--from", self.out / "manifest.json", out=self.folder / "again")
 
@@ -204,8 +203,7 @@ class Motions(MotionFileCase):
                      ((), ("--rate", 60)))
         seconds = [float(re.search(r"clip, ([\d.]+) s", text)[1]) for text in (own, told)]
         self.assertAlmostEqual(seconds[1] / seconds[0], 2, places=1)  # 120 Hz
-        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\nclips: ['builtin:clap']\ntrials: 1\n"
-                                        "methods: [{name: cut, choice: now, join: cut}]\n")
+        scenario = self.cut_scenario("builtin:clap")
         frames = []
         for i, more in enumerate(((), ("--rate", 60))):
             self.run_suite(scenario, "--clips", CMU, "builtin:wave", *more, out=self.folder / str(i))

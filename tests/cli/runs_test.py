@@ -29,13 +29,7 @@ class Runs(EtudeCase):
         self.assert_same_results(*folders)
 
     def test_functions_that_the_processor_chooses_change_no_byte(self):
-        scenario = self.write("t.yaml", """scenario: t
-question: Does it run?
-task: transition
-clips: ['builtin:sway', /usr/share/assimp/models/BVH/01_03.bvh]
-trials: 2
-methods: [{name: cut, choice: now, join: cut}]
-""")
+        scenario = self.cut_scenario("builtin:sway", "/usr/share/assimp/models/BVH/01_03.bvh", trials=2)
         # glibc's sin and exp differ in the last bit where the processor has fused multiply-add.
         tunables = {"any": None, "plain": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", "no-avx": "glibc.cpu.hwcaps=-AVX2"}
         for name, value in tunables.items():

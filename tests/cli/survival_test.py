@@ -232,14 +232,7 @@ class Survival(EtudeCase):
     def test_a_manifest_whose_clips_have_changed_is_refused(self):
         clip = self.folder / "walk.bvh"
         shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", clip)
-        scenario = self.write("transition.yaml", f"""scenario: t
-question: Does it run?
-task: transition
-clips: ['builtin:clap', {clip}]
-trials: 2
-methods:
-  - {{name: cut, choice: now, join: cut}}
-""")
+        scenario = self.cut_scenario("builtin:clap", clip, trials=2)
         self.run_suite(scenario)
         lines = clip.read_text().splitlines()
         clip.write_text("\n".join(lines[:-10] + [line.replace("1", "2") for line in lines[-10:]]) + "\n")
@@ -272,15 +265,8 @@ methods:
         bvh, glb = self.folder / "walk.bvh", self.folder / "clap.glb"
         shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", bvh)
         self.ends(0, "clip", "convert", "builtin:clap", glb, "--character", "bear")
-        scenario = self.write("transition.yaml", f"""scenario: t
-question: Does it run?
-task: transition
-{clips.format(glb=glb, bvh=bvh)}
-trials: 3
-methods:
-  - {{name: cut, choice: now, join: cut}}
-  - {{name: fuzzy, choice: fuzzy-bridge, join: cut}}
-""")
+        scenario = self.cut_scenario(trials=3, more="  - {name: fuzzy, choice: fuzzy-bridge, join: cut}\n",
+                                     clip_key=clips.format(glb=glb, bvh=bvh))
         self.run_suite(scenario)
         pack = self.folder / "cell.etude"
         packed = self.ends(0, "replay", self.out, "--cell", cell, "--pack", pack)

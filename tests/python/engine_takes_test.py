@@ -248,31 +248,17 @@ class Silhouettes(unittest.TestCase):
         np.testing.assert_array_equal(engine.outline(255 * mask.astype(int), 1, 0)[0], pixels)
         self.assertEqual(engine.outline(~mask & mask)[0].shape, (0, 2))
 
-    def test_a_person_is_followed_by_outlines_alone(self):
-        cameras, roles = two_cameras(160, 120, 150), list(engine.ROLES)
-        bones = [("left_hip", "left_knee", .08), ("left_knee", "left_ankle", .06), ("hip_centre", "shoulder_centre", .13),
-                 ("shoulder_centre", "head", .09), ("left_shoulder", "left_elbow", .05), ("left_elbow", "left_wrist", .045)]
-        bones += [tuple(name.replace("left", "right") for name in bone[:2]) + bone[2:] for bone in bones if "left" in bone[0]]
-        shown = DANCED[:3]
-        films = []
-        v, u = np.mgrid[:120, :160] + 0.5
-        for camera in cameras:
-            film = np.zeros((3, 120, 160), bool)
-            for frame, pose in zip(film, shown):
-                for a, b, radius in bones:
-                    for share in np.linspace(0, 1, 9):
-                        centre = (1 - share) * pose[roles.index(a)] + share * pose[roles.index(b)]
-                        (x, y), = engine.project(camera, centre[None])
-                        size = 150 * radius / np.linalg.norm(centre - camera.p_WC)
-                        frame |= (u - x) ** 2 + (v - y) ** 2 < size ** 2
-            films.append(film)
-        found = engine.track_silhouettes(cameras, films, measured=engine.Motion(shown))
-        self.assertEqual(found.shape, (3, 20, 3))
-        self.assertLess(np.linalg.norm(found[:, 0] - shown[:, 0], axis=1).max(), 0.08)
-        nobody = engine.track_silhouettes(cameras, [np.zeros((2, 60, 80), bool)] * 2)
-        self.assertTrue(np.isnan(nobody).all())
-        with self.assertRaisesRegex(engine.BadInput, "a mask of 150 x 120 pixels of camera ''; allowed: its 160 x 120"):
-            engine.track_silhouettes(cameras, [film[:, :, :150] for film in films])
+    def test_measured_bodies_nobody_and_masks_of_another_size(self):
+        cameras, masks = two_cameras(80, 60, 75), [rectangle(60, 80, (12, 48), (35, 45))[None]] * 2
+        ours, measured = (engine.track_silhouettes(cameras, masks, **more) for more in ({}, {"measured": engine.Motion(DANCED[:1])}))
+        self.assertEqual(measured.shape, (1, 20, 3))
+        self.assertFalse(np.array_equal(ours, measured))
+        thighs = [np.linalg.norm(np.subtract(*pose[0, [engine.ROLES.index("left_hip"), engine.ROLES.index("left_knee")]]))
+                  for pose in (DANCED[:1], measured)]
+        self.assertAlmostEqual(thighs[1], thighs[0], places=6)
+        self.assertTrue(np.isnan(engine.track_silhouettes(cameras, [np.zeros((2, 60, 80), bool)] * 2)).all())
+        with self.assertRaisesRegex(engine.BadInput, "a mask of 70 x 60 pixels of camera ''; allowed: its 80 x 60"):
+            engine.track_silhouettes(cameras, [mask[:, :, :70] for mask in masks])
 
 
 class SensorAndCoach(unittest.TestCase):

@@ -78,29 +78,6 @@ class Kinematics(unittest.TestCase):
                 np.testing.assert_allclose(places[i, k], place, atol=1e-12)
                 np.testing.assert_allclose(turns[i, k], turned, atol=1e-12)
 
-    def test_solutions_meet_their_targets_within_limits(self):
-        dice = np.random.default_rng(2)
-        wanted = within_limits(dice, 200)
-        places, axes = BODY.effectors(wanted)
-        for single in (False, True):
-            solved = BODY.solve(within_limits(dice, 200, 0.1), places, axes, single_precision=single)
-            found, turned = BODY.effectors(solved.angles)
-            ok = solved.statuses == engine.STATUSES.index("converged")
-            self.assertGreater(ok.mean(), 0.95)
-            self.assertLess(np.linalg.norm(found - places, axis=2)[ok].max(), 0.001)
-            limits = BODY.tree.limits
-            self.assertTrue((solved.angles >= limits[:, 0] - 1e-9).all() and (solved.angles <= limits[:, 1] + 1e-9).all())
-
-    def test_a_batch_is_its_problems_one_by_one_to_the_bit(self):
-        dice = np.random.default_rng(3)
-        places, axes = BODY.effectors(within_limits(dice, 37))
-        starts = within_limits(dice, 37, 0.1)
-        many = BODY.solve(starts, places, axes)
-        for i in range(37):
-            one = BODY.solve(starts[i:i + 1], places[i:i + 1], axes[i:i + 1])
-            np.testing.assert_array_equal(one.angles[0], many.angles[i])
-            self.assertEqual(one.iterations[0], many.iterations[i])
-
     def test_positions_alone_and_roots_of_their_own(self):
         dice = np.random.default_rng(4)
         wanted, roots = within_limits(dice, 20), dice.normal(size=(20, 3))

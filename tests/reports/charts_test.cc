@@ -7,6 +7,7 @@
 #include "reports/scenario_card.h"
 #include "tests/reports/support/effector_run.h"
 #include "tests/reports/support/example_run.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -49,8 +50,7 @@ RunData TrackingRun() {
 
 TEST(CurveChart, OfMotionsIsDrawnAlongTheFramesOfTheFirstCondition) {
   const RunData run = TrackingRun();
-  const auto chart = CurveChart(run, run.scenarios.front());
-  ASSERT_TRUE(chart.has_value());
+  ASSERT_OK(chart, CurveChart(run, run.scenarios.front()));
   EXPECT_EQ(chart->caption,
             "Frame by frame: median of the joint error (MPJPE) (mm); lower is better; under rate_hz=30");
   const auto json = nlohmann::json::parse(chart->json);

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "tests/engine/formats/spoilt.h"
+
 namespace etude {
 namespace {
 
@@ -55,30 +57,14 @@ TEST(CheckPage, WhateverIsAddedOrAlteredOutsideIsNoticed) {
 }
 
 TEST(CheckPage, BetweenMarksNothingReachesBeyondThem) {
-  for (const std::string& bad : {"<style>main{display:none}</style>"s,
-                                 "<script>x</script>"s,
-                                 "</h1>"s,
-                                 "<figure>"s,
-                                 "<b>better</b>"s,
-                                 "<p style=\"position:fixed\">x</p>"s,
-                                 "<p class=\"verdict\">x</p>"s,
-                                 "<p class=\"quiet\" class=\"x\">x</p>"s,
-                                 "<figure class=\"film\" onclick=\"x\"></figure>"s,
-                                 "<img src=\"https://x\">"s,
-                                 "<img src=\"data:text/html,x\">"s,
-                                 "<img src=\"data:image/png;base64,A\"\" alt=\"\">"s,
-                                 "<img width=\"99999\">"s,
-                                 "<img width=\"1em\">"s,
-                                 "<a href=\"javascript:x\">x</a>"s,
-                                 "<a href=\"../video/../x\">x</a>"s,
-                                 "<a href=\"../video/x\""s,
-                                 "<img alt=\"<style>x</style>\">"s,
-                                 "<!-- "s,
-                                 "<p class=\"quiet\"><figure></p></figure>"s,
-                                 "<img/alt=\"x\">"s,
-                                 "<tr></tr>"s,
-                                 "<P class=\"quiet\">x</P>"s,
-                                 "<details open>x</details>"s}) {
+  for (const std::string& bad : testing::Parts(
+           R"(<style>main{display:none}</style>^<script>x</script>^</h1>^<figure>^<b>better</b>^)"
+           R"(<p style="position:fixed">x</p>^<p class="verdict">x</p>^<p class="quiet" class="x">x</p>^)"
+           R"(<figure class="film" onclick="x"></figure>^<img src="https://x">^<img src="data:text/html,x">^)"
+           R"(<img src="data:image/png;base64,A"" alt="">^<img width="99999">^<img width="1em">^)"
+           R"(<a href="javascript:x">x</a>^<a href="../video/../x">x</a>^<a href="../video/x"^)"
+           R"(<img alt="<style>x</style>">^<!-- ^<p class="quiet"><figure></p></figure>^<img/alt="x">^)"
+           R"(<tr></tr>^<P class="quiet">x</P>^<details open>x</details>)")) {
     EXPECT_FALSE(CheckPage(With("", bad), kBare).same) << bad;
   }
 }

@@ -9,6 +9,7 @@
 #include "tests/reports/support/effector_run.h"
 #include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -27,8 +28,7 @@ fs::path FreshFolder() {
 
 TEST(Report, WritesEveryFileAndLeavesNoPartialOne) {
   const fs::path run_folder = FreshFolder();
-  const auto written = WriteReport(ExampleRun(), run_folder, {.pictures = false});
-  ASSERT_TRUE(written.has_value()) << ToString(written.error());
+  ASSERT_OK(written, WriteReport(ExampleRun(), run_folder, {.pictures = false}));
   for (const char* name : {"index.html", "summary.md", "junit.xml", "tables/ik-weights.csv",
                            "tables/ik-weights-comparisons.csv", "tables/ik-weights.tex", "tables/capture.csv"}) {
     EXPECT_GT(fs::file_size(run_folder / "report" / name), 50u) << name;
@@ -51,9 +51,8 @@ TEST(Report, WritesWhatCellsKeepOfSingleEffectorsWhereTheyDo) {
 TEST(Report, NamesThePathThatItCannotWrite) {
   const fs::path run_folder = FreshFolder();
   std::ofstream(run_folder / "report") << "a file stands where the folder should";
-  const auto written = WriteReport(ExampleRun(), run_folder, {.pictures = false});
-  ASSERT_FALSE(written.has_value());
-  EXPECT_THAT(ToString(written.error()), HasSubstr((run_folder / "report").string()));
+  EXPECT_THAT(testing::Refusal(WriteReport(ExampleRun(), run_folder, {.pictures = false})),
+              HasSubstr((run_folder / "report").string()));
 }
 
 TEST(Report, KeepsTablesInTheirFolderWhateverAScenarioIsCalled) {
@@ -70,16 +69,14 @@ TEST(Tables, LeaveMissingValuesEmpty) {
   metric = {metric.id, 0, 12, std::nullopt, std::nullopt, std::nullopt, std::nullopt};
   const fs::path run_folder = FreshFolder();
   ASSERT_TRUE(WriteReport(run, run_folder, {.pictures = false}).has_value());
-  const auto csv = ReadWholeFile(run_folder / "report/tables/detection.csv");
-  ASSERT_TRUE(csv.has_value());
+  ASSERT_OK(csv, ReadWholeFile(run_folder / "report/tables/detection.csv"));
   EXPECT_THAT(*csv, HasSubstr("detection,,fixed,f1,,,,,,0,12,"));
 }
 
 TEST(Summary, SaysTheSameAsThePage) {
   const fs::path run_folder = FreshFolder();
   ASSERT_TRUE(WriteReport(ExampleRun(), run_folder, {.pictures = false}).has_value());
-  const auto text = ReadWholeFile(run_folder / "report/summary.md");
-  ASSERT_TRUE(text.has_value());
+  ASSERT_OK(text, ReadWholeFile(run_folder / "report/summary.md"));
   EXPECT_THAT(*text, HasSubstr("3 of 5 expectations were met"));
   EXPECT_THAT(*text, HasSubstr("no bridge frame of “sway” has a partner"));
 }

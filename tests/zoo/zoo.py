@@ -84,6 +84,76 @@ def daemon(setsid=True, twice=True):
         live_on()
 
 
+# --- one call each ---------------------------------------------------------------------------------------------------
+def reaches(family, address):
+    with socket.socket(family) as link:
+        link.settimeout(0.5)
+        return link.connect_ex(address) == 0
+
+
+def append(path):
+    with open(path, "a") as file:
+        file.write("zoo")
+
+
+def is_etudes(process):
+    return process > 1 and "etude" in pathlib.Path(f"/proc/{process}/comm").read_text()
+
+
+PARENT, KEYS = os.getppid(), {"x86_64": 250, "aarch64": 219}  # the number of keyctl
+CALLS = {  # what a specimen has done where its call neither fails nor gives False
+    "kills_the_victim": ("signalled another process", lambda: os.kill(VICTIM["pid"], signal.SIGUSR1)),
+    "reads_its_parents_files": ("read its parent's open files", lambda: is_etudes(PARENT) and any(
+        [os.readlink(f"/proc/{PARENT}/fd/{name}") for name in os.listdir(f"/proc/{PARENT}/fd")])),
+    "reads_its_parents_environment": ("read its parent's environment", lambda: PARENT > 1 and
+                                      pathlib.Path(f"/proc/{PARENT}/environ").read_bytes() != b""),
+    "traces_the_victim": ("traced another process", lambda: LIBC.ptrace(16, VICTIM["pid"], 0, 0) == 0),
+    "lists_processes": ("saw another process", lambda: str(VICTIM["pid"]) in os.listdir("/proc")),
+    "writes_to_the_victims_output": ("opened another process's output", lambda: open(f"/proc/{VICTIM['pid']}/fd/1", "w").close()),
+    "changes_the_victims_priority": ("changed another process's priority", lambda: os.setpriority(os.PRIO_PROCESS, VICTIM["pid"], 5)),
+    "limits_the_victim": ("changed another process's limits",
+                          lambda: resource.prlimit(VICTIM["pid"], resource.RLIMIT_CORE, (0, resource.RLIM_INFINITY))),
+    "connects_to_a_port": ("reached a port of this machine", lambda: reaches(socket.AF_INET, ("127.0.0.1", VICTIM["port"]))),
+    "connects_to_a_socket_file": ("reached a socket file", lambda: reaches(socket.AF_UNIX, VICTIM["socket"])),
+    "connects_to_an_abstract_socket": ("reached an abstract socket", lambda: reaches(socket.AF_UNIX, "\0" + VICTIM["abstract"])),
+    "asks_a_name_server": ("has a route to the network",  # TEST-NET-1: nobody; only a route is looked for
+                           lambda: socket.socket(socket.AF_INET, socket.SOCK_DGRAM).connect(("192.0.2.1", 53))),
+    "opens_a_raw_socket": ("opened a raw socket", lambda: socket.socket(socket.AF_PACKET, socket.SOCK_RAW).close()),
+    "finds_shared_memory": ("found shared memory", lambda: LIBC.shmget(VICTIM["shared_memory"], 1, 0) >= 0),
+    "reads_the_run": ("read the manifest of the run", lambda: (DEN / "out" / "manifest.json").read_text() != ""),
+    "removes_the_run": ("renamed a folder of the run", lambda: [
+        os.rename(DEN / "out" / one, DEN / "out" / other) for one, other in (("stderr", "errors"), ("errors", "stderr"))]),
+    "writes_into_its_folder": ("wrote into its folder", lambda: append(DEN / "marks" / "note.txt")),
+    "writes_into_home": ("wrote into a home folder", lambda: append(pathlib.Path(VICTIM["home"]) / "profile")),
+    "links_to_the_victims_file": ("linked to a file", lambda: os.link(VICTIM["file"], DEN / "marks" / "link")),
+    "changes_a_mode": ("changed a file's mode", lambda: os.chmod(VICTIM["file"], 0o600)),
+    "truncates_a_file": ("truncated a file", lambda: os.truncate(VICTIM["file"], 0)),
+    "reads_others_temporary_files": ("read another's temporary file", lambda: pathlib.Path(VICTIM["file"]).read_text() != ""),
+    "remounts_writable": ("made the system writable", lambda: is_fenced() and LIBC.mount(None, b"/", None, 32 | 4096, None) == 0),
+    "makes_a_namespace": ("made a user namespace", lambda: LIBC.unshare(0x10000000) == 0),
+    "gains_privileges": ("may gain privileges", lambda: LIBC.prctl(39, 0, 0, 0, 0) != 1),
+    "leaves_its_root": ("changed its root", lambda: os.chroot("/tmp")),
+    "speaks_to_the_host": ("opened a socket to the host of this machine", lambda: socket.socket(40, socket.SOCK_STREAM).close()),  # AF_VSOCK
+    "reads_the_users_keys": ("reached the user's keys", lambda: LIBC.syscall(KEYS[os.uname().machine], 0, -3, 0) >= 0),
+    # Open files that a look at the process does not find (CLONE_FILES), and locks that belong to nobody.
+    "has_files_of_its_own_in_a_thread": ("has open files that nobody counts", lambda: LIBC.unshare(0x400) == 0),
+    "keeps_memory_in_attributes": ("keeps memory in attributes", lambda: [
+        append("/tmp/zoo-attributes"), os.setxattr("/tmp/zoo-attributes", "user.zoo", bytes(4096))]),
+    "sizes_the_futex_table": ("took kernel memory for futexes", lambda: LIBC.prctl(78, 1, 1 << 10, 0, 0) == 0),
+    "writes_to_its_input": ("wrote to its input", lambda: os.write(0, b"{}\n"))}
+
+
+def caller(what, call):
+    def specimen(_):
+        with contextlib.suppress(OSError, ValueError):
+            if call() is not False:
+                victimise(what)
+    return specimen
+
+
+globals().update({name: caller(*row) for name, row in CALLS.items()})
+
+
 # --- processes that stay ---------------------------------------------------------------------------------------------
 def forks_once(problem):
     daemon(setsid=False, twice=False)
@@ -193,33 +263,25 @@ def never_ends_in_a_thread():
 
 # --- others ----------------------------------------------------------------------------------------------------------
 def kills_its_parent(problem):
-    parent = os.getppid()
-    if parent > 1 and "etude" in pathlib.Path(f"/proc/{parent}/comm").read_text():
+    if is_etudes(PARENT):
         victimise("killed its parent")
-        os.kill(parent, signal.SIGKILL)
+        os.kill(PARENT, signal.SIGKILL)
 
 
 def stops_its_parent(problem):
     """For a moment."""
-    parent = os.getppid()
-    if parent > 1 and "etude" in pathlib.Path(f"/proc/{parent}/comm").read_text():
-        os.kill(parent, signal.SIGSTOP)
+    if is_etudes(PARENT):
+        os.kill(PARENT, signal.SIGSTOP)
         victimise("stopped its parent")
         time.sleep(0.1)
-        os.kill(parent, signal.SIGCONT)
-
-
-def kills_the_victim(problem):
-    with contextlib.suppress(OSError):
-        os.kill(VICTIM["pid"], signal.SIGUSR1)
-        victimise("signalled another process")
+        os.kill(PARENT, signal.SIGCONT)
 
 
 def kills_all(problem):
     if is_fenced():
         os.kill(-1, signal.SIGKILL)  # kills itself not
     else:
-        kills_the_victim(problem)
+        globals()["kills_the_victim"](problem)
 
 
 def kills_its_group(problem):
@@ -234,95 +296,15 @@ def reads_its_parents_memory(problem):
         start = int(line.split("-")[0], 16)
         with open(f"/proc/{os.getppid()}/mem", "rb") as memory:
             memory.seek(start)
-            if memory.read(4096) and "etude" in pathlib.Path(f"/proc/{os.getppid()}/comm").read_text():
+            if memory.read(4096) and is_etudes(os.getppid()):
                 victimise("read its parent's memory")
 
 
-def reads_its_parents_files(problem):
-    parent = os.getppid()
-    with contextlib.suppress(OSError):
-        links = [os.readlink(f"/proc/{parent}/fd/{name}") for name in os.listdir(f"/proc/{parent}/fd")]
-        if "etude" in pathlib.Path(f"/proc/{parent}/comm").read_text() and links:
-            victimise("read its parent's open files")
-
-
-def reads_its_parents_environment(problem):
-    with contextlib.suppress(OSError):
-        if pathlib.Path(f"/proc/{os.getppid()}/environ").read_bytes() and os.getppid() > 1:
-            victimise("read its parent's environment")
-
-
-def traces_the_victim(problem):
-    if LIBC.ptrace(16, VICTIM["pid"], 0, 0) == 0:
-        victimise("traced another process")
-
-
-def lists_processes(problem):
-    if any(name == str(VICTIM["pid"]) for name in os.listdir("/proc")):
-        victimise("saw another process")
-
-
-def writes_to_the_victims_output(problem):
-    with contextlib.suppress(OSError):
-        with open(f"/proc/{VICTIM['pid']}/fd/1", "w") as file:
-            file.write("")
-        victimise("opened another process's output")
-
-
-def changes_the_victims_priority(problem):
-    with contextlib.suppress(OSError):
-        os.setpriority(os.PRIO_PROCESS, VICTIM["pid"], 5)
-        victimise("changed another process's priority")
-
-
-def limits_the_victim(problem):
-    with contextlib.suppress(OSError, ValueError):
-        resource.prlimit(VICTIM["pid"], resource.RLIMIT_CORE, (0, resource.RLIM_INFINITY))
-        victimise("changed another process's limits")
-
-
 # --- network and messages --------------------------------------------------------------------------------------------
-def connects_to_a_port(problem):
-    with socket.socket() as link:
-        link.settimeout(0.5)
-        if link.connect_ex(("127.0.0.1", VICTIM["port"])) == 0:
-            victimise("reached a port of this machine")
-
-
-def connects_to_a_socket_file(problem):
-    with socket.socket(socket.AF_UNIX) as link:
-        if link.connect_ex(VICTIM["socket"]) == 0:
-            victimise("reached a socket file")
-
-
-def connects_to_an_abstract_socket(problem):
-    with socket.socket(socket.AF_UNIX) as link:
-        if link.connect_ex("\0" + VICTIM["abstract"]) == 0:
-            victimise("reached an abstract socket")
-
-
 def listens_at_a_port(problem):
     listener = socket.create_server(("127.0.0.1", 0))
     if os.readlink("/proc/self/ns/net") == VICTIM["network"]:
         victimise(f"listens at port {listener.getsockname()[1]} of this machine")
-
-
-def asks_a_name_server(problem):
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as link:
-        with contextlib.suppress(OSError):
-            link.connect(("192.0.2.1", 53))  # TEST-NET-1: nobody; only a route is looked for
-            victimise("has a route to the network")
-
-
-def opens_a_raw_socket(problem):
-    with contextlib.suppress(OSError):
-        socket.socket(socket.AF_PACKET, socket.SOCK_RAW).close()
-        victimise("opened a raw socket")
-
-
-def finds_shared_memory(problem):
-    if LIBC.shmget(VICTIM["shared_memory"], 1, 0) >= 0:
-        victimise("found shared memory")
 
 
 def makes_shared_memory(problem):
@@ -340,67 +322,17 @@ def makes_a_message_queue(problem):
 
 
 # --- files -----------------------------------------------------------------------------------------------------------
-def try_to_write(path, what):
-    with contextlib.suppress(OSError):
-        with open(path, "a") as file:
-            file.write("zoo")
-        victimise(what)
-
-
 def writes_into_the_run(problem):
     for name in ("journal.jsonl", "manifest.json", "seal.json", "note.txt"):
-        try_to_write(DEN / "out" / name, f"wrote {name} of the run")
-
-
-def reads_the_run(problem):
-    with contextlib.suppress(OSError):
-        if (DEN / "out" / "manifest.json").read_text():
-            victimise("read the manifest of the run")
-
-
-def removes_the_run(problem):
-    with contextlib.suppress(OSError):
-        os.rename(DEN / "out" / "stderr", DEN / "out" / "errors")
-        os.rename(DEN / "out" / "errors", DEN / "out" / "stderr")
-        victimise("renamed a folder of the run")
-
-
-def writes_into_its_folder(problem):
-    try_to_write(DEN / "marks" / "note.txt", "wrote into its folder")
-
-
-def writes_into_home(problem):
-    try_to_write(pathlib.Path(VICTIM["home"]) / "profile", "wrote into a home folder")
+        with contextlib.suppress(OSError):
+            append(DEN / "out" / name)
+            victimise(f"wrote {name} of the run")
 
 
 def writes_into_tmp(problem):
     for folder in ("/tmp", "/var/tmp", "/dev/shm"):
         with contextlib.suppress(OSError):
             pathlib.Path(folder, "zoo-left-behind").write_text("zoo")
-
-
-def links_to_the_victims_file(problem):
-    with contextlib.suppress(OSError):
-        os.link(VICTIM["file"], DEN / "marks" / "link")
-        victimise("linked to a file")
-
-
-def changes_a_mode(problem):
-    with contextlib.suppress(OSError):
-        os.chmod(VICTIM["file"], 0o600)
-        victimise("changed a file's mode")
-
-
-def truncates_a_file(problem):
-    with contextlib.suppress(OSError):
-        os.truncate(VICTIM["file"], 0)
-        victimise("truncated a file")
-
-
-def reads_others_temporary_files(problem):
-    with contextlib.suppress(OSError):
-        if pathlib.Path(VICTIM["file"]).read_text():
-            victimise("read another's temporary file")
 
 
 def opens_all_for_writing(problem):
@@ -485,28 +417,6 @@ def mounts_over(problem):
     if LIBC.mount(b"none", b"/tmp/zoo-mount", b"tmpfs", 0, None) == 0:
         LIBC.umount2(b"/tmp/zoo-mount", 2)
         victimise("mounted a file system")
-
-
-def remounts_writable(problem):
-    if is_fenced() and LIBC.mount(None, b"/", None, 32 | 4096, None) == 0:
-        victimise("made the system writable")
-
-
-def makes_a_namespace(problem):
-    if LIBC.unshare(0x10000000) == 0:
-        victimise("made a user namespace")
-
-
-def gains_privileges(problem):
-    flag = LIBC.prctl(39, 0, 0, 0, 0)
-    if flag != 1:
-        victimise("may gain privileges")
-
-
-def leaves_its_root(problem):
-    with contextlib.suppress(OSError):
-        os.chroot("/tmp")
-        victimise("changed its root")
 
 
 def types_at_the_terminal(problem):
@@ -943,17 +853,6 @@ def takes_asynchronous_requests(problem):
     time.sleep(1)
 
 
-def speaks_to_the_host(problem):
-    with contextlib.suppress(OSError):
-        socket.socket(40, socket.SOCK_STREAM).close()  # AF_VSOCK
-        victimise("opened a socket to the host of this machine")
-
-
-def reads_the_users_keys(problem):
-    if LIBC.syscall({"x86_64": 250, "aarch64": 219}[os.uname().machine], 0, -3, 0) >= 0:
-        victimise("reached the user's keys")
-
-
 def floods_standard_error(problem):
     for _ in range(300):
         sys.stderr.write("x" * 99999 + "\n")
@@ -992,24 +891,6 @@ def dumps_core(problem):
     os.abort()
 
 
-def has_files_of_its_own_in_a_thread(problem):
-    """Open files that a look at the process does not find, and locks that belong to nobody."""
-    if LIBC.unshare(0x400) == 0:  # CLONE_FILES
-        victimise("has open files that nobody counts")
-
-
-def keeps_memory_in_attributes(problem):
-    with contextlib.suppress(OSError):
-        pathlib.Path("/tmp/zoo-attributes").write_text("zoo")
-        os.setxattr("/tmp/zoo-attributes", "user.zoo", bytes(4096))
-        victimise("keeps memory in attributes")
-
-
-def sizes_the_futex_table(problem):
-    if LIBC.prctl(78, 1, 1 << 10, 0, 0) == 0:
-        victimise("took kernel memory for futexes")
-
-
 def takes_a_lease(problem):
     """Whoever opens the file for writing then waits for it."""
     with contextlib.suppress(OSError):
@@ -1037,12 +918,6 @@ def reopens_its_descriptors(problem):
     os.dup2(file, 1)
 
 
-def writes_to_its_input(problem):
-    with contextlib.suppress(OSError):
-        os.write(0, b"{}\n")
-        victimise("wrote to its input")
-
-
 def reads_its_output(problem):
     with contextlib.suppress(OSError):
         os.set_blocking(1, False)
@@ -1065,7 +940,7 @@ def seeks_its_standard_error(problem):
 
 AT_THE_END = {"forks_twice_when_input_ends", "forks_thrice_when_input_ends", "forks_late_when_input_ends",
               "stops_itself_when_input_ends", "never_ends", "never_ends_in_a_thread"}
-HELPERS = {"say", "answer", "is_fenced", "live_on", "harm", "victimise", "daemon", "try_to_write",
+HELPERS = {"say", "answer", "is_fenced", "live_on", "harm", "victimise", "daemon", "reaches", "append", "is_etudes", "caller",
            "is_writable", "tell_of_memory", "in_children", "splits_memory", "fill_socket", "take", "main"}
 
 

@@ -7,6 +7,7 @@
 
 #include "bench/run/suite.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -75,9 +76,8 @@ class Predictions : public ::testing::Test {
 };
 
 TEST_F(Predictions, AreFoundUnderTheNamesOfTheirWorlds) {
-  const auto files = Find({"ik/joint_noise_deg=2/000.json", "ik/joint_noise_deg=2/1.json",
-                           "ik/joint_noise_deg=5/001.JSON", ".DS_Store", ".git/config"});
-  ASSERT_TRUE(files) << ToString(files.error());
+  ASSERT_OK(files, Find({"ik/joint_noise_deg=2/000.json", "ik/joint_noise_deg=2/1.json",
+                         "ik/joint_noise_deg=5/001.JSON", ".DS_Store", ".git/config"}));
   ASSERT_EQ(files->size(), 4u);
   EXPECT_EQ((*files)[0]->below().filename(), "000.json");
   EXPECT_EQ((*files)[1]->below().filename(), "1.json");
@@ -116,8 +116,7 @@ TEST_F(Predictions, ThatAreLinksOrNoFilesAreBrokenAndNotOpened) {
   Write("answers/ik/joint_noise_deg=2/000.json", "{}");
   fs::create_symlink(folder_.path() / "truth.json", folder_.path() / "answers/ik/joint_noise_deg=2/001.json");
   fs::create_symlink(folder_.path() / "truth.json", folder_.path() / "answers/.note");
-  const auto files = Find({});
-  ASSERT_TRUE(files);
+  ASSERT_OK(files, Find({}));
   EXPECT_THAT(faults_.broken,
               ElementsAre("ik/joint_noise_deg=2/001.json: is a link; each answer must be a separate file",
                           "ik/joint_noise_deg=5: is a link; each answer must be a separate file"));

@@ -9,6 +9,7 @@
 #include "io/files/files.h"
 #include "io/films/decoder.h"
 #include "io/images/image_files.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -71,8 +72,7 @@ TEST_F(TakeFilms, KeepEveryBitOfEveryPicture) {
     files.push_back({"camera-1-000" + std::to_string(files.size()) + ".png", EncodePng(picture)});
   }
   ASSERT_TRUE(SaveTakeFilms(files, 30, folder_));
-  const auto facts = ProbeFilm(folder_ / "camera-1.mkv");
-  ASSERT_TRUE(facts) << ToString(facts.error());
+  ASSERT_OK(facts, ProbeFilm(folder_ / "camera-1.mkv"));
   EXPECT_EQ(facts->frames, 4);
   EXPECT_EQ(facts->rate_hz, 30);
   auto film = Decoder::Start(folder_ / "camera-1.mkv", *facts);
@@ -87,12 +87,11 @@ TEST_F(TakeFilms, KeepEveryBitOfEveryPicture) {
 
 TEST_F(TakeFilms, SayWhyTheyCannotBeWritten) {
   ASSERT_TRUE(WriteFileAtomically(folder_, "a file where the folder would be"));
-  const auto saved = SaveTakeFilms(std::vector<Attachment>{{"camera-1-0000.png", Grey(1)}}, 30, folder_);
-  ASSERT_FALSE(saved);
-  EXPECT_THAT(ToString(saved.error()), HasSubstr("etude_take_films_"));
-  const auto damaged = SaveTakeFilms(std::vector<Attachment>{{"camera-1-0000.png", Grey(1).substr(0, 50)}}, 30, folder_);
-  ASSERT_FALSE(damaged);
-  EXPECT_THAT(ToString(damaged.error()), HasSubstr("PNG"));
+  EXPECT_THAT(testing::Refusal(SaveTakeFilms(std::vector<Attachment>{{"camera-1-0000.png", Grey(1)}}, 30, folder_)),
+              HasSubstr("etude_take_films_"));
+  EXPECT_THAT(testing::Refusal(
+                  SaveTakeFilms(std::vector<Attachment>{{"camera-1-0000.png", Grey(1).substr(0, 50)}}, 30, folder_)),
+              HasSubstr("PNG"));
 }
 
 }  // namespace

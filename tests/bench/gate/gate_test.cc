@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/bench/gate/example.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -57,9 +58,8 @@ TEST(Gate, FailsOnAnUnmetExpectationWithoutAnyBaseline) {
 TEST(Gate, RefusesABaselineOfOtherWorldsAndSaysWhatDiffers) {
   Snapshot baseline = TakeSnapshot(Steady());
   baseline.scenarios[0].seed = 9;
-  const auto report = JudgeRun(Steady(), &baseline, "b.json");
-  ASSERT_FALSE(report);
-  EXPECT_THAT(ToString(report.error()), HasSubstr("b.json: its worlds are not those of the run: s: seed 9 and 5"));
+  EXPECT_THAT(testing::Refusal(JudgeRun(Steady(), &baseline, "b.json")),
+              HasSubstr("b.json: its worlds are not those of the run: s: seed 9 and 5"));
 }
 
 TEST(Gate, DoesNotJudgeARunThatLacksRows) {

@@ -7,6 +7,7 @@
 
 #include "sim/random/stream.h"
 #include "tests/bench/gate/example.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -27,8 +28,7 @@ RunUnderSeed NormalRuns(double gap) {
 }
 
 TEST(SelfTest, FindsNoAlarmBetweenEqualSeedsAndEveryLargeChange) {
-  const auto report = RunSelfTest(NormalRuns(1), 20);
-  ASSERT_TRUE(report) << ToString(report.error());
+  ASSERT_OK(report, RunSelfTest(NormalRuns(1), 20));
   EXPECT_EQ(report->comparisons, 12);
   EXPECT_EQ(report->rerun_alarms.count, 0);
   EXPECT_EQ(report->rerun_alarms.of, 20);

@@ -60,8 +60,7 @@ TEST(Recording, NamesItsJointsAndRefusesThoseThatDoNot) {
   const auto complaint = [&](const std::function<void(Json&)>& change) {
     Json changed = json;
     change(changed);
-    const auto read = DecodeRecording(changed, kPlace);
-    return read ? "" : ToString(read.error());
+    return testing::Refusal(DecodeRecording(changed, kPlace));
   };
   const auto without_head = [](Json& changed) { changed = Json{{"tracks", changed.at("tracks")}, {"extras", {}}}; };
   EXPECT_THAT(complaint(without_head), HasSubstr("of version 1, which does not name its joints"));

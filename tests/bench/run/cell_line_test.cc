@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/model/recording.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -42,8 +43,7 @@ Result<FinishedCell> ThereAndBack(const FinishedCell& cell) {
 
 TEST(CellLine, SaysAllThatACellIsAndTook) {
   const FinishedCell cell = SampleCell();
-  const auto back = ThereAndBack(cell);
-  ASSERT_TRUE(back) << ToString(back.error());
+  ASSERT_OK(back, ThereAndBack(cell));
   const CellResult &was = cell.row.result, &is = back->row.result;
   EXPECT_EQ(back->row.scenario, "ik-weights");  // the identity is not of the line
   EXPECT_EQ(is.status, was.status);
@@ -72,8 +72,7 @@ TEST(CellLine, SaysAllThatACellIsAndTook) {
 TEST(CellLine, IsJsonInOneLine) {
   const std::string line = EncodeCellLine(12, SampleCell());
   EXPECT_EQ(line.find('\n'), std::string::npos);
-  const auto json = ReadJson(line, "x");
-  ASSERT_TRUE(json) << ToString(json.error());
+  ASSERT_OK(json, ReadJson(line, "x"));
   EXPECT_EQ(json->at("cell"), 12);
   EXPECT_EQ(json->at("why"), Json::array({"no truth\n", ""}));
   EXPECT_EQ(json->at("series").at(1), Json::array({"empty", "frame", Json::array()}));
@@ -88,8 +87,7 @@ TEST(CellLine, OfACellThatMeasuredNothingIsShort) {
 }
 
 TEST(CellLine, TellsItsCellAndStatusFirst) {
-  const auto head = ReadCellLineHead(EncodeCellLine(12, SampleCell()));
-  ASSERT_TRUE(head);
+  ASSERT_OK(head, ReadCellLineHead(EncodeCellLine(12, SampleCell())));
   EXPECT_EQ(head->cell, 12u);
   EXPECT_EQ(head->status, Status::kUnsolved);
 }
@@ -145,8 +143,7 @@ TEST(CellLine, WithAValueThatIsNotFiniteIsBadOutput) {
     series.row.result.series[0].values[1] = bad;
     recording.row.result.recording->tracks[0].motion.poses[0][Role::kSpine].y = bad;
     for (const FinishedCell& cell : {metric, series, recording}) {
-      const auto back = ThereAndBack(cell);
-      ASSERT_TRUE(back);
+      ASSERT_OK(back, ThereAndBack(cell));
       EXPECT_EQ(back->row.result.status, Status::kBadOutput);
       EXPECT_THAT(back->row.result.reason, HasSubstr("finite"));
     }

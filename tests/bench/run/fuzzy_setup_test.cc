@@ -8,6 +8,7 @@
 #include "engine/fuzzy/fuzzy_system.h"
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -37,8 +38,7 @@ class FuzzySetup : public ::testing::Test {
 
 TEST_F(FuzzySetup, KeepsTheTextOfEveryNamedFileSoThatTheFileMayGo) {
   const std::string mine = Write("mine.yaml", WriteFuzzySystem(FuzzySystem{}));
-  const auto suite = Suite("transition", "fuzzy: " + mine);
-  ASSERT_TRUE(suite) << ToString(suite.error());
+  ASSERT_OK(suite, Suite("transition", "fuzzy: " + mine));
   EXPECT_EQ(suite->sources.at(mine), WriteFuzzySystem(FuzzySystem{}));
   std::filesystem::remove(mine);
   const auto prepared = PrepareAll(*suite);
@@ -49,30 +49,22 @@ TEST_F(FuzzySetup, KeepsTheTextOfEveryNamedFileSoThatTheFileMayGo) {
 }
 
 TEST_F(FuzzySetup, MakesATaskOfEverySystemThatIsSwept) {
-  const auto suite = Suite("transition", "sweep: {fuzzy: ['builtin:paper', 'builtin:gaussian']}");
-  ASSERT_TRUE(suite) << ToString(suite.error());
-  const auto prepared = PrepareAll(*suite);
-  ASSERT_TRUE(prepared) << ToString(prepared.error());
+  ASSERT_OK(suite, Suite("transition", "sweep: {fuzzy: ['builtin:paper', 'builtin:gaussian']}"));
+  ASSERT_OK(prepared, PrepareAll(*suite));
   EXPECT_EQ(prepared->front().scenario().conditions.size(), 2u);
-  const auto unknown = Suite("transition", "sweep: {fuzzy: ['builtin:paper', 'builtin:papper']}");
-  ASSERT_TRUE(unknown) << ToString(unknown.error());
+  ASSERT_OK(unknown, Suite("transition", "sweep: {fuzzy: ['builtin:paper', 'builtin:papper']}"));
   EXPECT_THAT(ToString(PrepareAll(*unknown).error()), HasSubstr("did you mean 'paper'?"));
 }
 
 TEST_F(FuzzySetup, ComplainsWhereAFileIsNamedAndWhereItIsWrong) {
-  const auto missing = Suite("transition", "fuzzy: no_such.yaml");
-  ASSERT_FALSE(missing);
-  EXPECT_THAT(ToString(missing.error()), HasSubstr("s.yaml:4:8: no_such.yaml"));
+  EXPECT_THAT(testing::Refusal(Suite("transition", "fuzzy: no_such.yaml")), HasSubstr("s.yaml:4:8: no_such.yaml"));
   const std::string mine = Write("mine.yaml", "system: mine\nfeatures:\n  RX: {}\n");
-  const auto suite = Suite("transition", "fuzzy: " + mine);
-  ASSERT_TRUE(suite) << ToString(suite.error());
+  ASSERT_OK(suite, Suite("transition", "fuzzy: " + mine));
   EXPECT_THAT(ToString(PrepareAll(*suite).error()), HasSubstr("mine.yaml:3:3: unknown feature 'RX'"));
 }
 
 TEST_F(FuzzySetup, IsRefusedByATaskThatGradesNoPoses) {
-  const auto suite = Suite("ik", "fuzzy: builtin:paper");
-  ASSERT_FALSE(suite);
-  EXPECT_THAT(ToString(suite.error()), HasSubstr("'fuzzy'"));
+  EXPECT_THAT(testing::Refusal(Suite("ik", "fuzzy: builtin:paper")), HasSubstr("'fuzzy'"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "sim/random/stream.h"
 #include "tests/bench/run/prepared.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -98,8 +99,7 @@ TEST(Plan, OrdersSecretTrialsOtherwiseUnderEveryCondition) {
 }
 
 TEST(Shard, IsReadAndWritten) {
-  const auto shard = ParseShard("2/8");
-  ASSERT_TRUE(shard);
+  ASSERT_OK(shard, ParseShard("2/8"));
   EXPECT_EQ(*shard, (Shard{2, 8}));
   EXPECT_EQ(ToString(*shard), "2/8");
   for (const char* bad : {"", "2", "/8", "0/8", "9/8", "2/8x", "a/b", "-1/8", "1/1000000", "2 / 8"}) {

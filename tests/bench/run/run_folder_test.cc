@@ -9,6 +9,7 @@
 #include "bench/results/seal.h"
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -55,8 +56,7 @@ TEST_F(RunFolderTest, GivesAnEmptyLockedFolderForTheOldRunWhichGoesWhenThereIsSo
 
 TEST_F(RunFolderTest, PutsTheOldRunBackWhenNothingIsKept) {
   {
-    const auto claimed = RunFolder::Claim(out_, false);
-    ASSERT_TRUE(claimed);
+    ASSERT_OK(claimed, RunFolder::Claim(out_, false));
     ASSERT_TRUE(WriteFileAtomically(out_ / "manifest.json", "new"));
   }
   ExpectOldRun();
@@ -81,8 +81,7 @@ TEST_F(RunFolderTest, PutsTheOldRunBackThatAKilledOverwritingLeftWhenTheNextOneF
   ASSERT_TRUE(fs::exists(out_ / "manifest.json"));
   TemporaryFolder::RemoveAbandoned(folder_.path());  // as others beside it do
   {
-    const auto claimed = RunFolder::Claim(out_, false);
-    ASSERT_TRUE(claimed);
+    ASSERT_OK(claimed, RunFolder::Claim(out_, false));
     EXPECT_THAT(NamesIn(out_), ElementsAre(kLockFile));
   }
   ExpectOldRun();
@@ -132,11 +131,8 @@ TEST_F(RunFolderTest, EmptiesTheWorkingFolderInItsPlace) {
 }
 
 TEST_F(RunFolderTest, LeavesAFolderThatAnotherRunWritesIntoAsItIs) {
-  const auto other = RunFolder::Claim(out_, /*keep_contents=*/true);
-  ASSERT_TRUE(other);
-  const auto refused = RunFolder::Claim(out_, false);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(ToString(refused.error()), ::testing::HasSubstr("another run is writing into it"));
+  ASSERT_OK(other, RunFolder::Claim(out_, /*keep_contents=*/true));
+  EXPECT_THAT(testing::Refusal(RunFolder::Claim(out_, false)), ::testing::HasSubstr("another run is writing into it"));
   EXPECT_EQ(ReadWholeFile(out_ / "host.json"), "old");
 }
 

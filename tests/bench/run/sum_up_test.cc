@@ -7,6 +7,7 @@
 
 #include "bench/results/summary_json.h"
 #include "sim/random/stream.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -64,20 +65,20 @@ TEST(SumUp, SaysTheSameForAnyNumberOfProcesses) {
 }
 
 TEST(RunForked, GivesAnswersInOrderHoweverLong) {
-  const auto answers = RunForked(
-      7, 3, [](std::size_t i) -> Result<std::string> { return std::string(i * 100'000, static_cast<char>('a' + i)); });
-  ASSERT_TRUE(answers);
+  ASSERT_OK(answers, RunForked(7, 3, [](std::size_t i) -> Result<std::string> {
+              return std::string(i * 100'000, static_cast<char>('a' + i));
+            }));
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ((*answers)[i], std::string(i * 100'000, static_cast<char>('a' + i)));
   EXPECT_TRUE(RunForked(0, 3, [](std::size_t) -> Result<std::string> { return Fail({}, "never asked"); })->empty());
 }
 
 TEST(RunForked, PassesOnAComplaintAndNoticesADeath) {
-  const auto complaint = RunForked(5, 2, [](std::size_t i) -> Result<std::string> {
-    if (i == 3) return Fail({"x", 1, 0}, "the fourth is wrong");
-    return "fine";
-  });
-  ASSERT_FALSE(complaint);
-  EXPECT_THAT(ToString(complaint.error()), HasSubstr("x:1: the fourth is wrong"));
+  EXPECT_THAT(testing::Refusal(RunForked(5, 2,
+                                         [](std::size_t i) -> Result<std::string> {
+                                           if (i == 3) return Fail({"x", 1, 0}, "the fourth is wrong");
+                                           return "fine";
+                                         })),
+              HasSubstr("x:1: the fourth is wrong"));
   const auto death = RunForked(5, 2, [](std::size_t i) -> Result<std::string> {
     if (i == 2) ::_exit(0);
     return "fine";

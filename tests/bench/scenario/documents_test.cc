@@ -110,8 +110,7 @@ TEST(Documents, OfScenariosInTheRepositoryAreRead) {
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path("scenarios") / folder)) {
       if (entry.path().extension() != ".yaml") continue;
       const std::string name = entry.path().filename().string();
-      const auto text = ReadWholeFile(entry.path());
-      ASSERT_TRUE(text) << name;
+      ASSERT_OK(text, ReadWholeFile(entry.path())) << name;
       EXPECT_EQ(ComplaintOfAll(name, {{name, *text}}, *clips), "") << name;
       ++count;
     }

@@ -67,15 +67,10 @@ TEST(ApiSilhouettes, RefusesWhatDoesNotGoTogether) {
   const auto refused = [&](const FollowOptions& options = {}) {
     return RefusalOf([&] { TrackSilhouettes(cameras, masks, options); });
   };
-  EXPECT_THAT(refused({.stature_m = 3}), HasSubstr("allowed: 0.5 to 2.5"));
   EXPECT_THAT(refused({.measured = {Pose{}}}), HasSubstr("a limb has no length"));
   masks[0][0].pixels.pop_back();
   EXPECT_THAT(refused(), HasSubstr("a mask of 307199 pixels; allowed: 640 x 480"));
   masks[0] = masks[1];
-  cameras[1].camera.intrinsics.width = 641;
-  EXPECT_THAT(refused(), HasSubstr("640 x 480 pixels of camera ''; allowed: its 641 x 480"));
-  cameras[1].camera.distortion.k1 = 0.1;
-  EXPECT_THAT(refused(), HasSubstr("a lens with distortion"));
   cameras.pop_back();
   EXPECT_THAT(refused(), HasSubstr("1 cameras, but masks of 2"));
 }
@@ -116,14 +111,7 @@ TEST(ApiTransitions, ShowsWhatTheEngineShowsToTheLastBit) {
 
 TEST(ApiTransitions, RefusesWhatThereIsNot) {
   EXPECT_THAT(RefusalOf([] { TransitionLibrary({}); }), HasSubstr("no clips"));
-  std::vector<Motion> clips = {Swaying(30, 0.05), Swaying(1, 0)};
-  EXPECT_THAT(RefusalOf([&] { TransitionLibrary{clips}; }),
-              HasSubstr("clip 1: 1 frames at 30 Hz; allowed: two or more"));
-  clips.pop_back();
-  const TransitionLibrary library(clips);
-  EXPECT_THAT(RefusalOf([&] { library.Make(0, 30, 0); }), HasSubstr("frame 30 of clip 0; allowed: 0 to 29"));
-  EXPECT_THAT(RefusalOf([&] { library.Make(0, 0, 1); }), HasSubstr("clip 1; allowed: 0 to 0"));
-  EXPECT_THAT(RefusalOf([&] { library.Make(0, 0, 0, -1); }), HasSubstr("a budget of -1 s"));
+  const TransitionLibrary library(std::vector{Swaying(30, 0.05)});
   EXPECT_THAT(RefusalOf([&] { library.Make(0, 0, 0, 1, {.choice = "?"}); }), HasSubstr("choice '?'; allowed: fuzzy-"));
   EXPECT_THAT(RefusalOf([&] { library.Make(0, 0, 0, 1, {.join = "?"}); }), HasSubstr("join '?'; allowed: cut"));
   EXPECT_THAT(RefusalOf([&] { library.Make(0, 0, 0, 1, {.threshold = std::nan("")}); }), HasSubstr("threshold nan"));

@@ -7,6 +7,7 @@
 
 #include "engine/recognition/recognise.h"
 #include "engine/recognition/recognisers.h"
+#include "tests/support/results.h"
 
 namespace etude::engine {
 namespace {
@@ -59,13 +60,11 @@ TEST(ApiRecognition, FollowsAsTheEngineDoesToTheLastBit) {
     RecogniserStream stream = Recogniser(moves, {.kind = kind}).Follow();
     stream.Ask(1);
     const SkeletonStream& shown = moves[1].examples.front();
-    const auto recogniser = MakeRecogniser({.kind = FindRecogniser(kind)}, moves);
-    ASSERT_TRUE(recogniser);
+    ASSERT_OK(recogniser, MakeRecogniser({.kind = FindRecogniser(kind)}, moves));
     FilterOptions filter;
     filter.kind = FilterKind::kHolt;
     const std::vector<AskedMove> asked = {{1, {0, 40}}};
-    const auto trace = FollowStream(**recogniser, 2, SeeStream(shown, filter), asked);
-    ASSERT_TRUE(trace);
+    ASSERT_OK(trace, FollowStream(**recogniser, 2, SeeStream(shown, filter), asked));
     for (int frame = 0; frame < 40; ++frame) {
       const Evidence evidence = stream.Update(shown.frames[frame]);
       EXPECT_EQ(evidence.asked, trace->asked[frame]) << kind << frame;

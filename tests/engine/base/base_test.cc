@@ -11,22 +11,9 @@
 namespace etude {
 namespace {
 
-TEST(Error, IsToldAsFileLineColumnAndMessage) {
-  EXPECT_EQ(ToString(Error{{"a.yaml", 3, 7}, "bad"}), "a.yaml:3:7: bad");
-  EXPECT_EQ(ToString(Error{{"a.yaml", 3, 0}, "bad"}), "a.yaml:3: bad");
-  EXPECT_EQ(ToString(Error{{"a.yaml", 0, 0}, "bad"}), "a.yaml: bad");
-  EXPECT_EQ(ToString(Error{{}, "bad"}), "bad");
+TEST(Error, ShowsNoControlByteOfAFileOrAMessage) {
   EXPECT_EQ(ToString(Error{{"a\n.yaml", 3, 7}, "found '\x1b[31m\t\x7f'"}), "a .yaml:3:7: found ' [31m  '");
   EXPECT_EQ(ToString(Error{{}, std::string("a\0b é", 6)}), "a b é") << "every control byte, and no byte of a letter";
-}
-
-TEST(NearestName, FindsTheTypingErrorAndNothingFarAway) {
-  const std::vector<std::string> known = {"ccd", "ccd-hinges", "damped-least-squares"};
-  EXPECT_EQ(NearestName("cdc", known), "ccd");
-  EXPECT_EQ(NearestName("ccd-hinge", known), "ccd-hinges");
-  EXPECT_EQ(NearestName("CCD", known), "ccd");
-  EXPECT_EQ(NearestName("newton", known), "");
-  EXPECT_EQ(NearestName("", known), "");
 }
 
 // The textbook's recursion, without a table: what an edit costs is the least of what its last step can be.
@@ -64,40 +51,22 @@ TEST(NearestName, IsTheFirstOfTheFewestEdits) {
   EXPECT_LT(found, 160);
 }
 
-TEST(UnknownName, SaysWhatWasFoundWhatWasMeantAndWhatIsAllowed) {
-  EXPECT_EQ(UnknownName("solver", "cdc", std::vector<std::string>{"ccd", "dls"}),
-            "unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd, dls");
-  EXPECT_EQ(UnknownName("solver", "newton", std::vector<std::string>{"ccd", "dls"}),
-            "unknown solver 'newton'. Allowed: ccd, dls");
+TEST(UnknownName, IsShownUpToSixtyLetters) {
   EXPECT_EQ(UnknownName("solver", std::string(61, 'x'), std::vector<std::string>{"ccd"}),
             "unknown solver '" + std::string(60, 'x') + "'. Allowed: ccd");
 }
 
 TEST(Quote, ShowsWhatAReaderSees) {
   EXPECT_EQ(Quote("two words"), "'two words'");
-  EXPECT_EQ(Quote(""), "the end of the line or file");
   EXPECT_EQ(Quote("\tx\x7f"), "'?x?'");
   EXPECT_EQ(Quote("左ひじ"), "'左ひじ'");
   EXPECT_EQ(Quote("Épaule 😀"), "'Épaule 😀'");
-  EXPECT_EQ(Quote("\x83\x6a\xff\xc3"),
-            "'?j?"
-            "?'")
-      << "no UTF-8";
-  EXPECT_EQ(Quote("a\u202eb\u0085"),
-            "'a?"
-            "?"
-            "?b?"
-            "?'")
-      << "turns the direction of writing; controls";
-  EXPECT_EQ(Quote("\xc0\xaf"),
-            "'?"
-            "?'")
-      << "written longer than need be";
+  EXPECT_EQ(Quote("\x83\x6a\xff\xc3"), "'?j?\?'") << "no UTF-8";
+  EXPECT_EQ(Quote("a\u202eb\u0085"), "'a?\?\?b?\?'") << "turns the direction of writing; controls";
+  EXPECT_EQ(Quote("\xc0\xaf"), "'?\?'") << "written longer than need be";
   std::string many;
   for (int i = 0; i < 41; ++i) many += "腕";
   EXPECT_EQ(Quote(many), "'" + many.substr(0, 120) + "…'");
-  EXPECT_EQ(Quote(std::string(40, 'x')), "'" + std::string(40, 'x') + "'");
-  EXPECT_EQ(Quote(std::string(41, 'x')), "'" + std::string(40, 'x') + "…'");
 }
 
 TEST(Digest, IsXxh3OfTheBytesAddedAndTellsOrdersApart) {

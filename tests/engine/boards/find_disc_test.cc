@@ -7,6 +7,7 @@
 
 #include "engine/base/angles.h"
 #include "sim/random/stream.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -48,8 +49,7 @@ TEST(FindDisc, FindsTheMiddleOfAnyEllipseThatIsPointedAt) {
                        random.Uniform(0, kPi)};
     GreyImage picture = Draw(disc);
     for (float& value : picture.pixels) value += static_cast<float>(3 * random.Normal());
-    const auto found = FindDisc(picture, disc.middle + glm::dvec2(random.Uniform(-3, 3), 2), 6, 30);
-    ASSERT_TRUE(found) << trial;
+    ASSERT_OK(found, FindDisc(picture, disc.middle + glm::dvec2(random.Uniform(-3, 3), 2), 6, 30)) << trial;
     EXPECT_LT(glm::distance(*found, disc.middle), 0.1) << trial;
   }
 }

@@ -10,6 +10,7 @@
 
 #include "engine/base/image.h"
 #include "engine/cameras/camera.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -98,8 +99,7 @@ TEST(PrintedBoard, IsReadFromItsText) {
   EXPECT_FALSE(ReadPrintedBoard("8x6x0.03"));  // one of ours
   for (const char* wrong : {"chess:", "chess:9x6", "chess:2x6x0.1", "chess:9.5x6x0.1", "chess:9x6x0", "chess:9x6xnan",
                             "charuco:4x5x0.05x1", "charuco:4x65x0.05"}) {
-    const auto board = ReadPrintedBoard(wrong);
-    ASSERT_TRUE(board) << wrong;
+    ASSERT_OK(board, ReadPrintedBoard(wrong)) << wrong;
     EXPECT_FALSE(*board) << wrong;
   }
 }

@@ -96,13 +96,6 @@ TEST(Pose2SimFile, WritesWhatTomlReadersTakeForRealNumbers) {
   EXPECT_NE(text.find("fisheye = false\n\n[metadata]\n"), std::string::npos);
 }
 
-std::string Broken(const std::string& from, const std::string& to) {
-  const std::string text = WritePose2SimCalibration(std::vector{Crooked()});
-  const auto read = ReadPose2SimCalibration(testing::Replaced(text, from, to));
-  EXPECT_FALSE(read) << to;
-  return read ? "" : ToString(read.error());
-}
-
 TEST(Pose2SimFile, ReadsFisheyesMatricesAndListsOverLines) {
   NamedCamera fisheye = Crooked();
   fisheye.camera.distortion = {.k1 = -0.02, .k2 = 0.004, .k3 = -0.001, .k4 = 0.0003, .is_fisheye = true};
@@ -120,17 +113,6 @@ TEST(Pose2SimFile, ReadsFisheyesMatricesAndListsOverLines) {
   EXPECT_EQ(caliscope->front().name, "cam_3");
   // Z up: the file's x, which the camera looks along, is our z.
   EXPECT_LT(glm::distance(caliscope->front().camera.p_WC, glm::dvec3(0, 0, -2)), 1e-12);
-}
-
-TEST(Pose2SimFile, SaysWhatIsWrong) {
-  EXPECT_NE(Broken("rotation", "rotatoin").find("camera cam_01 has no rotation"), std::string::npos);
-  EXPECT_NE(Broken("1681.25", "-1681.25").find("focal lengths"), std::string::npos);
-  EXPECT_NE(Broken("1681.25", "abc").find("is not a list of numbers"), std::string::npos);
-  EXPECT_NE(Broken("fisheye = false", "distortions = [1, 2]").find("2 distortion coefficients"), std::string::npos);
-  EXPECT_NE(Broken("1088.0, 1920.0", "1088.0").find("size has 1 numbers"), std::string::npos);
-  EXPECT_NE(Broken("1088.0", "nan").find("pixels"), std::string::npos);
-  EXPECT_FALSE(ReadPose2SimCalibration(""));
-  EXPECT_FALSE(ReadPose2SimCalibration("[a]\nmatrix"));
 }
 
 }  // namespace

@@ -112,12 +112,9 @@ TEST(RefineCamera, TellsHowUncertainItsFocalLengthIs) {
 }
 
 TEST(RefineCamera, RefusesWhatDoesNotDetermineACamera) {
-  const auto reason = [](std::span<const PointPair> pairs) {
-    const auto rig = RefineCamera(pairs, 640, 480);
-    return rig ? std::string("no complaint") : rig.error().message;
-  };
+  const auto reason = [](std::span<const PointPair> pairs) { return testing::Message(RefineCamera(pairs, 640, 480)); };
   const std::vector<PointPair> good = Pairs(TrueCamera(), 40, 4, 0);
-  EXPECT_EQ(reason(good), "no complaint") << "the control";
+  EXPECT_EQ(reason(good), "accepted") << "the control";
   EXPECT_THAT(reason(std::span(good).first(5)), HasSubstr("at least 6"));
   EXPECT_THAT(reason(std::span(good).first(6)), HasSubstr("12 equations for 14 unknowns"));
   std::vector<PointPair> plane = good, line = good, broken = good, swapped = good;
@@ -156,10 +153,9 @@ TEST(RefineRig, SaysWhatIsWrongWithViews) {
   const std::vector<PointPair> pairs = Pairs(TrueCamera(), 20, 6, 0.3), two(pairs.begin(), pairs.begin() + 2);
   const RigGuess guess{{TrueCamera(), TrueCamera()}, {CalibrationTargetPose{}, CalibrationTargetPose{}}};
   const auto reason = [&](const std::vector<TargetView>& views, const RefineOptions& options = {}) {
-    const auto rig = RefineRig(guess, views, options);
-    return rig ? std::string("none") : rig.error().message;
+    return testing::Message(RefineRig(guess, views, options));
   };
-  EXPECT_EQ(reason({{0, 0, pairs}, {1, 1, pairs}, {0, 1, pairs}}), "none");
+  EXPECT_EQ(reason({{0, 0, pairs}, {1, 1, pairs}, {0, 1, pairs}}), "accepted");
   EXPECT_EQ(reason({{0, 0, pairs}, {2, 0, pairs}}), "a view names a camera or board that does not exist");
   EXPECT_EQ(reason({{0, 0, pairs}, {1, 2, pairs}}), "a view names a camera or board that does not exist");
   EXPECT_EQ(reason({{0, 0, pairs}, {0, 1, pairs}}), "camera 2 has no point");

@@ -98,24 +98,16 @@ TEST(RigFile, ReadsQualisys) {
 }
 
 TEST(RigFile, RefusedWithPlaceAndReason) {
-  const auto reason = [](const std::string& text) {
-    const auto rig = ReadRig(text, "rig");
-    return rig ? std::string("no complaint") : ToString(rig.error());
-  };
+  const auto reason = [](const std::string& text) { return testing::Refusal(ReadRig(text, "rig")); };
   std::vector<NamedCamera> cameras = TwoCameras();
   cameras[1].name = "right";
   const std::string good = WriteRig(cameras);
-  EXPECT_EQ(reason(good), "no complaint");
+  EXPECT_EQ(reason(good), "accepted");
   EXPECT_THAT(reason("hello"), HasSubstr("not a calibration; allowed: a rig of etude calibrate"));
-  EXPECT_THAT(reason(testing::Replaced(good, "\nright:", "\nwrong:")), HasSubstr("right is listed, but not described"));
   EXPECT_THAT(reason(testing::Replaced(good, "\"right\"", "\"left\"")), HasSubstr("two cameras of the name left"));
   EXPECT_THAT(reason(testing::Replaced(good, "   T:", "   S:")), HasSubstr("camera left: no T"));
-  EXPECT_THAT(reason(kQualisys), "no complaint");
-  EXPECT_EQ(reason(testing::Replaced(kQualisys, "viewrotation=\"0\"", "viewrotation=\"90\"")), "no complaint");
+  EXPECT_EQ(reason(testing::Replaced(kQualisys, "viewrotation=\"0\"", "viewrotation=\"90\"")), "accepted");
   EXPECT_THAT(reason("%YAML:1.0\n---\nnames:\n  - \"1\"\n"), HasSubstr("intri.yml and extri.yml"));
-  EXPECT_THAT(reason(testing::Replaced(kQualisys, "x=\"3000\"", "x=\"3m\"")),
-              HasSubstr("rig:6: x=\"3m\" is not a number"));
-  EXPECT_THAT(reason(testing::Replaced(kQualisys, "</cameras>", "")), HasSubstr("no XML"));
   EXPECT_THAT(reason("<html/>"), HasSubstr("allowed: <calibration>"));
 }
 

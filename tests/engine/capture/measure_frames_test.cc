@@ -122,15 +122,14 @@ TEST(MeasureFrames, TakesTheSenseOfALimbFromTheCamerasThatSeeItBest) {
     TakeMarks marks = ExactMarks({pose}, cameras);
     PixelSegment& stroke = *marks[careless][0].strokes[StrokeTo(Role::kLeftWrist)];
     std::swap(stroke.a, stroke.b);
-    const auto found = MeasureFrame(cameras, marks).directions[Index(Role::kLeftWrist)];
-    ASSERT_TRUE(found) << careless;
+    ASSERT_OK(found, MeasureFrame(cameras, marks).directions[Index(Role::kLeftWrist)]) << careless;
     EXPECT_LT(Degrees(AngleBetween(*found, towards)), 1e-6) << careless;
     // The same with that camera and one other alone, in either order.
     const std::size_t other = (careless + 1) % 3;
     for (const auto& [first, second] : {std::pair(careless, other), std::pair(other, careless)}) {
-      const auto of_two = MeasureFrame({cameras[first], cameras[second]}, {marks[first], marks[second]})
-                              .directions[Index(Role::kLeftWrist)];
-      ASSERT_TRUE(of_two) << first << second;
+      ASSERT_OK(of_two, MeasureFrame({cameras[first], cameras[second]}, {marks[first], marks[second]})
+                            .directions[Index(Role::kLeftWrist)])
+          << first << second;
       EXPECT_LT(Degrees(AngleBetween(*of_two, towards)), 1e-6) << first << second;
     }
   }

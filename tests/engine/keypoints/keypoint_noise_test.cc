@@ -7,6 +7,7 @@
 
 #include "engine/cameras/triangulation.h"
 #include "sim/random/stream.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -49,8 +50,7 @@ TEST(KeypointNoise, IsThatWhichWasPlanted) {
   for (const int cameras : {2, 3, 5}) {
     for (const double noise_px : {0.5, 3.0}) {
       const Planted planted = Plant(cameras, noise_px);
-      const auto noise = MeasureKeypointNoise(planted.cameras, planted.person, 0.1, 100);
-      ASSERT_TRUE(noise);
+      ASSERT_OK(noise, MeasureKeypointNoise(planted.cameras, planted.person, 0.1, 100));
       EXPECT_GT(noise->points, 2000u);
       EXPECT_NEAR(noise->Of(Role::kLeftKnee) / noise_px, 1, 0.3) << cameras;
       EXPECT_NEAR(noise->Of(Role::kLeftWrist) / noise_px, 2, 0.6) << cameras;
@@ -62,8 +62,7 @@ TEST(KeypointNoise, IsThatWhichWasPlanted) {
 
 TEST(KeypointNoise, IsNotThatOfOutliers) {
   const Planted planted = Plant(4, 1, 0.05);
-  const auto noise = MeasureKeypointNoise(planted.cameras, planted.person, 0.1, 10);
-  ASSERT_TRUE(noise);
+  ASSERT_OK(noise, MeasureKeypointNoise(planted.cameras, planted.person, 0.1, 10));
   EXPECT_NEAR(noise->all_px, 1.05, 0.08);
 }
 

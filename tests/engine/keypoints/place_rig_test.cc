@@ -71,8 +71,8 @@ TEST(PlaceRig, LeavesARigAsItIsWhoseUnitAndAxesFitThePerson) {
 
 TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
   for (const auto& [name, metres] : {std::pair("cm", 0.01), {"mm", 0.001}, {"inch", 0.0254}, {"foot", 0.3048}}) {
-    const auto place = PlaceRig(SomeRig(), Stander([m = metres](glm::dvec3 p) { return p / m; }), kPlaceRate, {});
-    ASSERT_TRUE(place) << name;
+    ASSERT_OK(place, PlaceRig(SomeRig(), Stander([m = metres](glm::dvec3 p) { return p / m; }), kPlaceRate, {}))
+        << name;
     EXPECT_DOUBLE_EQ(place->scale, metres) << name;
     EXPECT_NEAR(place->stature_m, 1.7, 1e-9) << name;
     EXPECT_THAT(place->told, HasSubstr(std::string("lengths in ") + name + " (found: by the legs, a person of about 1.70 m"));
@@ -93,9 +93,9 @@ TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
   EXPECT_DOUBLE_EQ(told->scale, 0.3);
   EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as given; by the legs, a person of about 2.04 m)"));
   for (const char* unit : {"mm", "0.4"}) {
-    const auto wrong = PlaceRig(rig, points, kPlaceRate, {.unit = unit});
-    ASSERT_FALSE(wrong) << unit;
-    EXPECT_THAT(wrong.error().message, HasSubstr("allowed: 0.5 to 2.2 m; for one of 1.7 m: --rig-unit 0.25"));
+    EXPECT_THAT(testing::Message(PlaceRig(rig, points, kPlaceRate, {.unit = unit})),
+                HasSubstr("allowed: 0.5 to 2.2 m; for one of 1.7 m: --rig-unit 0.25"))
+        << unit;
   }
 }
 
@@ -149,8 +149,7 @@ TEST(PlaceRig, RefusesAPersonUpsideDownAndFramesWithoutOne) {
   ASSERT_FALSE(down);
   EXPECT_THAT(down.error().message,
               HasSubstr("with -y up, everything would be upside down (180° off); up is known from "));
-  const auto side = PlaceRig(SomeRig(), points, kPlaceRate, {.up = "x"});
-  ASSERT_TRUE(side) << "lying is allowed";
+  ASSERT_OK(side, PlaceRig(SomeRig(), points, kPlaceRate, {.up = "x"})) << "lying is allowed";
   EXPECT_LT(glm::distance(side->R * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-12);
   EXPECT_NEAR(glm::determinant(side->R), 1, 1e-12);
   EXPECT_THAT(testing::Message(PlaceRig(SomeRig(), std::vector<LandmarkPositions>(5), kPlaceRate, {})),
@@ -160,8 +159,7 @@ TEST(PlaceRig, RefusesAPersonUpsideDownAndFramesWithoutOne) {
 TEST(PlaceRig, PutsTheFloorWhereItIsAskedFor) {
   const auto raised = Stander([](glm::dvec3 p) { return p + glm::dvec3(0, 0.3, 0); });
   for (const auto& [floor, shift] : {std::pair("auto", 0.0), {"keep", 0.0}, {"feet", -0.3}, {"1.25", -1.25}}) {
-    const auto place = PlaceRig(SomeRig(), raised, kPlaceRate, {.floor = floor});
-    ASSERT_TRUE(place) << floor;
+    ASSERT_OK(place, PlaceRig(SomeRig(), raised, kPlaceRate, {.floor = floor})) << floor;
     EXPECT_NEAR(place->shift.y, shift, 1e-9) << floor;
   }
   const auto in_mm = Stander([](glm::dvec3 p) { return 1000.0 * (p + glm::dvec3(0, 0.3, 0)); });
@@ -186,9 +184,9 @@ TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
 TEST(PlaceRig, RefusesWordsThatMeanNothing) {
   EXPECT_TRUE(CheckPlace({.unit = "0.0254", .up = "-x", .floor = "-1.5"}));
   for (const char* unit : {"metre", "0", "-1", "1m", "inf", ""}) {
-    const auto checked = CheckPlace({.unit = unit});
-    ASSERT_FALSE(checked) << unit;
-    EXPECT_THAT(checked.error().message, HasSubstr("allowed: auto, m, cm, mm, inch, foot, or metres in one unit"));
+    EXPECT_THAT(testing::Message(CheckPlace({.unit = unit})),
+                HasSubstr("allowed: auto, m, cm, mm, inch, foot, or metres in one unit"))
+        << unit;
   }
   EXPECT_THAT(CheckPlace({.up = "w"}).error().message, HasSubstr("allowed: auto, floor, x, y, z, -x, -y, -z"));
   EXPECT_THAT(CheckPlace({.floor = "low"}).error().message, HasSubstr("allowed: auto, keep, feet, or its height"));

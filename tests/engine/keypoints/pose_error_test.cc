@@ -11,6 +11,7 @@
 #include "engine/keypoints/recover_person.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/random/stream.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -62,10 +63,8 @@ double Turn(const BodyPose& a, const BodyPose& b, const Bone& bone) {
 void Compare(int cameras_count, const SightingErrors& errors, int trial) {
   const std::vector<Camera> cameras = Rig(cameras_count);
   const BodyPose pose = Standing();
-  const auto forecast = PoseErrorForecast::Of(pose);
-  ASSERT_TRUE(forecast);
-  const auto expected = forecast->At(cameras, glm::dvec3(0), errors);
-  ASSERT_TRUE(expected);
+  ASSERT_OK(forecast, PoseErrorForecast::Of(pose));
+  ASSERT_OK(expected, forecast->At(cameras, glm::dvec3(0), errors));
   std::array<double, kRoleCount> lengths{};
   for (const Bone& bone : AllBones()) lengths[Index(bone.child)] = BoneLength(pose, bone);
   const CaptureBody body = BodyOfBones(lengths).value();

@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "tests/support/kept_answers.h"
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -79,8 +82,7 @@ TEST(DecisionTree, AnswersByItsQuestions) {
 
 TEST(LearntModelFile, ReadsBackToTheLastBit) {
   const LearntModel model{.asked = FitBoostedTrees(Planted(), {.trees = 4}), .spotted = {.bias = 0.1, .trees = {}}};
-  const auto read = ReadLearntModel(WriteLearntModel(model), "model.yaml");
-  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_OK(read, ReadLearntModel(WriteLearntModel(model), "model.yaml"));
   ASSERT_EQ(read->asked.trees.size(), 4u);
   for (std::size_t t = 0; t < 4; ++t) {
     EXPECT_EQ(read->asked.trees[t].measures, model.asked.trees[t].measures);
@@ -91,20 +93,9 @@ TEST(LearntModelFile, ReadsBackToTheLastBit) {
 }
 
 TEST(LearntModelFile, SaysWhereItIsWrong) {
-  const auto complaint = [](const std::string& text) {
-    const auto read = ReadLearntModel(text, "model.yaml");
-    return read ? "no complaint" : ToString(read.error());
-  };
-  EXPECT_EQ(complaint("asked: {bias: 0}\nspotted: {bias: 0}\n"), "no complaint");  // the control
-  EXPECT_EQ(complaint("measures: 1\nasked: {bias: 0}\nspotted: {bias: 0}\n"), "no complaint");
-  EXPECT_THAT(complaint("measures: 2\nasked: {bias: 0}\nspotted: {bias: 0}\n"),
-              HasSubstr("model.yaml:1:11: a model for version 2 of the measures"));
-  EXPECT_THAT(complaint("asked: {bias: 0}\n"), HasSubstr("needs 'spotted'"));
-  EXPECT_THAT(complaint("asked: {bias: 0, trees: [[1, 2]]}\nspotted: {bias: 0}\n"), HasSubstr("a list of 22 numbers"));
-  std::string tree = "[192, 0";
-  for (int i = 0; i < 20; ++i) tree += ", 0";
-  EXPECT_THAT(complaint("asked: {bias: 0, trees: [" + tree + "]]}\nspotted: {bias: 0}\n"),
-              HasSubstr("model.yaml:1:27: measure 192; allowed: 0 to 191"));
+  EXPECT_TRUE(testing::AnswersAreKept("tests/engine/recognition/complaints.txt", [](const std::string& text) {
+    return testing::Refusal(ReadLearntModel(text, "model.yaml"));
+  }));
 }
 
 TEST(BuiltinLearntModel, IsThere) { EXPECT_FALSE(BuiltinLearntModel().asked.trees.empty()); }

@@ -209,22 +209,5 @@ TEST(FindMarkerBodies, DropsGapsOfMoreThanASecond) {
   }
 }
 
-TEST(JointMapFile, ComplaintsAreAsTheyWere) {
-  testing::ComplaintLines complaints;
-  const std::string roles = "roles:\n  left_shoulder: LShldr\n  head: \"Head_End\"\n";
-  for (const std::string& part : testing::Parts(
-           "+^+unit: cm\nup: z\nrate: 120\n^+unit: cmu\nup: y\n^+unit: 0.3\n^+unit: 0\n^+unit: miles\n^+up: x\n^"
-           "+rate: 0\n^+rate: 1e6\n^+unit: ft\n^+unit: in\n^+unit: mm\n^+unit: m\n^+unit: -1\n^"
-           "roles:\n  left_sholder: a\n^roles:\n  head: [a]\n^up: z\n^roles: 3\n^^rols:\n  head: a\n^+rate: fast\n^"
-           "roles:\n  head: ''\n")) {
-    const std::string text = part.starts_with('+') ? roles + part.substr(1) : part;
-    complaints.Add(Quote(text), std::vector{text}, [](const std::string& yaml) -> Result<JointMap> {
-      ASSIGN_OR_RETURN(const auto taught, ReadJointMapFile(yaml, "map.yaml"));
-      return FindJointMap(testing::PersonSkeleton(), "person.bvh", &taught);
-    });
-  }
-  EXPECT_TRUE(testing::AreKept(complaints.lines(), "tests/engine/retargeting/map_complaints.txt"));
-}
-
 }  // namespace
 }  // namespace etude

@@ -40,22 +40,35 @@ BodyPose StandingAt(std::size_t frame) {
   return pose;
 }
 
-/// The markers of a take; `markers_of` gives their places in a pose.
-MarkerMotion Take(const std::vector<std::string>& names,
-                  const std::function<std::vector<glm::dvec3>(const BodyPose&)>& markers_of) {
-  MarkerMotion take{.rate_hz = 50, .names = names, .frames = {}};
-  for (std::size_t t = 0; t < kTakeFrames; ++t) {
-    const auto places = markers_of(StandingAt(t));
-    take.frames.emplace_back(places.begin(), places.end());
+/// A marker: its name, and its place beside that of a role.
+struct Placed {
+  std::string name;
+  Role role;
+  glm::dvec3 off = glm::dvec3(0);
+};
+
+MarkerMotion Take(const std::vector<Placed>& markers) {
+  MarkerMotion take{.rate_hz = 50, .names = {}, .frames = decltype(MarkerMotion::frames)(kTakeFrames)};
+  for (const auto& [name, role, off] : markers) {
+    take.names.push_back(name);
+    for (std::size_t t = 0; t < kTakeFrames; ++t) take.frames[t].emplace_back(StandingAt(t)[role] + off);
   }
   return take;
 }
 
+/// The same with a right twin, "R…", of every left marker, "L…".
+MarkerMotion TakeOfBothSides(std::vector<Placed> markers) {
+  for (std::size_t i = 0, count = markers.size(); i < count; ++i) {
+    const auto [name, role, off] = markers[i];
+    if (name.front() == 'L') markers.push_back({"R" + name.substr(1), Mirrored(role), {-off.x, off.y, off.z}});
+  }
+  return Take(markers);
+}
+
 MarkerMotion OwnJoints() {
-  std::vector<std::string> names;
-  for (const Role role : AllRoles()) names.emplace_back(RoleName(role));
-  return Take(names,
-              [](const BodyPose& pose) { return std::vector<glm::dvec3>(pose.joints.begin(), pose.joints.end()); });
+  std::vector<Placed> markers;
+  for (const Role role : AllRoles()) markers.push_back({std::string(RoleName(role)), role});
+  return Take(markers);
 }
 
 double FurthestJoint(const BodyMotion& motion, double floor = 0) {
@@ -236,8 +249,7 @@ TEST(MarkersUp, OfPeopleWithRaisedArmsInAFileWhoseAxesPointDownIsNotThatOfAHands
   };
   std::vector<BodyPose> poses = Frames(waving);
   const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
-  const auto trc = FindMarkerBodies(Keypoints(poses, down), "a.trc", {.up = TrcUp()});
-  ASSERT_TRUE(trc);
+  ASSERT_OK(trc, FindMarkerBodies(Keypoints(poses, down), "a.trc", {.up = TrcUp()}));
   EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
   EXPECT_THAT(trc->front().up.doubt, HasSubstr("−Y is assumed to be up"));
 }
@@ -325,16 +337,13 @@ TEST(Markers, ThatNoFrameShowsAreAbsent) {
   ASSERT_OK(bodies, FindMarkerBodies(markers, "a.trc", {.up = TrcUp()}));
   EXPECT_THAT(bodies->front().Note(), HasSubstr("left_foot"));
   for (auto& frame : markers.frames) frame[knee].reset();
-  const auto without = FindMarkerBodies(markers, "a.trc", {.up = TrcUp()});
-  ASSERT_FALSE(without);
-  EXPECT_THAT(ToString(without.error()), HasSubstr("lacks left_knee"));
+  EXPECT_THAT(testing::Refusal(FindMarkerBodies(markers, "a.trc", {.up = TrcUp()})), HasSubstr("lacks left_knee"));
 }
 
 TEST(MarkersUp, OfPeopleWhoStandOnTheirHeadsIsSaidToBeTheOther) {
   std::vector<BodyPose> poses = Frames(StandingAt);
   const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
-  const auto motive = FindMarkerBodies(Keypoints(poses, down), "a.csv", {.up = MotiveUp()});
-  ASSERT_TRUE(motive);
+  ASSERT_OK(motive, FindMarkerBodies(Keypoints(poses, down), "a.csv", {.up = MotiveUp()}));
   EXPECT_EQ(motive->front().up.doubt,
             "the body stands along −Y, but Y is the rule of Motive's exports; --up overrules that");
 }
@@ -390,28 +399,16 @@ TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
   const std::vector<BodyPose> poses = Frames(StandingAt);
   MarkerMotion take = Keypoints(poses, [](glm::dvec3 p) { return p + glm::dvec3(0.06, 0, 0); });
   using enum Role;
-  for (const auto& [role, name] : {std::pair(kLeftShoulder, "L_shoulder_study"),
-                                   {kRightShoulder, "r_shoulder_study"},
-                                   {kLeftElbow, "L_lelbow_study"},
-                                   {kLeftElbow, "L_melbow_study"},
-                                   {kRightElbow, "r_lelbow_study"},
-                                   {kRightElbow, "r_melbow_study"},
-                                   {kLeftWrist, "L_lwrist_study"},
-                                   {kLeftWrist, "L_mwrist_study"},
-                                   {kRightWrist, "r_lwrist_study"},
-                                   {kRightWrist, "r_mwrist_study"},
-                                   {kLeftHip, "LHJC_study"},
-                                   {kRightHip, "RHJC_study"},
-                                   {kLeftKnee, "L_knee_study"},
-                                   {kLeftKnee, "L_mknee_study"},
-                                   {kRightKnee, "r_knee_study"},
-                                   {kRightKnee, "r_mknee_study"},
-                                   {kLeftAnkle, "L_ankle_study"},
-                                   {kLeftAnkle, "L_mankle_study"},
-                                   {kRightAnkle, "r_ankle_study"},
-                                   {kRightAnkle, "r_mankle_study"},
-                                   {kLeftFoot, "L_toe_study"},
-                                   {kRightFoot, "r_toe_study"}}) {
+  std::vector<std::pair<Role, std::string>> markers = {{kLeftHip, "LHJC_study"}, {kRightHip, "RHJC_study"}};
+  const std::vector<std::pair<Role, std::string>> lefts = {
+      {kLeftShoulder, "shoulder"}, {kLeftElbow, "lelbow"}, {kLeftElbow, "melbow"}, {kLeftWrist, "lwrist"},
+      {kLeftWrist, "mwrist"},      {kLeftKnee, "knee"},    {kLeftKnee, "mknee"},   {kLeftAnkle, "ankle"},
+      {kLeftAnkle, "mankle"},      {kLeftFoot, "toe"}};
+  for (const auto& [left, name] : lefts) {
+    markers.emplace_back(left, "L_" + name + "_study");
+    markers.emplace_back(Mirrored(left), "r_" + name + "_study");
+  }
+  for (const auto& [role, name] : markers) {
     take.names.emplace_back(name);
     // The shoulders' markers sit above them, by 13.5 % of the length from marker to elbow.
     const double above = role == kLeftShoulder || role == kRightShoulder ? 0.0469 : 0;
@@ -481,44 +478,25 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
 
 TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
   // Front markers at (±a, h, f), back markers at (±b, h, −f): the regression of Harrington et al. by hand.
-  const double a = 0.12, f = 0.07;
-  const auto take = Take(
-      {"Me:LFHD", "Me:RFHD", "Me:LBHD", "Me:RBHD", "Me:C7",   "Me:CLAV", "Me:T10",  "Me:STRN", "Me:LSHO", "Me:RSHO",
-       "Me:LELB", "Me:RELB", "Me:LWRA", "Me:RWRA", "Me:LWRB", "Me:RWRB", "Me:LFIN", "Me:RFIN", "Me:LASI", "Me:RASI",
-       "Me:LPSI", "Me:RPSI", "Me:LKNE", "Me:RKNE", "Me:LANK", "Me:RANK", "Me:LTOE", "Me:RTOE", "Me:LTHI"},
-      [&](const BodyPose& pose) {
-        const auto around = [&](Role role, double x, double y, double z) { return pose[role] + glm::dvec3(x, y, z); };
-        const glm::dvec3 pelvis = pose[Role::kHipCentre] + glm::dvec3(0, 0.0829, -0.0265);
-        return std::vector<glm::dvec3>{around(Role::kHead, 0.07, 0, 0.09),
-                                       around(Role::kHead, -0.07, 0, 0.09),
-                                       around(Role::kHead, 0.07, 0, -0.09),
-                                       around(Role::kHead, -0.07, 0, -0.09),
-                                       around(Role::kShoulderCentre, 0, 0, -0.06),
-                                       around(Role::kShoulderCentre, 0, 0, 0.06),
-                                       around(Role::kSpine, 0, 0, -0.1),
-                                       around(Role::kSpine, 0, 0, 0.1),
-                                       around(Role::kLeftShoulder, 0, 0.045, 0),
-                                       around(Role::kRightShoulder, 0, 0.045, 0),
-                                       around(Role::kLeftElbow, 0.048, 0, 0),
-                                       around(Role::kRightElbow, -0.048, 0, 0),
-                                       around(Role::kLeftWrist, 0, 0, 0.03),
-                                       around(Role::kRightWrist, 0, 0, 0.03),
-                                       around(Role::kLeftWrist, 0, 0, -0.03),
-                                       around(Role::kRightWrist, 0, 0, -0.03),
-                                       pose[Role::kLeftHand],
-                                       pose[Role::kRightHand],
-                                       pelvis + glm::dvec3(a, 0, f),
-                                       pelvis + glm::dvec3(-a, 0, f),
-                                       pelvis + glm::dvec3(0.05, 0, -f),
-                                       pelvis + glm::dvec3(-0.05, 0, -f),
-                                       around(Role::kLeftKnee, 0.05, 0, 0),
-                                       around(Role::kRightKnee, -0.05, 0, 0),
-                                       around(Role::kLeftAnkle, 0.035, 0, 0),
-                                       around(Role::kRightAnkle, -0.035, 0, 0),
-                                       pose[Role::kLeftFoot],
-                                       pose[Role::kRightFoot],
-                                       pose[Role::kLeftHip]};
-      });
+  using enum Role;
+  const double a = 0.12, f = 0.07, h = 0.0829, back = -0.0265;
+  MarkerMotion take = TakeOfBothSides({{"LFHD", kHead, {0.07, 0, 0.09}},
+                                       {"LBHD", kHead, {0.07, 0, -0.09}},
+                                       {"C7", kShoulderCentre, {0, 0, -0.06}},
+                                       {"T10", kSpine, {0, 0, -0.1}},
+                                       {"STRN", kSpine, {0, 0, 0.1}},
+                                       {"LSHO", kLeftShoulder, {0, 0.045, 0}},
+                                       {"LELB", kLeftElbow, {0.048, 0, 0}},
+                                       {"LWRA", kLeftWrist, {0, 0, 0.03}},
+                                       {"LWRB", kLeftWrist, {0, 0, -0.03}},
+                                       {"LFIN", kLeftHand},
+                                       {"LASI", kHipCentre, {a, h, back + f}},
+                                       {"LPSI", kHipCentre, {0.05, h, back - f}},
+                                       {"LKNE", kLeftKnee, {0.05, 0, 0}},
+                                       {"LANK", kLeftAnkle, {0.035, 0, 0}},
+                                       {"LTOE", kLeftFoot},
+                                       {"CLAV", kShoulderCentre, {0, 0, 0.06}}});
+  for (std::string& name : take.names) name = "Me:" + name;
   ASSERT_OK(bodies, FindMarkerBodies(take, "a.c3d"));
   const MarkerBody& body = bodies->front();
   EXPECT_EQ(body.name, "Me");
@@ -571,31 +549,18 @@ TEST(Markers, OfASacrumStandForTheBackOfThePelvis) {
 }
 
 TEST(Markers, OfPoseEstimatorsAreTakenAndWhatTheyLackIsPlacedByRule) {
-  const std::vector<std::string> names = {"Nose",   "Neck",   "RShoulder", "RElbow",  "RWrist", "LShoulder", "LElbow",
-                                          "LWrist", "MidHip", "RHip",      "RKnee",   "RAnkle", "LHip",      "LKnee",
-                                          "LAnkle", "REar",   "LEar",      "LBigToe", "RBigToe"};
-  const auto take = Take(names, [](const BodyPose& pose) {
-    const auto at = [&](Role role) { return pose[role]; };
-    return std::vector<glm::dvec3>{at(Role::kHead) + glm::dvec3(0, 0, 0.1),
-                                   at(Role::kShoulderCentre),
-                                   at(Role::kRightShoulder),
-                                   at(Role::kRightElbow),
-                                   at(Role::kRightWrist),
-                                   at(Role::kLeftShoulder),
-                                   at(Role::kLeftElbow),
-                                   at(Role::kLeftWrist),
-                                   at(Role::kHipCentre),
-                                   at(Role::kRightHip),
-                                   at(Role::kRightKnee),
-                                   at(Role::kRightAnkle),
-                                   at(Role::kLeftHip),
-                                   at(Role::kLeftKnee),
-                                   at(Role::kLeftAnkle),
-                                   at(Role::kHead) - glm::dvec3(0.07, 0, 0),
-                                   at(Role::kHead) + glm::dvec3(0.07, 0, 0),
-                                   at(Role::kLeftFoot),
-                                   at(Role::kRightFoot)};
-  });
+  using enum Role;
+  const MarkerMotion take = TakeOfBothSides({{"Nose", kHead, {0, 0, 0.1}},
+                                             {"Neck", kShoulderCentre},
+                                             {"MidHip", kHipCentre},
+                                             {"LShoulder", kLeftShoulder},
+                                             {"LElbow", kLeftElbow},
+                                             {"LWrist", kLeftWrist},
+                                             {"LHip", kLeftHip},
+                                             {"LKnee", kLeftKnee},
+                                             {"LAnkle", kLeftAnkle},
+                                             {"LEar", kHead, {0.07, 0, 0}},
+                                             {"LBigToe", kLeftFoot}});
   ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
   EXPECT_THAT(bodies->front().Note(), HasSubstr("OpenPose BODY_25; placed by rule: spine, left_hand, right_hand"));
   EXPECT_LT(FurthestJoint(bodies->front().motion, 0.02), 0.03);

@@ -140,8 +140,7 @@ TEST(BodyNpz, ReadsBackWhereTheJointsWere) {
   const auto move = LoadBuiltinMove("boxing");
   ASSERT_OK(arrays, ReadNpz(WriteBodyNpz(move->motion, StandingPose()), "a.npz"));
   EXPECT_TRUE(IsBodyNpz(*arrays));
-  const auto read = BodyOf(ReadRawNpz(*arrays, "a.npz").value());
-  ASSERT_TRUE(read);
+  ASSERT_OK(read, BodyOf(ReadRawNpz(*arrays, "a.npz").value()));
   EXPECT_EQ(read->rate_hz, move->motion.rate_hz);
   EXPECT_LT(WorstJointDistance(*read, move->motion), 1e-12);
   // The turns and translations lead to the same places, parent by parent.
@@ -273,8 +272,7 @@ TEST(BodyNpz, TakesJointsByTheirNamesInAnyOrder) {
   for (std::size_t at = 0; at < values.size(); at += 3 * kRoleCount) {
     for (std::size_t axis = 0; axis < 3; ++axis) std::swap(values[at + axis], values[at + 3 * (kRoleCount - 1) + axis]);
   }
-  const auto read = BodyOf(ReadRawNpz(arrays, "a.npz").value());
-  ASSERT_TRUE(read);
+  ASSERT_OK(read, BodyOf(ReadRawNpz(arrays, "a.npz").value()));
   EXPECT_LT(WorstJointDistance(*read, motion), 1e-12);
   names.front() = "tail";
   EXPECT_FALSE(BodyOf(ReadRawNpz(arrays, "a.npz").value())) << "a joint that is none of the twenty";
@@ -416,14 +414,13 @@ TEST(BodyNpz, IsRefusedBeyondItsLimits) {
     changed.arrays["rate_hz"].values = rate;
     changed.arrays["positions"].values[7] = place;
     changed.arrays["positions"].shape[1] = joints;
-    const auto raw = ReadRawNpz(changed, "a.npz");
-    return raw ? "none" : ToString(raw.error());
+    return testing::Refusal(ReadRawNpz(changed, "a.npz"));
   };
-  for (const double rate : {0.1, 10000.0}) EXPECT_EQ(complaint({rate}, 0, 20), "none") << rate;
-  for (const double rate : {0.0, 0.09, 10001.0}) EXPECT_NE(complaint({rate}, 0, 20), "none") << rate;
-  EXPECT_NE(complaint({30, 30}, 0, 20), "none");
-  EXPECT_NE(complaint({30}, 2e9, 20), "none");
-  EXPECT_NE(complaint({30}, 0, 19), "none");
+  for (const double rate : {0.1, 10000.0}) EXPECT_EQ(complaint({rate}, 0, 20), "accepted") << rate;
+  for (const double rate : {0.0, 0.09, 10001.0}) EXPECT_NE(complaint({rate}, 0, 20), "accepted") << rate;
+  EXPECT_NE(complaint({30, 30}, 0, 20), "accepted");
+  EXPECT_NE(complaint({30}, 2e9, 20), "accepted");
+  EXPECT_NE(complaint({30}, 0, 19), "accepted");
   Npz twice = arrays;
   twice.texts["names"][3] = twice.texts["names"][2];
   EXPECT_THAT(testing::Refusal(ReadRawNpz(twice, "a.npz")), HasSubstr("twice"));

@@ -4,6 +4,7 @@
 #include "engine/retargeting/to_body.h"
 #include "tests/support/person.h"
 #include "tests/support/read_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -27,8 +28,7 @@ TEST(UndoScales, TakesOutWhatTheRestPoseHasNotAndLeavesThePlaces) {
         clip.frames[f][0].translation.x = static_cast<double>(f);
       }
     }
-    const auto undone = UndoScales(clips, *map);
-    ASSERT_TRUE(undone) << scale;
+    ASSERT_OK(undone, UndoScales(clips, *map)) << scale;
     EXPECT_NEAR(*undone, scale, 1e-9 * scale);
     const auto body = testing::ToBody(clips[1], "person.glb");
     EXPECT_EQ(body->unit, "metre");

@@ -7,11 +7,6 @@
 namespace etude {
 namespace {
 
-std::string LabelComplaint(const std::string& text) {
-  const auto read = ReadLabels(text, "l.csv", "take");
-  return read ? std::string("(read)") : ToString(read.error());
-}
-
 TEST(Labels, CsvTellsPerformancesActionPointsAndWholeRecordings) {
   const std::string text =
       "clip,from_s,to_s,move,truth,person\n"
@@ -65,22 +60,6 @@ TEST(Labels, ActionLabelsOfUTKinectNameTakesAndFrames) {
   EXPECT_EQ((*labels)[2].person, "s10");
   EXPECT_TRUE(IsLabelOf((*labels)[0], "joints_s01_e01"));
   EXPECT_FALSE(IsLabelOf((*labels)[0], "joints_s01_e02"));
-}
-
-TEST(Labels, RefusalsSayWhere) {
-  const std::string head = "clip,from_s,to_s,move,truth\n";
-  EXPECT_EQ(LabelComplaint(""), "l.csv: no labels");
-  EXPECT_EQ(LabelComplaint(head), "l.csv: no labels");
-  EXPECT_EQ(LabelComplaint("clip,form_s,to_s,move,truth\n").find("l.csv:1:6: unknown heading 'form_s'; did you mean"), 0u);
-  EXPECT_EQ(LabelComplaint("clip,move,truth\na,b,right\n").find("l.csv:1: no heading 'from_s'"), 0u);
-  EXPECT_EQ(LabelComplaint(head + "a,x,2,m,right\n"), "l.csv:2:3: found 'x'; allowed: a number");
-  EXPECT_EQ(LabelComplaint(head + "a,nan,2,m,right\n"), "l.csv:2:3: found 'nan'; allowed: a number");
-  EXPECT_EQ(LabelComplaint(head + "a,2,1,m,right\n").find("l.csv:2:5: ends at 1 s, begins at 2 s"), 0u);
-  EXPECT_EQ(LabelComplaint(head + "a,,1,m,right\n").find("l.csv:2:4: an end of a label without"), 0u);
-  EXPECT_EQ(LabelComplaint(head + "a,0,1,m\n").find("l.csv:2:8: found the end of the line"), 0u);
-  EXPECT_EQ(LabelComplaint("XQPCTick;Tag\n12\n").find("l.csv:2: 1 words"), 0u);
-  EXPECT_EQ(LabelComplaint("s01_e01\nwalk 2 3\n").find("l.csv:2: found"), 0u);
-  EXPECT_EQ(LabelComplaint("s01_e01\nwalk: 5 3\n").find("l.csv:2:9: ends before"), 0u);
 }
 
 }  // namespace

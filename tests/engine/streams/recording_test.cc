@@ -24,8 +24,7 @@ using testing::WavingMotion;
 using testing::WithClock;
 
 std::string ComplaintOf(const std::string& text, const StreamReading& reading = {}) {
-  const auto read = ReadStreamRecording(text, "s", reading);
-  return read ? std::string("(read)") : ToString(read.error());
+  return testing::Refusal(ReadStreamRecording(text, "s", reading));
 }
 
 MadeStream Made(const std::string& text, const StreamReading& reading = {}, const StreamOptions& options = {}) {
@@ -182,26 +181,9 @@ TEST(Streams, MarkersOfOtherNamesAreTold) {
       << complaint;
 }
 
-TEST(Streams, RefusalsSayWhereAndWhatIsAllowed) {
-  const BodyMotion motion = WavingMotion(2);
-  const std::string rows = KinectV1Text(motion);
-  EXPECT_TRUE(ComplaintOf("").starts_with("s:1: not a known format of skeletons")) << ComplaintOf("");
-  EXPECT_TRUE(ComplaintOf("1 2 3\n4 5 6\n").starts_with("s:1: not a known format of skeletons (3 numbers"));
-  EXPECT_TRUE(ComplaintOf(rows, {.format = StreamFormat::kKinectV2}).starts_with("s:1: 60 numbers in a row; allowed"));
-  EXPECT_TRUE(ComplaintOf(rows + rows.substr(rows.find(' '))).starts_with("s:3: "));
-  EXPECT_TRUE(ComplaintOf(rows + "x" + rows.substr(1)).starts_with("s:3:1: value 1"));
-  std::string far = KinectV1Text(WavingMotion(9));
-  far.replace(0, far.find(' '), "5000");
-  EXPECT_TRUE(ComplaintOf(far).find("allowed: 100 m") != std::string::npos) << ComplaintOf(far);
-  const std::string ntu = NtuText(motion);
-  EXPECT_TRUE(ComplaintOf(ntu.substr(0, ntu.size() / 2)).starts_with("s:")) << ComplaintOf(ntu);
-  EXPECT_NE(ComplaintOf(ntu.substr(0, ntu.size() / 2)), "(read)");
-  EXPECT_NE(ComplaintOf(std::string(ntu).replace(ntu.find("\n25\n"), 4, "\n24\n")).find("24 as the number of joints"),
-            std::string::npos);
-  EXPECT_EQ(ComplaintOf("{\"frames\": [}"), "s:1:13: not JSON from here on");
-  EXPECT_NE(ComplaintOf("{}").find("no list \"frames\""), std::string::npos);
+TEST(Streams, JointsThatAreNeverShownAndTimesThatRunBackAreRefused) {
   EXPECT_EQ(ComplaintOf("head_x_m,head_y_m,head_z_m\n0,1,2\n").find("s: never shows hip_centre, spine"), 0u);
-  EXPECT_NE(ComplaintOf(WithClock(rows, 5, -0.03)).find("a first column that is neither a clock"), std::string::npos);
+  const std::string rows = KinectV1Text(WavingMotion(2));
   EXPECT_EQ(ComplaintOf(WithClock(rows, 1, 0.03) + WithClock(rows, 0.5, 0.03)).find("s:3: time 0.5 s after"), 0u);
 }
 

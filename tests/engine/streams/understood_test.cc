@@ -10,12 +10,16 @@
 #include "engine/streams/labels.h"
 #include "engine/streams/live_stream.h"
 #include "sim/choreography/move.h"
+#include "tests/engine/formats/spoilt.h"
 #include "tests/engine/streams/small_files.h"
-#include "tests/support/kept_lines.h"
+#include "tests/support/kept_answers.h"
 #include "tests/support/random_clip.h"
 
 namespace etude {
 namespace {
+
+using testing::AllReplaced;
+using testing::WithClock;
 
 /// A move danced in four places, at heights that are not quite level, with noise.
 BodyMotion RestlessMotion(const std::string& move, double spread) {
@@ -68,13 +72,6 @@ void Tell(std::vector<std::string>& told, const std::string& text, const StreamR
   told.push_back(fmt::format("  live: {} frames{}", frames.size(), taken ? "" : "; " + ToString(taken.error())));
 }
 
-std::string AllReplaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
-  return text;
-}
-
 /// The text with a line changed or left out.
 std::string WithLine(const std::string& text, int number,
                      const std::function<std::string(const std::string&)>& change) {
@@ -91,49 +88,42 @@ TEST(Streams, RowsOfNumbersAreUnderstoodAsTheyWere) {
   const std::string states = testing::KinectV1Text(wave, "2", 0.1);
   std::vector<std::string> told;
   for (const std::string& text :
-       {rows,
-        states,
-        AllReplaced(states, " 2 ", " 1 "),
-        testing::KinectV1Text(wave, "1.5"),
-        testing::KinectV1Text(restless, "", Radians(7)),
-        testing::KinectV1Text(restless, "", Radians(29)),
-        testing::KinectV1Text(restless, "", Radians(31)),
-        testing::KinectV1Text(RestlessMotion("jump", 0.19)),
-        testing::KinectV1Text(RestlessMotion("side_kick", 2)),
-        testing::WithClock(rows, 5, 0.04),
-        testing::WithClock(rows, 100, 1),
-        testing::WithClock(rows, 100, 2),
-        testing::WithClock(rows, 100, 15),
-        testing::WithClock(rows, 100, 16),
-        testing::WithClock(rows, 100, 33.3),
-        testing::WithClock(rows, 0, 4.5),
-        testing::WithClock(rows, 0, 5.5),
-        testing::WithClock(rows, 0, 1000),
-        testing::WithClock(rows, 0, 33333),
-        testing::WithClock(rows, 0, 2e6),
-        testing::WithClock(rows, 9, 0),
-        testing::WithClock(rows, 9, -1),
-        AllReplaced(rows, "0.", "1000."),
-        AllReplaced(rows, " ", "  "),
-        AllReplaced(rows, " ", "\t"),
-        AllReplaced(rows, " ", ";"),
-        WithLine(rows, 9, [](const std::string&) { return "# a remark\n\n"; }),
+       {rows, states, AllReplaced(states, " 2 ", " 1 "), testing::KinectV1Text(wave, "1.5"),
+        testing::KinectV1Text(restless, "", Radians(7)), testing::KinectV1Text(restless, "", Radians(29)),
+        testing::KinectV1Text(restless, "", Radians(31)), testing::KinectV1Text(RestlessMotion("jump", 0.19)),
+        testing::KinectV1Text(RestlessMotion("side_kick", 2))}) {
+    Tell(told, text);
+  }
+  for (const auto& [begin, step] : {std::pair(5, 0.04),
+                                    {100, 1.0},
+                                    {100, 2.0},
+                                    {100, 15.0},
+                                    {100, 16.0},
+                                    {100, 33.3},
+                                    {0, 4.5},
+                                    {0, 5.5},
+                                    {0, 1000.0},
+                                    {0, 33333.0},
+                                    {0, 2e6},
+                                    {9, 0.0},
+                                    {9, -1.0}}) {
+    Tell(told, WithClock(rows, begin, step));
+  }
+  const std::string clocked = WithClock(rows, 5, 0.04), first = rows.substr(0, rows.find('\n') + 1);
+  for (const std::string& text :
+       {AllReplaced(rows, "0.", "1000."), AllReplaced(rows, " ", "  "), AllReplaced(rows, " ", "\t"),
+        AllReplaced(rows, " ", ";"), WithLine(rows, 9, [](const std::string&) { return "# a remark\n\n"; }),
         WithLine(rows, 40, [](const std::string& line) { return line + " 3\n"; }),
         WithLine(rows, 41, [](const std::string& line) { return "x" + line + "\n"; }),
         WithLine(rows, 7, [](const std::string& line) { return "nan" + line.substr(line.find(' ')) + "\n"; }),
         WithLine(rows, 50, [](const std::string& line) { return "900" + line.substr(line.find(' ')) + "\n"; }),
-        testing::WithClock(rows, 5, 0.04) + "100 " + rows.substr(0, rows.find('\n') + 1),
-        testing::WithClock(rows, 5, 0.04) + "10000 " + rows.substr(0, rows.find('\n') + 1),
-        WithLine(testing::WithClock(rows, 5, 0.04), 30, [](const std::string&) { return ""; }),
-        WithLine(testing::WithClock(rows, 5, 0.04), 31,
-                 [](const std::string& line) { return "nan" + line.substr(4) + "\n"; }),
-        rows.substr(0, rows.find('\n') + 1),
-        std::string(),
-        std::string("word\n1 2 3\n"),
-        std::string("\n\n")}) {
+        clocked + "100 " + first, clocked + "10000 " + first,
+        WithLine(clocked, 30, [](const std::string&) { return ""; }),
+        WithLine(clocked, 31, [](const std::string& line) { return "nan" + line.substr(4) + "\n"; }), first,
+        std::string(), std::string("word\n1 2 3\n"), std::string("\n\n")}) {
     Tell(told, text);
   }
-  Tell(told, testing::WithClock(rows, 5, 0.04), {.rate_hz = 50});
+  Tell(told, clocked, {.rate_hz = 50});
   Tell(told, rows, {.format = StreamFormat::kKinectV2});
   Tell(told, rows, {.format = StreamFormat::kEtudeCsv});
   EXPECT_TRUE(testing::AreKept(told, "tests/engine/streams/rows.txt"));
@@ -259,37 +249,27 @@ TEST(Streams, LevelsThatAreHardToTellAreAsTheyWere) {
 TEST(Labels, AreUnderstoodAsTheyWere) {
   const std::string heading = "clip,from_s,to_s,move,truth,person\n";
   std::vector<std::string> told;
+  const std::string long_name(200, 'a');
+  std::vector<std::string> texts = {
+      heading + "seq-1,0.5,3.1,arms-open,right,anna\n# x\n\nseq-2,,,clap,late,\nseq-3 , 4 ,,clap,right\n",
+      "\xEF\xBB\xBF" + heading + "a,1,2,b,right,c\r\n", "move,clip,truth,from_s,to_s\nb,a,late,1,2\n", heading, ""};
+  for (const std::string& row :
+       testing::Parts("a,2,1,b,right,c^a,nan,2,b,right,c^a,0,1,b^a,2,2,b,right,c^a,,2,b,right,c^a,x,2,b,right,c^,1,2,b,"
+                      "right,c^a,1,2,,right,c^a,1,2,b,,c^a,1,2e12,b,right,c^"
+                      "a,1,1e12,b,right,c^a,1,2,b\"b,right,c^" +
+                      long_name + ",1,2,b,right,c^a" + long_name + ",1,2,b,right,c")) {
+    texts.push_back(heading + row + "\n");
+  }
   for (const std::string& text :
-       {heading + "seq-1,0.5,3.1,arms-open,right,anna\n# x\n\nseq-2,,,clap,late,\nseq-3 , 4 ,,clap,right\n",
-        "\xEF\xBB\xBF" + heading + "a,1,2,b,right,c\r\n",
-        std::string("move,clip,truth,from_s,to_s\nb,a,late,1,2\n"),
-        heading,
-        std::string(),
-        heading + "a,2,2,b,right,c\n",
-        heading + "a,,2,b,right,c\n",
-        heading + "a,x,2,b,right,c\n",
-        heading + ",1,2,b,right,c\n",
-        heading + "a,1,2,,right,c\n",
-        heading + "a,1,2,b,,c\n",
-        heading + "a,1,2e12,b,right,c\n",
-        heading + "a,1,1e12,b,right,c\n",
-        heading + "a,1,2,b\"b,right,c\n",
-        heading + std::string(200, 'a') + ",1,2,b,right,c\n",
-        heading + std::string(201, 'a') + ",1,2,b,right,c\n",
-        std::string("clip,from_s,to_s,move\na,1,2,b\n"),
-        std::string("clip,form_s,to_s,move,truth\n"),
-        std::string("XQPCTick;Tag\n1234567890;G1 lift\n2234567890; G2\n"),
-        std::string("XQPCTick;Tag\n1;2;3\n"),
-        std::string("XQPCTick;Tag\nx;G\n"),
-        std::string("XQPCTick;Tag\n2e19;G\n"),
-        std::string("XQPCTick;Tag\n5;\n"),
-        std::string("s01_e01\nwalk: 252 390\nsitDown: NaN NaN\n s02_e03\nstandUp: 5 6\n"),
-        std::string("s01_e01\nwalk: 390 390\n"),
-        std::string("s01_e01\nwalk 2 3\n"),
-        std::string("s01_e01\nwalk: 2\n"),
-        std::string("s01_e01\nwalk: 2 x\n"),
-        std::string("s01_e01\n: 2 3\n"),
-        std::string("s01_e0x\nwalk: 2 3\n")}) {
+       testing::Parts("clip,move,truth\na,b,right^clip,from_s,to_s,move\na,1,2,b^clip,form_s,to_s,move,truth^XQPCTick;"
+                      "Tag\n1234567890;G1 "
+                      "lift\n2234567890; G2^"
+                      "XQPCTick;Tag\n12^XQPCTick;Tag\n1;2;3^XQPCTick;Tag\nx;G^XQPCTick;Tag\n2e19;G^XQPCTick;Tag\n5;^"
+                      "s01_e01\nwalk: 252 390\nsitDown: NaN NaN\n s02_e03\nstandUp: 5 6^s01_e01\nwalk: 390 390^"
+                      "s01_e01\nwalk 2 3^s01_e01\nwalk: 2^s01_e01\nwalk: 2 x^s01_e01\n: 2 3^s01_e0x\nwalk: 2 3")) {
+    texts.push_back(text + "\n");
+  }
+  for (const std::string& text : texts) {
     const auto labels = ReadLabels(text, "l", "take");
     if (!labels) told.push_back(ToString(labels.error()));
     for (const Label& label : labels.value_or(std::vector<Label>())) {

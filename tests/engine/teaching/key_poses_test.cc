@@ -7,6 +7,7 @@
 #include "tests/engine/teaching/arms.h"
 #include "tests/support/kept_lines.h"
 #include "tests/support/random_clip.h"
+#include "tests/support/results.h"
 
 namespace etude::testing {
 namespace {
@@ -76,33 +77,6 @@ TEST(TeachMove, TakesTheShortestAndTheLongestAndSaysWhatIsBeyond) {
   EXPECT_EQ(complaint(60.5, 2),
             "a performance of 'm' lasts 60.5 s; allowed: 60 s; use labels to mark where each begins and ends");
   EXPECT_EQ(TeachMove("m", {}).error().message, "move 'm' has no right performance to learn from");
-}
-
-TEST(MovesFile, ComplaintsAreWhole) {
-  const auto complaint = [](const std::string& field) {
-    const auto read = ReadMoves("moves:\n  - name: a\n    " + field + "\n", "m.yaml");
-    return read ? "none" : ToString(read.error());
-  };
-  const auto framed = [&](const std::string& line) {
-    return complaint("right:\n      - rate_hz: 30\n        frames: |\n          " + line);
-  };
-  EXPECT_EQ(complaint("key_poses: [{RH: 3}]"),
-            "m.yaml:3:18: no tolerance_deg, neither for this angle nor for its pose");
-  EXPECT_EQ(complaint("key_poses: [{tolerance_deg: 400, RH: 3}]"),
-            "m.yaml:3:33: tolerance_deg 400; allowed: 0.1 to 360");
-  EXPECT_EQ(complaint("key_poses: [3]"), "m.yaml:3:17: a key pose is a mapping, found '3'");
-  EXPECT_EQ(complaint("key_poses: [{tolerance_deg: 20}]"), "m.yaml:3:17: a key pose without an angle");
-  EXPECT_EQ(complaint("key_poses: {}"), "m.yaml:3:16: a list of key poses, found a mapping");
-  EXPECT_EQ(complaint("right: 3"), "m.yaml:3:12: a list of performances, found '3'");
-  EXPECT_EQ(framed("ttttttttttttttttttt 1 2"),
-            "m.yaml:6: found 'ttttttttttttttttttt'; allowed: 20 letters t, i, n or -, then 60 numbers");
-  EXPECT_EQ(framed("tttttttttttttttttttx 1 2").find("m.yaml:6: found 'tttttttttttttttttttx'"), 0u);
-  EXPECT_EQ(framed("tttttttttttttttttttt 1 2 3 4 100001"),
-            "m.yaml:6: found '100001' as number 5 of 60; allowed: millimetres within ±100000");
-  EXPECT_EQ(framed("tttttttttttttttttttt 1 2"),
-            "m.yaml:6: found the end of the line or file as number 3 of 60; allowed: millimetres within ±100000");
-  EXPECT_EQ(ReadMoves("moves:\n  - name: " + std::string(201, 'a') + "\n", "m.yaml").error().message,
-            "a name of 201 bytes; allowed: 1 to 200");
 }
 
 }  // namespace

@@ -76,9 +76,8 @@ const FilmOfWalker& Walking() {
 
 TEST(RecoverUnmarked, FindsThePersonTheStatureAndTheRoomInFilmsAlone) {
   const FilmOfWalker& film = Walking();
-  const auto found = RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = {}, .stature_m = {}},
-                                     {.track = {}, .rounds = 3, .samples = 8, .kept = 3});
-  ASSERT_TRUE(found) << found.error().message;
+  ASSERT_OK(found, RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = {}, .stature_m = {}},
+                                   {.track = {}, .rounds = 3, .samples = 8, .kept = 3}));
   EXPECT_LT(film.MeanError(found->motion), 0.05);
   EXPECT_NEAR(found->stature_m, kStature, 0.05);
   EXPECT_EQ(found->held, 0u);

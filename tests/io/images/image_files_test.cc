@@ -12,6 +12,7 @@
 #include "sim/random/stream.h"
 #include "tests/io/images/exr_files.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -52,8 +53,7 @@ void Write(const std::string& path, const std::string& bytes) { std::ofstream(pa
 TEST_F(ImageFiles, ColourComesBackFromPngBitForBit) {
   const ColourImage image = SomeView().colour;
   Write(At("a.png"), EncodePng(image));
-  const auto back = LoadColourPng(At("a.png"));
-  ASSERT_TRUE(back) << ToString(back.error());
+  ASSERT_OK(back, LoadColourPng(At("a.png")));
   EXPECT_EQ(back->width, image.width);
   EXPECT_EQ(back->pixels, image.pixels);
 }
@@ -62,8 +62,7 @@ TEST_F(ImageFiles, MasksAreWhiteOnBlack) {
   Mask mask(19, 7);
   for (std::size_t i = 0; i < mask.pixels.size(); i += 3) mask.pixels[i] = 1;
   Write(At("m.png"), EncodePng(mask));
-  const auto seen = LoadColourPng(At("m.png"));
-  ASSERT_TRUE(seen) << ToString(seen.error());
+  ASSERT_OK(seen, LoadColourPng(At("m.png")));
   for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
     const std::uint8_t grey = mask.pixels[i] ? 255 : 0;
     ASSERT_EQ(seen->pixels[i], (Rgb8{grey, grey, grey})) << "people see white on black";
@@ -72,8 +71,7 @@ TEST_F(ImageFiles, MasksAreWhiteOnBlack) {
 
 TEST_F(ImageFiles, AnExrHoldsAWholeViewBitForBit) {
   const View view = SomeView();
-  const auto bytes = EncodeExr(view);
-  ASSERT_TRUE(bytes) << ToString(bytes.error());
+  ASSERT_OK(bytes, EncodeExr(view));
   Write(At("v.exr"), *bytes);
   ExrFile file(At("v.exr"));
   EXPECT_EQ(file.Colour().pixels, view.colour.pixels);
@@ -127,8 +125,7 @@ TEST_F(ImageFiles, AnExrKeepsNormals) {
   NormalImage normals(61, 37, glm::vec3(0));
   RandomStream random({3, "image-files", 0}, "normals");
   for (glm::vec3& n : normals.pixels) n = glm::vec3(glm::normalize(random.Normal3()));
-  const auto bytes = EncodeExr(SomeView(), normals);
-  ASSERT_TRUE(bytes);
+  ASSERT_OK(bytes, EncodeExr(SomeView(), normals));
   Write(At("n.exr"), *bytes);
   ExrFile file(At("n.exr"));
   EXPECT_EQ(file.Normals().pixels, normals.pixels);
@@ -140,8 +137,7 @@ TEST_F(ImageFiles, AnExrKeepsFurtherDepthsBesideTheTrueOnes) {
   DepthImage first(61, 37, 1.25f), second(61, 37, 2.5f);
   first.At(7, 3) = std::numeric_limits<float>::infinity();
   const std::vector<DepthChannel> measured{{"Z_measured.v1", first}, {"Z_measured.v2", second}};
-  const auto bytes = EncodeExr(view, {}, measured);
-  ASSERT_TRUE(bytes);
+  ASSERT_OK(bytes, EncodeExr(view, {}, measured));
   Write(At("d.exr"), *bytes);
   ExrFile file(At("d.exr"));
   EXPECT_EQ(file.Depth("Z_measured.v1").pixels, first.pixels);
@@ -187,8 +183,7 @@ TEST_F(ImageFiles, HugePicturesAreRefusedBeforeMemoryIsTaken) {
 TEST_F(ImageFiles, PngsOfTexturesAreReadFromMemoryWithinTheirBounds) {
   const ColourImage picture = SomeView().colour;
   const std::string png = EncodePng(picture);
-  const auto read = DecodeColourPng(png, picture.pixels.size());
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, DecodeColourPng(png, picture.pixels.size()));
   EXPECT_EQ(read->pixels, picture.pixels);
   EXPECT_THAT(ToString(DecodeColourPng(png, picture.pixels.size() - 1).error()), HasSubstr("61 x 37 pixels; allowed"));
   for (std::size_t size = 0; size + 12 < png.size(); size += 97) {  // the last chunk, IEND, holds nothing

@@ -132,12 +132,11 @@ TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsR
     EXPECT_TRUE(WriteFileAtomically(path, OpenNiBvh(back)));
     return LoadStream(path, {}, {});
   };
-  const auto straight = load(0), bent = load(13), overstretched = load(4);
-  ASSERT_TRUE(straight);
+  ASSERT_OK(straight, load(0));
   EXPECT_EQ(straight->front().description.find("overstretch"), std::string::npos);
-  ASSERT_FALSE(bent);  // by 36 degrees: no sensor's slip
-  EXPECT_NE(ToString(bent.error()).find("the knees bend backwards"), std::string::npos);
-  ASSERT_TRUE(overstretched) << ToString(overstretched.error());
+  // By 36 degrees: no sensor's slip.
+  EXPECT_NE(testing::Refusal(load(13)).find("the knees bend backwards"), std::string::npos);
+  ASSERT_OK(overstretched, load(4));
   EXPECT_EQ(overstretched->front().stream.frames.size(), 30u);
   EXPECT_NE(overstretched->front().description.find("the knees are overextended by 11° on average"), std::string::npos)
       << overstretched->front().description;
@@ -153,9 +152,8 @@ TEST(LoadStreams, ARecordingRootedAtTheHeadShowsTheSameBody) {
   ASSERT_OK(clip, ReadBvh(OpenNiBvh(0), "wave.bvh"));
   const Clip rooted_at_head = WithRootAt(*clip, clip->skeleton.Find("HEAD"));
   ASSERT_EQ(rooted_at_head.skeleton.joints[0].name, "HEAD");
-  const auto by_torso = load(OpenNiBvh(0)), by_head = load(WriteBvh(rooted_at_head));
-  ASSERT_TRUE(by_torso);
-  ASSERT_TRUE(by_head) << ToString(by_head.error());
+  ASSERT_OK(by_torso, load(OpenNiBvh(0)));
+  ASSERT_OK(by_head, load(WriteBvh(rooted_at_head)));
   const auto &expected = by_torso->front().stream.frames, &frames = by_head->front().stream.frames;
   ASSERT_EQ(frames.size(), expected.size());
   for (std::size_t t = 0; t < frames.size(); ++t) {

@@ -7,6 +7,7 @@
 #include "reports/films/coached_scene.h"
 #include "sim/choreography/move.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -84,8 +85,7 @@ struct RecordedSession {
 
 TEST(CoachedSession, ReadsWhatTheTaskKeeps) {
   const RecordedSession recorded;
-  const auto facts = ReadCoachedSession(recorded.Cell());
-  ASSERT_TRUE(facts.has_value()) << ToString(facts.error());
+  ASSERT_OK(facts, ReadCoachedSession(recorded.Cell()));
   EXPECT_EQ(facts->Frames(), 300);
   EXPECT_EQ(facts->modes[1].mode, "correct");
   EXPECT_EQ(facts->performances[0].truth, "wrong");
@@ -123,8 +123,7 @@ TEST(CoachedSession, TheWorstIsWhoWasNeedlesslyCorrectedAndMissedMost) {
     run.recordings.push_back({row.Id(), SessionRecording()});
     run.rows.push_back(row);
   }
-  const auto worst = ChooseWorstSession(run, run.scenarios.front());
-  ASSERT_TRUE(worst.has_value());
+  ASSERT_OK(worst, ChooseWorstSession(run, run.scenarios.front()));
   EXPECT_EQ(worst->row->trial, 1);
   run.recordings.clear();
   EXPECT_FALSE(ChooseWorstSession(run, run.scenarios.front()).has_value());

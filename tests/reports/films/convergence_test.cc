@@ -10,6 +10,7 @@
 #include "reports/scenario_card.h"
 #include "tests/reports/films/race_run.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -78,8 +79,7 @@ class Convergence : public ::testing::Test {
                     {"late", 0, 0.02, EveryIteration(60), Status::kUnsolved, "12° after 60 sweeps"}});
   }
   void SetUp() override {
-    const auto renderer = SharedRenderer();
-    ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+    ASSERT_OK(renderer, SharedRenderer());
     renderer_ = *renderer;
     const RunData run = Run();
     auto race = FindIkRace(run, run.scenarios.front());

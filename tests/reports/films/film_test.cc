@@ -80,8 +80,7 @@ TEST(Cast, PrefersATypicalCellOfTheMethodThatAnswers) {
     // Trials 2…10; what a trial's error is grows with its number.
     if (row.scenario == "capture" && row.trial >= 2 && row.trial <= 10) run.recordings.push_back({row.Id(), recording});
   }
-  const auto chosen = ChooseCell(run, "capture", "recovered");
-  ASSERT_TRUE(chosen.has_value());
+  ASSERT_OK(chosen, ChooseCell(run, "capture", "recovered"));
   EXPECT_EQ(chosen->row->method, "ccd-fixed");
   EXPECT_EQ(chosen->row->trial, 6);
   EXPECT_FALSE(ChooseCell(run, "capture", "coach").has_value());
@@ -91,10 +90,8 @@ TEST(Cast, PrefersATypicalCellOfTheMethodThatAnswers) {
 TEST(CoachPanel, CutsALongMotionAroundItsSeam) {
   RunData run = ExampleRun();
   AddRecordings(run);
-  const auto cell = ChooseCell(run, "transition", "coach");
-  ASSERT_TRUE(cell.has_value());
-  const auto panel = CoachPanel::Make(*cell, 60);
-  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  ASSERT_OK(cell, ChooseCell(run, "transition", "coach"));
+  ASSERT_OK(panel, CoachPanel::Make(*cell, 60));
   EXPECT_EQ(panel->Frames(), 60);
   EXPECT_EQ(panel->FirstPoint(), 30);
 }
@@ -104,8 +101,7 @@ TEST(CoachPanel, KnowsBothChangesOfAnInBetweenClip) {
   AddRecordings(run);
   run.recordings.front().recording.extras_json =
       R"({"transition_frame": 80, "transition_frames": [95, 80, 5000], "from": "builtin:side_kick", "to": "clap"})";
-  const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 500);
-  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  ASSERT_OK(panel, CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 500));
   EXPECT_EQ(panel->FirstPoint(), 80);
   EXPECT_THAT(panel->Title(), HasSubstr("side kick → clap"));
 }
@@ -114,9 +110,8 @@ TEST(CoachPanel, RefusesARecordingWithoutASeam) {
   RunData run = ExampleRun();
   AddRecordings(run);
   run.recordings.front().recording.extras_json = R"({"from": "clap"})";
-  const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 60);
-  ASSERT_FALSE(panel.has_value());
-  EXPECT_THAT(ToString(panel.error()), HasSubstr("transition_frame"));
+  EXPECT_THAT(testing::Refusal(CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 60)),
+              HasSubstr("transition_frame"));
 }
 
 TEST(CapturePanel, RefusesMasksThatDoNotFitTheMotion) {
@@ -124,18 +119,15 @@ TEST(CapturePanel, RefusesMasksThatDoNotFitTheMotion) {
   AddRecordings(run);
   auto& recording = run.recordings.back().recording;
   recording.tracks.front().motion.poses.pop_back();
-  const auto panel = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
-  ASSERT_FALSE(panel.has_value());
-  EXPECT_THAT(ToString(panel.error()), HasSubstr("differ in length"));
+  EXPECT_THAT(testing::Refusal(CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"))),
+              HasSubstr("differ in length"));
 }
 
 TEST(CapturePanel, DrawsTheSkeletonOverThePersonAndKeepsBothInThePicture) {
   RunData run = ExampleRun();
   AddRecordings(run);
-  const auto panel = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
-  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  ASSERT_OK(panel, CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered")));
+  ASSERT_OK(renderer, SharedRenderer());
   Canvas canvas(432, 324);
   panel->Draw(canvas, **renderer, 0, 20);
   const ColourImage pixels = canvas.Pixels();
@@ -167,8 +159,7 @@ std::optional<Picture> PlateOf(const std::vector<CaptureExtras::Moment>& moments
 }
 
 TEST(CapturePlate, ShowsEveryStageOfTheMomentsThatAreKeptAndTheSequence) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  ASSERT_OK(renderer, SharedRenderer());
   EXPECT_FALSE(PlateOf({}, **renderer)) << "a recording that keeps none";
   const CaptureExtras::Moment early{.frame = 0, .fixed = {}, .marks = {{{{300, 100}, {340, 300}, {255, 0, 0}}}, {}}};
   CaptureExtras::Moment late = early, unmarked = early;

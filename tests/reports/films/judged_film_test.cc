@@ -6,6 +6,7 @@
 #include "bench/model/recording.h"
 #include "reports/films/judged_scene.h"
 #include "sim/choreography/move.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -66,8 +67,7 @@ struct RecordedWorld {
 
 TEST(JudgedSession, TicksKeyPosesOffAsTheyAreDanced) {
   const RecordedWorld world;
-  const auto facts = ReadJudgedSession(world.run, world.Cell(0));
-  ASSERT_TRUE(facts.has_value()) << ToString(facts.error());
+  ASSERT_OK(facts, ReadJudgedSession(world.run, world.Cell(0)));
   ASSERT_EQ(facts->performances.size(), 2);
   const auto& danced = facts->performances[0];
   ASSERT_EQ(danced.reached.size(), Clap().key_poses.size());
@@ -83,8 +83,7 @@ TEST(JudgedSession, TicksKeyPosesOffAsTheyAreDanced) {
 
 TEST(JudgedSession, PutsTheOtherMethodsOfTheWorldBeside) {
   const RecordedWorld world;
-  const auto facts = ReadJudgedSession(world.run, world.Cell(1));
-  ASSERT_TRUE(facts.has_value());
+  ASSERT_OK(facts, ReadJudgedSession(world.run, world.Cell(1)));
   ASSERT_EQ(facts->judges.size(), 2);
   EXPECT_EQ(facts->judges[0].method, "deaf");
   EXPECT_FALSE(facts->judges[0].called_right[0].has_value());

@@ -10,6 +10,7 @@
 #include "reports/films/transition_scene.h"
 #include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -124,8 +125,7 @@ TEST(DistanceBars, TellDistanceThresholdAndBranch) {
 }
 
 TEST(TransitionScene, DrawsTheSamePixelsEveryTimeAndMarksTheChange) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  ASSERT_OK(renderer, SharedRenderer());
   const TransitionRace race = ExampleRace();
   const TransitionClock clock(race);
   TransitionScene scene(race, "transition", **renderer);

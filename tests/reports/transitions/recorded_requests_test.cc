@@ -1,11 +1,13 @@
 
+#include "reports/transitions/recorded_requests.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bench/model/recording.h"
-#include "reports/transitions/recorded_requests.h"
 #include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -24,8 +26,7 @@ Recording With(const std::string& extras) {
 TEST(TransitionFacts, AreReadAsTheRecordingTellsThem) {
   RunData run = ExampleRun();
   AddTransitions(run);
-  const auto facts = ReadTransitionFacts(run.recordings[1].recording, "a cell");
-  ASSERT_TRUE(facts.has_value()) << ToString(facts.error());
+  ASSERT_OK(facts, ReadTransitionFacts(run.recordings[1].recording, "a cell"));
   EXPECT_EQ(facts->from, "clap");
   EXPECT_EQ(facts->to, "side kick");
   EXPECT_THAT(facts->transition_frames, ElementsAre(70, 85));
@@ -39,10 +40,9 @@ TEST(TransitionFacts, AreReadAsTheRecordingTellsThem) {
 }
 
 TEST(TransitionFacts, OfARecordingThatListsNoPointsAreThoseOfItsOnePoint) {
-  const auto facts = ReadTransitionFacts(With(R"({"transition_frame": 40, "from": "clap", "to": "b", "distance": 0.31,
+  ASSERT_OK(facts, ReadTransitionFacts(With(R"({"transition_frame": 40, "from": "clap", "to": "b", "distance": 0.31,
     "partials": {"RH":0.1,"LH":0,"RHE":0,"LHE":0,"Posture":0,"Trunk":0,"RF":0,"LF":0,"RFK":0,"LFK":0}})"),
-                                         "a cell");
-  ASSERT_TRUE(facts.has_value());
+                                       "a cell"));
   EXPECT_THAT(facts->transition_frames, ElementsAre(40));
   EXPECT_EQ((*facts->points[0].partials)[0], 0.1);
   EXPECT_THAT(facts->candidates, IsEmpty());
@@ -50,12 +50,14 @@ TEST(TransitionFacts, OfARecordingThatListsNoPointsAreThoseOfItsOnePoint) {
 }
 
 TEST(TransitionFacts, LeaveOutWhateverIsNotWhatItShouldBe) {
-  const auto facts = ReadTransitionFacts(
-      With(R"({"transition_frames": [95, 1e300, "x", -1, 5000, 12], "from": 5, "threshold": "low", "weights": {"RH": 1},
+  ASSERT_OK(
+      facts,
+      ReadTransitionFacts(
+          With(
+              R"({"transition_frames": [95, 1e300, "x", -1, 5000, 12], "from": 5, "threshold": "low", "weights": {"RH": 1},
                "request_frame": 99999999999999, "transition_points": [7, {"from_frame": 1.5, "partials": []}],
                "candidates": [{"from_frame": 1}, null, {"from_frame": 1, "to_frame": 2, "distance": 0.2}]})"),
-      "a cell");
-  ASSERT_TRUE(facts.has_value());
+          "a cell"));
   EXPECT_THAT(facts->transition_frames, ElementsAre(12, 95));
   EXPECT_EQ(facts->from, "");
   EXPECT_FALSE(facts->threshold || facts->weights || facts->request_frame);
@@ -65,9 +67,8 @@ TEST(TransitionFacts, LeaveOutWhateverIsNotWhatItShouldBe) {
 }
 
 TEST(TransitionFacts, NameTheCellWhoseExtrasAreNoObject) {
-  const auto facts = ReadTransitionFacts(With("[1, 2"), "transition/-/3/now");
-  ASSERT_FALSE(facts.has_value());
-  EXPECT_THAT(ToString(facts.error()), HasSubstr("transition/-/3/now"));
+  EXPECT_THAT(testing::Refusal(ReadTransitionFacts(With("[1, 2"), "transition/-/3/now")),
+              HasSubstr("transition/-/3/now"));
 }
 
 TEST(RecordedRequests, PutTheMethodsOfOneRequestTogether) {

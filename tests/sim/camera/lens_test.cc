@@ -10,6 +10,7 @@
 #include "sim/choreography/canonical_body.h"
 #include "sim/render/renderer.h"
 #include "tests/sim/camera/shots.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -274,8 +275,7 @@ BodyPose RandomPose(RandomStream& random) {
 }
 
 TEST(Lens, PutsProjectedJointsOnTheBody) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << renderer.error().message;
+  ASSERT_OK(renderer, SharedRenderer());
   const CameraEffects effects{.radial_distortion = -0.1, .tangential_distortion = 0.02, .noise = 0};
   Camera camera = LookAt({}, {-1.5, 1.6, 3.2}, {0, 0.95, 0});
   CameraModel model = ModelOf(effects, camera);

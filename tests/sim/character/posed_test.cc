@@ -9,6 +9,7 @@
 #include "engine/retargeting/rig.h"
 #include "sim/character/characters.h"
 #include "sim/choreography/canonical_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -143,8 +144,7 @@ TEST(PosedFigure, FillsABodyOfOtherProportions) {
 
 TEST(PartsOfJoints, ByTheMapAreThoseByNameOfASkeletonThatHasBoth) {
   const Skeleton skeleton = MannequinCharacter().skeleton;
-  const auto map = FindJointMap(skeleton, "mannequin");
-  ASSERT_TRUE(map) << map.error().message;
+  ASSERT_OK(map, FindJointMap(skeleton, "mannequin"));
   EXPECT_EQ(PartsOfJoints(skeleton, *map), PartsOfJoints(skeleton));
 }
 
@@ -176,8 +176,7 @@ TEST(RecordedFigure, IsTheCharacterInTheBodysPosesMovedAlongTheFloor) {
   BodyMotion motion{.rate_hz = 30, .poses = {StandingPose(), PoseOf(ReadyStance()), StandingPose()}};
   Clip clip = RigClip(motion, StandingPose(), "ready");
   clip.skeleton = mannequin->skeleton;
-  const auto map = FindJointMap(clip.skeleton, "ready");
-  ASSERT_TRUE(map) << map.error().message;
+  ASSERT_OK(map, FindJointMap(clip.skeleton, "ready"));
   // The file's own rate is twice the body's, and its first two frames were dropped.
   clip.frames.insert(clip.frames.begin(), 2, clip.frames.front());
   clip.rate_hz = 60;

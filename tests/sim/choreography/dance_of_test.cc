@@ -3,8 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/results.h"
 #include "engine/coaching/dance_library.h"
+#include "tests/support/kept_answers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -39,17 +40,9 @@ TEST(ReadBeats, ReadsWhatBeatTrackersAndLabelTracksWrite) {
 }
 
 TEST(ReadBeats, TellsWhereAndWhatIsWrong) {
-  const auto complaint = [](const std::string& text) {
-    const auto beats = ReadBeats(text, "my.txt");
-    return beats ? std::string("nothing") : ToString(beats.error());
-  };
-  EXPECT_THAT(complaint("1\nverse\n"), HasSubstr("my.txt:2:1: a beat is a number of seconds, found 'verse'"));
-  EXPECT_THAT(complaint("1\n0.9\n"), HasSubstr("my.txt:2:1: a beat at 0.9 s"));
-  EXPECT_THAT(complaint("1\n9\n"), HasSubstr("allowed: 0.2 to 3"));
-  EXPECT_THAT(complaint("1\n1.5\n"), HasSubstr("2 beats; at least 8"));
-  EXPECT_THAT(complaint("nan\n"), HasSubstr("my.txt:1:1"));
-  EXPECT_THAT(complaint("-1\n"), HasSubstr("allowed: 0 or later"));
-  EXPECT_THAT(complaint(""), HasSubstr("0 beats"));
+  EXPECT_TRUE(testing::AnswersAreKept("tests/sim/choreography/beat_complaints.txt", [](const std::string& text) {
+    return testing::Refusal(ReadBeats(text, "my.txt"));
+  }));
 }
 
 TEST(ToBeats, PutsEveryTagOnItsBeat) {

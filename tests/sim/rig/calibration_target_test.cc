@@ -13,6 +13,7 @@
 #include "sim/render/renderer.h"
 #include "sim/rig/rig.h"
 #include "tests/sim/render/smooth_picture.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -40,8 +41,7 @@ TEST(CalibrationTarget, IsACubeWithItsFrontsOutsideAndSharesNoCode) {
 }
 
 TEST(CalibrationTarget, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << renderer.error().message;
+  ASSERT_OK(renderer, SharedRenderer());
   const std::vector<BodyPose> motion{StandingPose()};
   const std::vector<PlacedBoard> target = CalibrationTarget(MiddleOnFloor(motion));
   for (int trial = 0; trial < 3; ++trial) {
@@ -58,8 +58,7 @@ TEST(CalibrationTarget, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
       }
       EXPECT_LT(std::sqrt(squares / static_cast<double>(pairs.size())), 0.3) << "four rays a pixel";
 
-      const auto matrix = Calibrate(pairs, Calibration::kDltNormalised);
-      ASSERT_TRUE(matrix) << trial;
+      ASSERT_OK(matrix, Calibrate(pairs, Calibration::kDltNormalised)) << trial;
       const glm::dvec3 head(0, 1.6, 0.3);  // a place that no board has
       EXPECT_LT(glm::distance(*Project(*matrix, head), *Project(MatrixOf(camera), head)), 1.5);
     }
@@ -67,8 +66,7 @@ TEST(CalibrationTarget, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
 }
 
 TEST(MarkedCube, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << renderer.error().message;
+  ASSERT_OK(renderer, SharedRenderer());
   const std::vector<BodyPose> motion{StandingPose()};
   const MarkedCube cube = MakeMarkedCube(MiddleOnFloor(motion));
   EXPECT_EQ(cube.discs.size(), 125u);
@@ -92,8 +90,7 @@ TEST(MarkedCube, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
       ASSERT_GE(towards, 25) << "a side at least";
       EXPECT_GE(pairs.size(), 0.8 * towards);
       EXPECT_LT(std::sqrt(squares / static_cast<double>(pairs.size())), 0.15) << "four rays a pixel";
-      const auto matrix = Calibrate(pairs, Calibration::kDltNormalised);
-      ASSERT_TRUE(matrix) << trial;
+      ASSERT_OK(matrix, Calibrate(pairs, Calibration::kDltNormalised)) << trial;
       const glm::dvec3 head(0, 1.6, 0.3);  // a place that has no disc
       EXPECT_LT(glm::distance(*Project(*matrix, head), *Project(MatrixOf(camera), head)), 0.5);
     }

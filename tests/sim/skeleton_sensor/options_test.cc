@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/kept_answers.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -28,18 +29,9 @@ TEST(SensorFile, ChangesWhatItSaysAndKeepsThePresetElsewhere) {
 }
 
 TEST(SensorFile, RefusesWhatItDoesNotKnowAtItsPlace) {
-  const auto complaint = [](const char* text) {
-    const auto read = ReadSensorFile(text, "s.yaml");
-    return read ? std::string("(read)") : ToString(read.error());
-  };
-  EXPECT_TRUE(complaint("fast_shore: 0.5\n").starts_with("s.yaml:1:1: ")) << complaint("fast_shore: 0.5\n");
-  EXPECT_NE(complaint("fast_shore: 0.5\n").find("fast_share"), std::string::npos);
-  EXPECT_TRUE(complaint("groups:\n  knees: {size: 1}\n").starts_with("s.yaml:2:"));
-  EXPECT_TRUE(complaint("groups:\n  knee: {}\n").starts_with("s.yaml:2:"));
-  EXPECT_TRUE(complaint("correlation: {shank: 1.5}\n").starts_with("s.yaml:1:"));
-  EXPECT_TRUE(complaint("based_on: v3\n").starts_with("s.yaml:1:"));
-  EXPECT_NE(complaint("shortest_episode: 50\n").find("longest_episode"), std::string::npos);
-  EXPECT_EQ(complaint("fast_share: 0.5\n"), "(read)");  // the control
+  EXPECT_TRUE(testing::AnswersAreKept("tests/sim/skeleton_sensor/complaints.txt", [](const std::string& text) {
+    return testing::Refusal(ReadSensorFile(text, "s.yaml"));
+  }));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
 #include "io/images/image_files.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -47,8 +48,7 @@ std::string PalettePng() {
 TEST(LoadMaskPng, KeepsTheIndicesOfAPalette) {
   const TemporaryFolder folder = TemporaryFolder::Make("palette").value();
   ASSERT_TRUE(WriteFileAtomically(folder.path() / "a.png", PalettePng()));
-  const auto mask = LoadMaskPng((folder.path() / "a.png").string());
-  ASSERT_TRUE(mask) << ToString(mask.error());
+  ASSERT_OK(mask, LoadMaskPng((folder.path() / "a.png").string()));
   EXPECT_TRUE(mask->is_indexed);
   EXPECT_EQ(mask->values.pixels, (std::vector<std::uint8_t>{0, 1, 2, 3}));
   ASSERT_TRUE(WriteFileAtomically(folder.path() / "b.png", PalettePng().substr(0, 60)));
@@ -66,10 +66,7 @@ class ReadMasksTest : public ::testing::Test {
     told_.lines.clear();
     return ReadMasks(folder_.path().string(), id, view, told_);
   }
-  std::string Reason(std::optional<int> id = {}, int frames = 2) {
-    const auto read = Read(id, frames);
-    return read ? "read" : ToString(read.error());
-  }
+  std::string Reason(std::optional<int> id = {}, int frames = 2) { return testing::Refusal(Read(id, frames)); }
   TemporaryFolder folder_ = TemporaryFolder::Make("masks").value();
   MessageLog told_{[](const std::string&) {}};
 };
@@ -95,8 +92,7 @@ TEST_F(ReadMasksTest, OfSeveralPeopleNeedTheNumberOfOne) {
   Add("1.png", both);
   Add("2.png", both);
   EXPECT_THAT(Reason(), HasSubstr("masks of several people or things: 1, 2; choose one by --mask-id"));
-  const auto second = Read(2);
-  ASSERT_TRUE(second);
+  ASSERT_OK(second, Read(2));
   EXPECT_EQ(std::ranges::count((*second)[0].pixels, 1), 2 * 40);
   EXPECT_THAT(Reason(3), HasSubstr("there is no --mask-id 3, but 1, 2"));
 }
@@ -113,7 +109,7 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
     for (int x = 60; x < 75; ++x) two.At(x, y) = 255;
   }
   Add("2.png", two);
-  ASSERT_EQ(Reason(), "read");
+  ASSERT_EQ(Reason(), "accepted");
   ASSERT_EQ(told_.lines.size(), 2u);
   EXPECT_EQ(told_.lines[0], "masks of cam1: 1 of 2 are empty");
   EXPECT_THAT(told_.lines[1], HasSubstr("doubtful: masks of cam1: 1 of 2 have several large regions"));
@@ -122,7 +118,7 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
     for (std::uint8_t& value : inverted.pixels) value = static_cast<std::uint8_t>(255 - value);
     Add(name, inverted);
   }
-  ASSERT_EQ(Reason(), "read");
+  ASSERT_EQ(Reason(), "accepted");
   EXPECT_EQ(told_.lines.front(), "doubtful: masks of cam1: 2 of 2 cover most of the picture: is the person black?");
   EXPECT_THAT(Reason({}, 1), HasSubstr("more masks than the film films/cam1.mp4 has frames: 1"));
   Add("2.png", Rectangle(20, 40, 255, 2 * kWidth));

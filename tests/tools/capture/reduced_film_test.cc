@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -56,8 +58,7 @@ TEST(ReadReduced, ShowsPlacesWhereAPinholeOfItsSizeWould) {
     const glm::dvec2 shown = letterbox.ToFilm(*Project(camera, place));
     const auto path = Filmed(shown, 400, 320);
     const FilmFacts facts = *ProbeFilm(path);
-    const auto pictures = ReadReduced(path, facts, camera, letterbox, 100, 10);
-    ASSERT_TRUE(pictures) << pictures.error().message;
+    ASSERT_OK(pictures, ReadReduced(path, facts, camera, letterbox, 100, 10));
     ASSERT_EQ(pictures->size(), 1u);
     const glm::dvec2 wanted = *Project(MatrixOf(small), place);
     EXPECT_LT(glm::distance(MiddleOfLight(pictures->front()), wanted), 0.35)

@@ -7,6 +7,7 @@
 
 #include "io/clips/clip_library.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -37,13 +38,11 @@ class TransitionFileTest : public ::testing::Test {
 };
 
 TEST_F(TransitionFileTest, BeginsAsTheFirstClipAndEndsAsTheSecond) {
-  const auto made = WriteTransition(Groove());
-  ASSERT_TRUE(made) << ToString(made.error());
+  ASSERT_OK(made, WriteTransition(Groove()));
   ASSERT_NE(made->branch, Branch::kNone);
   EXPECT_LE(made->wait_s, 1 + 1e-9);
   EXPECT_GE(made->left_s, 1 - 1.0 / 30);
-  const auto whole = LoadClips({Groove().output}, {});
-  ASSERT_TRUE(whole) << ToString(whole.error());
+  ASSERT_OK(whole, LoadClips({Groove().output}, {}));
   const BodyMotion& motion = whole->clips[0].motion;
   EXPECT_NEAR(motion.DurationSeconds() - 1.0 / 30, made->duration_s, 1e-6);
   const auto from = LoadClips({"builtin:groove"}, {}).value(), to = LoadClips({"builtin:clap"}, {}).value();

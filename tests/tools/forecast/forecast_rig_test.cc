@@ -7,6 +7,7 @@
 #include "engine/base/angles.h"
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -32,8 +33,7 @@ class ForecastRigTest : public ::testing::Test {
 };
 
 TEST_F(ForecastRigTest, StandsWhereTheCamerasLook) {
-  const auto forecast = Of(Around({-40, 40, 160}));
-  ASSERT_TRUE(forecast) << ToString(forecast.error());
+  ASSERT_OK(forecast, Of(Around({-40, 40, 160})));
   EXPECT_NEAR(forecast->middle_m.x, 1, 1e-6);
   EXPECT_NEAR(forecast->middle_m.y, -2, 1e-6);
   EXPECT_EQ(forecast->places.size(), 4000u);
@@ -44,8 +44,7 @@ TEST_F(ForecastRigTest, StandsWhereTheCamerasLook) {
 }
 
 TEST_F(ForecastRigTest, PutsAnotherCameraAcrossTwoThatFaceEachOther) {
-  const auto forecast = Of(Around({0, 180}));
-  ASSERT_TRUE(forecast) << ToString(forecast.error());
+  ASSERT_OK(forecast, Of(Around({0, 180})));
   const RigWorth &own = forecast->worths.front(), &more = forecast->worths.back();
   ASSERT_TRUE(more.added_m);
   const double angle = Degrees(std::atan2(more.added_m->x - 1, more.added_m->z + 2));
@@ -57,8 +56,7 @@ TEST_F(ForecastRigTest, PutsAnotherCameraAcrossTwoThatFaceEachOther) {
 TEST_F(ForecastRigTest, HalvesWithThePixelsIfTheCalibrationIsPerfect) {
   ForecastOptions options;
   options.errors = {.noise_px = 4};
-  const auto forecast = Of(Around({-40, 40}), options);
-  ASSERT_TRUE(forecast);
+  ASSERT_OK(forecast, Of(Around({-40, 40}), options));
   EXPECT_NEAR(forecast->worths[1].median_mm, 0.5 * forecast->worths[0].median_mm, 1e-9);
   EXPECT_EQ(forecast->worths.size(), 3u) << "no better calibration than a perfect one";
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "bench/tasks/base/task.h"
@@ -17,6 +18,15 @@ inline std::optional<double> ValueOf(const CellResult& cell, std::string_view id
   }
   ADD_FAILURE() << "no metric " << id;
   return std::nullopt;
+}
+
+/// A cell's digest of a stage. A stage that the cell does not tell of fails the test.
+inline std::string DigestOf(const CellResult& cell, std::string_view stage) {
+  for (const auto& [name, digest] : cell.digests) {
+    if (name == stage) return digest;
+  }
+  ADD_FAILURE() << stage << " is not among the digests";
+  return "";
 }
 
 }  // namespace etude

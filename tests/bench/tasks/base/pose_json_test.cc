@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -18,8 +20,7 @@ BodyPose Numbered() {
 
 TEST(PoseJson, KeepsEveryBitThroughText) {
   const BodyPose pose = Numbered();
-  const auto back = ReadPose(*ReadJson(*WriteJson(EncodePose(pose)), "pose"), "pose");
-  ASSERT_TRUE(back) << back.error().message;
+  ASSERT_OK(back, ReadPose(*ReadJson(*WriteJson(EncodePose(pose)), "pose"), "pose"));
   EXPECT_EQ(back->joints, pose.joints);
 }
 

@@ -29,14 +29,6 @@ Result<std::unique_ptr<Task>> Make(const std::string& yaml, const std::map<std::
   return task;
 }
 
-std::string DigestOf(const CellResult& cell, std::string_view stage) {
-  for (const auto& [name, digest] : cell.digests) {
-    if (name == stage) return digest;
-  }
-  ADD_FAILURE() << stage << " is not among the digests";
-  return "";
-}
-
 TEST(CaptureTask, ShowsEveryMethodTheSameMarksAndRepeatsItself) {
   ASSERT_OK(
       task,
@@ -289,9 +281,8 @@ TEST(CaptureTask, ReadsTheColoursOfASuitWhateverAnAnnotatorWouldErr) {
       "- {name: live, segmenter: rgb, pieces: large, marks: colours, causal: true}\n";
   for (const char* scene : {"0", "0.5"}) {
     const std::string studio = fmt::format("duration_s: 0.1\nclothes: coded\nscene: {}\n", scene);
-    const auto steady = Make(studio + methods), shaky = Make(studio + "annotation_error_px: 8\n" + methods);
-    ASSERT_TRUE(steady);
-    ASSERT_TRUE(shaky) << ToString(shaky.error());
+    ASSERT_OK(steady, Make(studio + methods));
+    ASSERT_OK(shaky, Make(studio + "annotation_error_px: 8\n" + methods));
     const auto cells = RunWorld(**steady, kKey, 3), others = RunWorld(**shaky, kKey, 3);
     for (const std::size_t coloured : {0u, 2u}) {
       EXPECT_EQ(cells[coloured].status, Status::kOk) << cells[coloured].reason;

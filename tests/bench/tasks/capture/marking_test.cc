@@ -8,6 +8,7 @@
 #include "sim/render/renderer.h"
 #include "sim/stage/wardrobe.h"
 #include "tests/sim/annotator/annotated_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -117,8 +118,7 @@ TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
 // What the shares of `FigureLook::figure` were read off: people in clothes who stand with their arms out, whatever
 // their build and cut, seen from before. Taken for capsules, they have their hips and shoulders far away.
 TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << renderer.error().message;
+  ASSERT_OK(renderer, SharedRenderer());
   const Camera camera = LookAt({}, {0, 1.2, 3.6}, {0, 1, 0});
   BodyPose body = StandingBody();
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {

@@ -8,6 +8,7 @@
 #include "engine/retargeting/rig.h"
 #include "sim/character/characters.h"
 #include "sim/choreography/canonical_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -52,8 +53,7 @@ constexpr WorldKey kShootingKey{.suite_seed = 5, .scenario = "shooting", .trial 
 
 // Pictures of a late camera are those that the first one's place would have seen then.
 TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << renderer.error().message;
+  ASSERT_OK(renderer, SharedRenderer());
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.05 * k; }));
   const CameraEffects late{.sync_offset_ms = 50, .noise = 0};
   Shooting shooting(world, late, kShootingKey, **renderer);
@@ -70,15 +70,13 @@ TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
 
 // A mannequin out of a file, half way through a clip that leads away from the middle.
 TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << renderer.error().message;
+  ASSERT_OK(renderer, SharedRenderer());
   const auto mannequin = std::make_shared<const Character>(MannequinCharacter());
   BodyConversion body{.metres_per_unit = 1};
   body.motion = {.rate_hz = 30, .poses = Poses(12, [](double k) { return 0.5 * k; })};
   Clip clip = RigClip(body.motion, StandingPose(), "walk");
   clip.skeleton = mannequin->skeleton;
-  const auto map = FindJointMap(clip.skeleton, "walk");
-  ASSERT_TRUE(map) << map.error().message;
+  ASSERT_OK(map, FindJointMap(clip.skeleton, "walk"));
 
   constexpr std::size_t kFirst = 4;
   const FloorMove move{.yaw = 0.3, .x = -2, .z = 0.6};
@@ -103,8 +101,7 @@ TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
 
 // Each band of a rolling shutter is the same rows of the whole picture at that time.
 TEST(Shooting, RollsExactlyBandByBand) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << renderer.error().message;
+  ASSERT_OK(renderer, SharedRenderer());
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.08 * k; }));
   Shooting rolling(world, {.rolling_shutter_ms = 30, .noise = 0}, kShootingKey, **renderer);
   const View view = rolling.Shoot(0, 4, Targets::kAll);

@@ -85,8 +85,7 @@ TEST(Seats, ALearnerIsSeenWhereItSaysItIs) {
 
 TEST(Seats, AProgramThatFailsIsAskedNoMore) {
   Imagined recogniser([](const Json&) { return Json(); });
-  const auto log = RunSeated(Seat::kRecogniser, recogniser);
-  ASSERT_TRUE(log);  // whoever runs the cell knows how the program failed
+  ASSERT_OK(log, RunSeated(Seat::kRecogniser, recogniser));  // whoever runs the cell knows how the program failed
 }
 
 struct WrongAnswer {

@@ -24,7 +24,7 @@ double FarthestApart(const CellResult& a, const CellResult& b) {
 }
 
 TEST_F(DetectionCameras, WhoseEveryStageIsTrueJudgeAsThePerfectSensorDoes) {
-  const auto task = MakeTask(R"(
+  ASSERT_OK(task, MakeTask(R"(
 sensor: cameras
 events: 1
 people: expert
@@ -37,8 +37,7 @@ methods:
     capture: {causal: true, oracle: [calibration, segmentation, marks, directions, points, lengths, start, ik]}
   - {name: marked}
 )",
-                             FourMoves());
-  ASSERT_TRUE(task) << ToString(task.error());
+                           FourMoves()));
   const auto cells = RunWorld(**task, World(0), 4);
   for (const CellResult& cell : cells) ASSERT_EQ(cell.status, Status::kOk) << cell.reason;
   constexpr double kTolerance = 1e-3;  // of evidence, 0 to 1: a skeleton within 0.1 mm

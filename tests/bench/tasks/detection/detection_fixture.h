@@ -48,14 +48,6 @@ methods:
   static std::vector<CellResult> CellsOf(const Task& task, int trial, bool keeps_motion = false) {
     return RunWorld(task, World(trial), 4, keeps_motion);
   }
-
-  static std::string DigestOf(const CellResult& cell, std::string_view stage) {
-    for (const auto& [name, digest] : cell.digests) {
-      if (name == stage) return digest;
-    }
-    ADD_FAILURE() << "no digest of " << stage;
-    return "";
-  }
 };
 
 }  // namespace etude

@@ -9,8 +9,9 @@
 #include "bench/tasks/detection/score.h"
 #include "engine/base/named.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
-#include "tests/support/kept_answers.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
+#include "tests/support/kept_answers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -92,8 +93,7 @@ TEST_F(DetectionExchange, JudgesABuiltInMethodsVerdictAsTheMethodItself) {
       SCOPED_TRACE(::testing::Message() << "trial " << trial << ", method " << m);
       const CellResult own = world->Run(m);
       const Json answer = AnswerOf(own);
-      const auto judged = world->Judge(*ReadJson(*WriteJson(answer), "answer"));
-      ASSERT_TRUE(judged) << judged.error().message;
+      ASSERT_OK(judged, world->Judge(*ReadJson(*WriteJson(answer), "answer")));
       ASSERT_EQ(judged->metrics.size(), own.metrics.size());
       for (std::size_t i = 0; i < own.metrics.size(); ++i) {
         EXPECT_EQ(judged->metrics[i].id, own.metrics[i].id);

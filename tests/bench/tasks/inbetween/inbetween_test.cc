@@ -6,6 +6,8 @@
 #include "bench/tasks/inbetween/windows.h"
 #include "engine/document/node.h"
 #include "io/clips/clip_library.h"
+#include "tests/support/kept_answers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -126,8 +128,7 @@ std::unique_ptr<TaskWorld> StandingWorld(const Study& study) {
 }
 
 TEST(Inbetween, KnowsTheTruthAndWhatIsDoneToIt) {
-  const auto study = StudyOf("truth: ['builtin:warm_up'], training: ['builtin:sprint'], facing: z", "hidden");
-  ASSERT_TRUE(study) << ToString(study.error());
+  ASSERT_OK(study, StudyOf("truth: ['builtin:warm_up'], training: ['builtin:sprint'], facing: z", "hidden"));
   const auto world = StandingWorld(*study);
   ASSERT_NE(world, nullptr);
   const CellResult own = world->Run(0);
@@ -169,18 +170,14 @@ TEST(Inbetween, SaysWhyAFillingIsNeitherCleanNorNot) {
 }
 
 TEST(Inbetween, TakesAFillerOrTheTruth) {
-  const auto complaint = [](const std::string& method) {
-    const auto study = StudyOf(kFiles, method);
-    return study ? "" : study.error().message;
-  };
-  EXPECT_EQ(complaint("interpolation"), "");
-  EXPECT_EQ(complaint("hidden"), "");
+  const auto complaint = [](const std::string& method) { return testing::Message(StudyOf(kFiles, method)); };
+  EXPECT_EQ(complaint("interpolation"), "accepted");
+  EXPECT_EQ(complaint("hidden"), "accepted");
   EXPECT_THAT(complaint("interpolation, oracle: [frames]"), HasSubstr("either 'filler' or 'oracle: [frames]'"));
 }
 
 TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
-  const auto study = StudyOf(kFiles, "interpolation");
-  ASSERT_TRUE(study);
+  ASSERT_OK(study, StudyOf(kFiles, "interpolation"));
   const auto world = WorldOf(*study, 3);
   const auto problem = world->MakeProblem(), truth = world->MakeTruth();
   ASSERT_TRUE(problem && truth);
@@ -191,10 +188,9 @@ TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
   const auto complaint = [&](const auto& change) {
     Json answer = *truth->json;
     change(answer.at("frames"));
-    const auto judged = world->Judge(answer);
-    return judged ? "" : judged.error().message;
+    return testing::Message(world->Judge(answer));
   };
-  EXPECT_EQ(complaint([](Json&) {}), "");
+  EXPECT_EQ(complaint([](Json&) {}), "accepted");
   EXPECT_THAT(complaint([](Json& frames) { frames.erase(0); }), HasSubstr("frames"));
   EXPECT_THAT(complaint([](Json& frames) {
                 for (std::size_t i = 0; i < 4; ++i) frames[2][7 + i] = i < 2 ? 1 : 0;
@@ -204,26 +200,12 @@ TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
   EXPECT_THAT(complaint([](Json& frames) { frames[4][0] = 1e9; }), HasSubstr("frames[4]"));
 }
 
-std::string RefusalOf(const std::string& keys) {
-  const auto study = StudyOf(keys, "interpolation");
-  return study ? "" : ToString(study.error());
-}
-
 TEST(Inbetween, RefusesWhatCannotBeJudged) {
-  EXPECT_THAT(RefusalOf("truth: [assimp:01_03], training: [assimp:01_03]"),
-              HasSubstr("is judged, so it must not be in 'training'"));
-  EXPECT_THAT(RefusalOf("truth: [assimp:01_03], training: [/usr/share/assimp/models/BVH/01_03.bvh]"),
-              HasSubstr("is judged"));
-  EXPECT_THAT(RefusalOf("truth: [builtin:clap], training: [assimp:01_01], window: 9000, gap: 8900"),
-              HasSubstr("no file has a window of 9000 frames"));
-  EXPECT_THAT(RefusalOf(std::string(kFiles) + ", gap: 46"),
-              HasSubstr("gap 46 and future 10 must fit into a window of 65 frames"));
-  EXPECT_THAT(RefusalOf(std::string(kFiles) + ", given: 11"), HasSubstr("given 11 into future"));
-  EXPECT_THAT(RefusalOf("truth: [assimp:01_03]"), HasSubstr("needs 'training'"));
-  EXPECT_THAT(RefusalOf(std::string(kFiles) + ", trials: 3"), HasSubstr("has no use"));
+  EXPECT_TRUE(testing::AnswersAreKept("tests/bench/tasks/inbetween/complaints.txt", [](const std::string& keys) {
+    return testing::Refusal(StudyOf(keys, "interpolation"));
+  }));
   // Another skeleton has no training clip.
-  const auto study = StudyOf("truth: [assimp:Boxing_Toes], training: [assimp:01_01], rate_hz: 30", "interpolation");
-  ASSERT_TRUE(study);
+  ASSERT_OK(study, StudyOf("truth: [assimp:Boxing_Toes], training: [assimp:01_01], rate_hz: 30", "interpolation"));
   EXPECT_THAT(WorldOf(*study, 0)->WhySkipped().value_or(""), HasSubstr("no training clip has the same joints"));
 }
 

@@ -5,6 +5,7 @@
 #include "engine/document/node.h"
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -32,29 +33,24 @@ class FindLoneClipsTest : public ::testing::Test {
 
 TEST_F(FindLoneClipsTest, ClipsOfOneNameOfSeveralMethodsAreOneWorld) {
   const std::string a = Make("m/a.bvh"), b = Make("m/b.bvh"), other = Make("n/b.npz");
-  const auto found = Find({"{name: m, answers: ['@/m']}", "{name: n, answers: ['@/n/*']}"});
-  ASSERT_TRUE(found) << ToString(found.error());
+  ASSERT_OK(found, Find({"{name: m, answers: ['@/m']}", "{name: n, answers: ['@/n/*']}"}));
   const std::vector<JudgedFiles> expected = {{"a", "", "", {a, ""}}, {"b", "", "", {b, other}}};
   EXPECT_EQ(found->worlds, expected);
 }
 
 TEST_F(FindLoneClipsTest, NamesHoldTheFoldersOfWildcardsAndExtensionsIfNeeded) {
   const std::string walk = Make("x/walk.bvh"), too = Make("y/walk.bvh"), arrays = Make("y/walk.npz");
-  const auto found = Find({"{name: m, answers: ['@/*/walk.*']}"});
-  ASSERT_TRUE(found) << ToString(found.error());
+  ASSERT_OK(found, Find({"{name: m, answers: ['@/*/walk.*']}"}));
   const std::vector<JudgedFiles> expected = {
       {"x/walk", "", "", {walk}}, {"y/walk.bvh", "", "", {too}}, {"y/walk.npz", "", "", {arrays}}};
   EXPECT_EQ(found->worlds, expected);
-  const auto twice = Find({"{name: m, answers: ['@/x', '@/y/walk.bvh']}"});
-  ASSERT_FALSE(twice);
-  EXPECT_THAT(ToString(twice.error()), HasSubstr("have the same name"));
+  EXPECT_THAT(testing::Refusal(Find({"{name: m, answers: ['@/x', '@/y/walk.bvh']}"})), HasSubstr("have the same name"));
 }
 
 TEST_F(FindLoneClipsTest, PeopleAreUnitsAndTrialsAreRefused) {
   Make("m/p1_a.bvh");
   Make("m/p2_a.bvh");
-  const auto found = Find({"{name: m, answers: ['@/m']}"}, "people: '{person}_*'");
-  ASSERT_TRUE(found);
+  ASSERT_OK(found, Find({"{name: m, answers: ['@/m']}"}, "people: '{person}_*'"));
   EXPECT_EQ(found->worlds[0].unit, "p1");
   EXPECT_EQ(found->worlds[1].unit, "p2");
   EXPECT_FALSE(Find({"{name: m, answers: ['@/m']}"}, "people: '{person}-*'"));

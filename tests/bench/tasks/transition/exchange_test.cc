@@ -11,8 +11,9 @@
 #include "engine/motion/body.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
-#include "tests/support/kept_answers.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
+#include "tests/support/kept_answers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -113,8 +114,7 @@ TEST_F(TransitionExchange, JudgesABuiltInMethodsPlanAsTheMethodItself) {
         SCOPED_TRACE(::testing::Message() << "trial " << trial << ", " << choice.name << ", " << join.name);
         const CellResult own = world->Run(method++);
         if (!answers) continue;
-        const auto judged = JudgeText(*world, AnswerOf(record, choice, join.name));
-        ASSERT_TRUE(judged) << judged.error().message;
+        ASSERT_OK(judged, JudgeText(*world, AnswerOf(record, choice, join.name)));
         EXPECT_EQ(judged->status, own.status);
         EXPECT_EQ(judged->reason, own.reason);
         ASSERT_EQ(judged->metrics.size(), own.metrics.size());
@@ -197,9 +197,8 @@ TEST_F(TransitionExchange, ScoresAWorseAnswerWorse) {
   stay["between"] = Json::array({EncodePose(pose)});
   for (glm::dvec3& joint : pose.joints) joint.x += 5;
   leap["between"] = Json::array({EncodePose(pose)});
-  const auto calm = world->Judge(stay), wild = world->Judge(leap);
-  ASSERT_TRUE(calm) << ToString(calm.error());
-  ASSERT_TRUE(wild) << ToString(wild.error());
+  ASSERT_OK(calm, world->Judge(stay));
+  ASSERT_OK(wild, world->Judge(leap));
   EXPECT_GT(ValueOf(*wild, "jump_cm"), ValueOf(*calm, "jump_cm") + 50);
   EXPECT_GT(ValueOf(*wild, "pose_gap_cm"), ValueOf(*calm, "pose_gap_cm") + 50);
   Json rush = stay;  // five metres within a frame

@@ -11,6 +11,7 @@
 #include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 #include "tests/engine/transitions/lying_clips.h"
+#include "tests/support/results.h"
 #include "tests/support/run_world.h"
 
 namespace etude {
@@ -22,8 +23,7 @@ class TransitionTaskTest : public TransitionFixture {};
 
 TEST_F(TransitionTaskTest, MeasuresEveryMethodInTheSameWorld) {
   const ClipLibrary library = SmallLibrary();
-  const auto task = Make(kMethods, library);
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make(kMethods, library));
   int smoother = 0;
   for (int trial = 0; trial < 6; ++trial) {
     EXPECT_EQ((*task)->ClipsOf(Trial(trial)).front(), library.clips[trial % 3].name);
@@ -46,8 +46,7 @@ TEST_F(TransitionTaskTest, MeasuresEveryMethodInTheSameWorld) {
 TEST_F(TransitionTaskTest, CountsAWorldWithoutAWayAndSaysWhy) {
   const ClipLibrary library = SmallLibrary();
   const auto task = Make(kMethods, library);
-  const auto cell = (*task)->MakeWorld(Trial(0), false)->Judge({{"unsolved", "nothing fits"}});
-  ASSERT_TRUE(cell);
+  ASSERT_OK(cell, (*task)->MakeWorld(Trial(0), false)->Judge({{"unsolved", "nothing fits"}}));
   EXPECT_EQ(cell->status, Status::kUnsolved);
   EXPECT_EQ(cell->reason, "nothing fits");
   ASSERT_EQ(cell->metrics.size(), MakeTransitionTaskKind().metrics.size());
