@@ -46,7 +46,7 @@ struct ClipInfoOptions {
 /// Prints the facts of all clips. Returns 2 if a clip cannot be interpreted; the other clips are printed nevertheless.
 Result<int> ClipInfoCommand(const ClipInfoOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
-  ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
+  ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips, kMaxLibraryClips));
   std::vector<ClipFacts> all;
   for (const std::string& reference : references) {
     for (ClipFacts& facts : FactsOf(reference, reading)) {

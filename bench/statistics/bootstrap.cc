@@ -6,6 +6,7 @@
 
 #include "bench/statistics/distributions.h"
 #include "engine/base/order_statistics.h"
+#include "sim/random/philox_lanes.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -31,17 +32,40 @@ std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregat
   return values;
 }
 
-/// Returns the median of a resample in which value i occurs `counts[i]` times. It is found by walking to the middle,
-/// without sorting.
-double MedianOfDrawn(std::span<const double> sorted, std::span<const int> counts) {
-  const int low = static_cast<int>(sorted.size() - 1) / 2, high = static_cast<int>(sorted.size()) / 2;
-  std::size_t index = 0;
-  int passed = counts[0];
-  while (passed <= low) passed += counts[++index];
-  const double lower = sorted[index];
-  while (passed <= high) passed += counts[++index];
-  return 0.5 * (lower + sorted[index]);
-}
+/// Finds the medians of resamples of sorted values. Each number of 32 bits draws the index number · count / 2³².
+class DrawnMedian {
+ public:
+  explicit DrawnMedian(std::span<const double> sorted)
+      : sorted_(sorted), lower_((sorted.size() - 1) / 2), upper_(sorted.size() / 2), near_(sorted.size() + kHalvesSlack) {
+    // The middle draws are nearly always within three standard errors, √count / 2 each, of the middle value.
+    const auto reach = static_cast<std::size_t>(1.5 * std::sqrt(static_cast<double>(sorted.size())));
+    low_ = static_cast<std::uint32_t>(FirstDrawing(lower_ - std::min(lower_, reach)));
+    last_ = static_cast<std::uint32_t>(FirstDrawing(std::min(sorted.size(), upper_ + 1 + reach)) - 1);
+  }
+
+  /// Returns the median of the resample that the halves of `drawn` draw. Only draws near the middle are looked at.
+  double Of(const std::uint64_t* drawn) {
+    HalvesWithin found = FindHalvesWithin(drawn, sorted_.size(), low_, last_, near_.data());
+    if (lower_ < found.below || upper_ >= found.below + found.within) {  // the middle is elsewhere: look at all
+      found = FindHalvesWithin(drawn, sorted_.size(), 0, ~std::uint32_t{0}, near_.data());
+    }
+    const auto end = near_.begin() + static_cast<std::ptrdiff_t>(found.within);
+    const auto lower = near_.begin() + static_cast<std::ptrdiff_t>(lower_ - found.below);
+    std::nth_element(near_.begin(), lower, end);
+    const std::uint32_t above = upper_ == lower_ ? *lower : *std::min_element(lower + 1, end);
+    return 0.5 * (ValueOf(*lower) + ValueOf(above));
+  }
+
+ private:
+  /// Returns the least number that draws `index` or a later one.
+  std::uint64_t FirstDrawing(std::size_t index) const { return ((index << 32) + sorted_.size() - 1) / sorted_.size(); }
+  double ValueOf(std::uint64_t number) const { return sorted_[(number * sorted_.size()) >> 32]; }
+
+  std::span<const double> sorted_;
+  std::size_t lower_, upper_;  ///< the ranks of both middle draws
+  std::vector<std::uint32_t> near_;
+  std::uint32_t low_ = 0, last_ = 0;
+};
 
 /// Fills `means` and `medians` with the aggregates of resamples. Each has kResamples entries, or is empty if it is not
 /// needed. Each resample draws as many indices as there are values, two from each 64 random bits. The probability of an
@@ -53,7 +77,7 @@ void Resample(std::span<const double> sorted, RandomStream& dice, std::span<doub
   const auto first = [&](std::uint64_t bits) { return ((bits & 0xffffffffu) * count) >> 32; };
   const auto second = [&](std::uint64_t bits) { return ((bits >> 32) * count) >> 32; };
   std::vector<std::uint64_t> bits(kTogether * words);
-  std::vector<int> counts;
+  DrawnMedian median(sorted);
   for (std::size_t done = 0; done < kResamples; done += kTogether) {
     const std::size_t together = std::min(kTogether, kResamples - done);
     dice.FillBits(std::span(bits).first(together * words));
@@ -69,16 +93,7 @@ void Resample(std::span<const double> sorted, RandomStream& dice, std::span<doub
       }
       for (std::size_t k = 0; k < together; ++k) means[done + k] = sums[k] / static_cast<double>(count);
     }
-    // Compute the medians from the number of times that each value was drawn.
-    for (std::size_t k = 0; k < together && !medians.empty(); ++k) {
-      counts.assign(count, 0);
-      for (std::size_t i = 0; i < pairs; ++i) {
-        ++counts[first(drawn[k * words + i])];
-        ++counts[second(drawn[k * words + i])];
-      }
-      if (pairs < words) ++counts[first(drawn[k * words + pairs])];
-      medians[done + k] = MedianOfDrawn(sorted, counts);
-    }
+    for (std::size_t k = 0; k < together && !medians.empty(); ++k) medians[done + k] = median.Of(drawn + k * words);
   }
 }
 

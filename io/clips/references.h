@@ -24,6 +24,9 @@ Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place)
 
 /// The maximum number of clips that a reference may stand for.
 constexpr std::size_t kMaxClips = 1000;
+/// The same where clips are read one by one: 288 hours in clips of ten seconds. A limit is needed only against patterns
+/// that match a disk.
+constexpr std::size_t kMaxLibraryClips = 100'000;
 
 /// Lists the clips that a reference stands for, in order; each can be opened on its own. A reference is a built-in clip
 /// ("builtin:clap"; "builtin:*" stands for all moves, "builtin:acts" for all acts, "builtin:songs" for all songs), a

@@ -34,7 +34,7 @@ HWY_INLINE Product Multiply(Vec a, uint64_t constant) {
   // Sum up the products with their carries.
   const auto middle = hn::Add(p10, hn::ShiftRight<32>(p00)), lower = hn::Add(p01, hn::And(middle, mask));
   return {hn::Add(hn::Add(p11, hn::ShiftRight<32>(middle)), hn::ShiftRight<32>(lower)),
-          hn::Or(hn::ShiftLeft<32>(lower), hn::And(p00, mask))};
+          hn::Mul(a, hn::Set(word, constant))};
 }
 
 /// Philox blocks, one in every lane.
@@ -77,6 +77,27 @@ size_t FillBlocks(uint64_t first, uint64_t key0, uint64_t key1, size_t count, ui
   return done;
 }
 
+HalvesWithin FindWithin(const uint64_t* words, size_t count, uint32_t low, uint32_t last, uint32_t* within) {
+  const hn::ScalableTag<uint64_t> word;
+  const hn::Repartition<uint32_t, decltype(word)> half;
+  const auto from = hn::Set(half, low), width = hn::Set(half, last - low);
+  HalvesWithin found;
+  size_t done = 0;  // numbers
+  for (; done + hn::Lanes(half) <= count; done += hn::Lanes(half)) {
+    const auto numbers = hn::BitCast(half, hn::LoadU(word, words + done / 2));
+    const auto is_within = hn::Not(hn::Lt(width, hn::Sub(numbers, from)));  // numbers below `low` wrap around
+    found.below += hn::CountTrue(half, hn::Lt(numbers, from));
+    hn::StoreU(hn::Compress(numbers, is_within), half, within + found.within);
+    found.within += hn::CountTrue(half, is_within);
+  }
+  for (; done < count; ++done) {
+    const auto number = static_cast<uint32_t>(words[done / 2] >> (done % 2 == 0 ? 0 : 32));
+    found.below += number < low;
+    if (number - low <= last - low) within[found.within++] = number;
+  }
+  return found;
+}
+
 }  // namespace etude::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -84,10 +105,16 @@ HWY_AFTER_NAMESPACE();
 namespace etude {
 
 HWY_EXPORT(FillBlocks);
+HWY_EXPORT(FindWithin);
 
 std::size_t FillPhiloxBlocks(std::uint64_t first, std::uint64_t key0, std::uint64_t key1, std::size_t count,
                              std::uint64_t* out) {
   return HWY_DYNAMIC_DISPATCH(FillBlocks)(first, key0, key1, count, out);
+}
+
+HalvesWithin FindHalvesWithin(const std::uint64_t* words, std::size_t count, std::uint32_t low, std::uint32_t last,
+                              std::uint32_t* within) {
+  return HWY_DYNAMIC_DISPATCH(FindWithin)(words, count, low, last, within);
 }
 
 }  // namespace etude

@@ -16,10 +16,11 @@ import shutil
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 import numpy as np
 import second_readers
-from etude_case import HEAVY, EtudeCase
+from etude_case import HEAVY, EtudeCase, heavy
 
 WIDTH, HEIGHT, FRAMES, RATE, FOCAL = 640, 480, 60, 30, 520.0
 PLACES = {"cam1": (-2.6, 1.6, 3.2), "cam2": (0.4, 2.3, 4.1), "cam3": (3.1, 1.2, 2.6), "cam4": (-0.8, 1.9, -3.7)}
@@ -511,6 +512,38 @@ class Mistakes(EtudeCase):
                 self.assertAlmostEqual(assumed["median_mm"] / told["median_mm"], 1, delta=0.05)
         refused = self.refusal(*there, "--noise-px", "1", "--films", *films, "--keypoints", folder / "keypoints")
         self.assertIn("--noise-px", refused)
+
+    @heavy
+    def test_forecast_is_right_at_thirty_places_of_twenty_rigs(self):
+        frames, places = 480, 30
+        truth = lambda t: figure(t, (0.6 * math.sin(0.4 * t), 0.4 * math.sin(0.8 * t)))
+        self.films = self.folder / "films"
+        self.films.mkdir()
+        subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"color=gray:size={WIDTH}x{HEIGHT}:rate={RATE}", "-frames:v", str(frames),
+                        "-preset", "ultrafast", "-pix_fmt", "yuv420p", str(self.films / "upright.mp4")], check=True)
+        for number in range(20):
+            dice = np.random.default_rng(number)
+            angles = dice.uniform(0, 2 * math.pi) + np.cumsum(dice.uniform(0.8, 1.4, dice.integers(2, 5)))
+            rig = {f"cam{i + 1}": (d * math.sin(angle), dice.uniform(0.6, 2.6), d * math.cos(angle))
+                   for i, (angle, d) in enumerate(zip(angles, dice.uniform(3, 5, len(angles))))}
+            noise_px = dice.uniform(0.3, 2.5)
+            with self.subTest(number), unittest.mock.patch.multiple(sys.modules[__name__], FRAMES=frames, PLACES=rig):
+                folder, file, films, arguments = self.take(truth=truth, noise_px=noise_px)
+                self.ends(0, "capture", "--rig", file, *films, "--keypoints", folder / "keypoints", "--points", folder / "p.trc", "-o", folder / "m.csv",
+                          "--outlier", "90", *arguments)
+                found = read_trc(folder / "p.trc")
+                points = np.array([list(frame.values()) for frame in found])  # every marker in every frame
+                middle = points.mean((0, 1))
+                self.ends(0, "forecast", file, "--middle", f"{middle[0]:.3f},{middle[2]:.3f}", "--size", "3,2.2,3", "--calibration", "0,0,0",
+                          "--noise-px", noise_px, "--table", folder / "map.csv")
+                table = np.genfromtxt(folder / "map.csv", delimiter=",", skip_header=1)
+                low, cell = table[:, :3].min(0), (table[:, :3].max(0) - table[:, :3].min(0)) / (19, 9, 19)
+                squares = {tuple(at): row[5] ** 2 for at, row in zip(np.rint((table[:, :3] - low) / cell).astype(int), table)}
+                at = np.rint((points - low) / cell).astype(int).reshape(-1, 3)
+                expected = np.array([squares[tuple(cell)] for cell in np.clip(at, 0, (19, 9, 19))])
+                of_place = lambda values: np.sqrt(values.reshape(places, -1).mean(1))
+                ratio = of_place(expected) / of_place(np.square(errors_mm(found, truth)[0]))
+                self.assertLess(np.abs(ratio - 1).max(), 0.15, ratio)
 
     def test_focal_lengths_that_are_off_are_doubted(self):
         off = lambda films: altered_toml(lambda name, R, T, K: (name, R, T, K @ np.diag([1.05, 1.05, 1]) if name in films else K))

@@ -75,6 +75,12 @@ class Info(Clips):
         for clip in clips:
             self.assertTrue(1.5 < clip["body"]["stature_m"] < 2.0, clip["name"])
 
+    def test_a_folder_of_more_than_a_thousand_clips_is_listed(self):
+        self.works("convert", "builtin:clap", self.folder / "0.csv", "--trim", ":0.2")
+        for i in range(1, 1001):
+            os.link(self.folder / "0.csv", self.folder / f"{i}.csv")
+        self.assertEqual(len(self.info(self.folder / "*.csv")), 1001)
+
     def test_what_is_no_body_is_told_of_all_the_same(self):
         skin, box, broken, walk = self.info(NO_BODY, NO_ANIMATION, MODELS / "glTF2/RecursiveNodes/RecursiveNodes.gltf",
                                             WALK, code=2)

@@ -130,7 +130,7 @@ class Cluster(unittest.TestCase):
         shutil.rmtree(self.out)
         self.submit(suite, "--seed", 2)
         self.wait_for_the_queue()
-        self.assertIn("'seed' differs", self.log(1))
+        self.assertIn("belongs to another run: seed was 1 and is 2", self.log(1))
         self.assertFalse(self.out.exists())
 
     def test_bad_arguments_are_one_message_and_submit_nothing(self):

@@ -22,10 +22,6 @@ bool IsCorrective(const std::string& source) {
   return is_act || source.starts_with(slow);
 }
 
-/// The maximum number of clips: 288 hours in clips of ten seconds. The limit only guards against patterns that match a
-/// whole disk.
-constexpr std::size_t kMaxLibraryClips = 100'000;
-
 /// Expands references into clips, each once, in the order of their first mention.
 Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& named) {
   auto all = ExpandReferences(named, kMaxLibraryClips);
@@ -101,6 +97,10 @@ BridgeTags TagsOf(const BridgeLibrary& loaded) {
 Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path) {
   const BridgeTags tags = TagsOf(loaded);
   ASSIGN_OR_RETURN(const auto text, WriteTagsFile(tags));
+  if (text.size() > kMaxTagsFileBytes) {
+    return Fail({path}, "would have {} MB; allowed: {} MB; --most-per-class N keeps fewer bridge frames",
+                text.size() / 1'000'000, kMaxTagsFileBytes / 1'000'000);
+  }
   ASSIGN_OR_RETURN(const auto back, ReadTagsFile(text, path));
   if (!(back == tags)) return Fail({path, 0, 0}, "does not read back as the same tags; nothing was written");
   return WriteFileAtomically(path, text);

@@ -127,6 +127,35 @@ TEST(BootstrapInterval, DrawsTheMediansThatAPlainBootstrapDraws) {
   }
 }
 
+/// Bit for bit, with the draws that a summary makes: among so many, some resamples have their middle far from the
+/// sample's.
+TEST(BootstrapInterval, HasTheMediansOfItsOwnDraws) {
+  std::vector<int> sizes = {6, 7, 1000, 4001};
+  for (int n = 20; n < 100; ++n) sizes.push_back(n);
+  for (const int n : sizes) {
+    RandomStream sample({.suite_seed = 3, .scenario = "t", .trial = n}, "sample");
+    std::vector<double> values(n);
+    for (double& value : values) value = sample.Normal(10, 2);
+    std::ranges::sort(values);
+    RandomStream dice({.suite_seed = 1, .scenario = "bootstrap", .trial = 0}, "x");
+    std::vector<double> replicates;
+    for (int r = 0; r < 1999; ++r) {
+      std::vector<double> drawn;
+      for (int i = 0; i < n; i += 2) {
+        const std::uint64_t bits = dice.Bits(), count = values.size();
+        drawn.push_back(values[((bits & 0xffffffffu) * count) >> 32]);
+        if (i + 1 < n) drawn.push_back(values[((bits >> 32) * count) >> 32]);
+      }
+      replicates.push_back(Median(std::move(drawn)));
+    }
+    const auto median = [](std::span<const double> some) { return Quantile(some, 0.5); };
+    const Interval plain = BcaInterval(replicates, median(values), Jackknife(values, median));
+    const auto ours = BootstrapInterval(values, Aggregate::kMedian, 1, "x");
+    EXPECT_EQ(ours->low, plain.low) << n;
+    EXPECT_EQ(ours->high, plain.high) << n;
+  }
+}
+
 TEST(BootstrapInterval, AgreesWithTheNormalTheoryOfTheMean) {
   RandomStream dice({.suite_seed = 3, .scenario = "t", .trial = 0}, "sample");
   std::vector<double> values(400);
