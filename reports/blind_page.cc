@@ -87,8 +87,8 @@ std::string PageOf(const RunData& run, const std::string& digest, const std::str
       "<button data-answer=\"same\">↓ No difference</button> <button data-answer=\"right\">Right →</button></p>"
       "<p><button id=\"back\">Back</button> <button id=\"save\">Save answers</button></p></div>"
       "<style>.blind button, .blind input {{ font: inherit; padding: 6px 14px; margin: 2px; }} .blind "
-      "[aria-pressed=true] {{ outline: 3px solid var(--accent); }} .blind video {{ width: 100%; height: auto; "
-      "}}</style>",
+      "[aria-pressed=true] {{ outline: 3px solid var(--accent); }} .blind video {{ width: auto; max-width: "
+      "100%; max-height: 56vh; }}</style>",
       digest, films_html);
   return WriteToolPage({.kind = "comparison",
                         .title = "Which body moves more naturally?",
