@@ -21,7 +21,7 @@ struct BodyRule {
   std::string_view unmet;  ///< why a value may be missing; empty: it never is
 };
 
-/// The rules of clean_share version 4, in the order of the values of BodyMeasures.
+/// The rules of clean_share since version 4, in the order of the values of BodyMeasures.
 constexpr std::array kBodyRules = {
     BodyRule{"zmp_off_cm", 25, "the ground never bears half of the weight"},
     BodyRule{"slip_mps2", 2, "the body has no support"},
