@@ -9,6 +9,7 @@
 #include "engine/motion/support.h"
 #include "engine/transitions/choices/rehearsal.h"
 #include "engine/transitions/joins/minimum_jerk.h"
+#include "engine/transitions/joins/planted_feet.h"
 
 namespace etude {
 
@@ -67,6 +68,9 @@ class PairStage {
   JoinWindow WindowFor(int frames, const glm::dvec3& shift) const;
   /// Returns a frame of a join of kLengths_s[length], `frames` frames, without planted feet and shift.
   const BodyPose& LimbsAt(std::size_t length, int frames, JoinStyle way, int frame);
+  /// Returns PlanSteps of a window that WindowFor returned for kLengths_s[length], with CarriedShift or without. Both
+  /// ways have the same steps, so they are planned once.
+  const FootPlan& StepsIn(const JoinWindow& window, std::size_t length, bool carried);
   /// Returns what the ground must do if the join shows `played`, then the wanted clip moved by `shift`.
   Burden Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const;
 
@@ -87,6 +91,7 @@ class PairStage {
   const OwnAccelerations own_;
   WindowTurns turns_;
   std::array<std::array<Limbs, kWays.size()>, kLengths_s.size()> limbs_;
+  std::array<std::array<std::optional<FootPlan>, 2>, kLengths_s.size()> steps_;  // by length, and carried or not
   const FramePair pair_;
   std::span<const double> playing_beside_, wanted_beside_;  // MotionLibrary::beside_feet
   const int before_;                                        // number of frames of `playing_` before the pair's frame
