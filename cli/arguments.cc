@@ -43,7 +43,9 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
         "etude merge out/quick-1-*-of-8 -o out/quick"}},
       {"report",
        {"etude report out/quick-1", "etude report out/quick-1 --no-video",
-        "etude report out/quick-1 --whole-sessions"}},
+        "etude report out/mine --blind played crossfade-now"}},
+      {"blind",
+       {"etude blind out/mine/blind/*.key.json answers/*.json", "etude blind key.json anna.json ben.json --json"}},
       {"rows",
        {"etude rows out/many -o many.jsonl", "etude rows out/quick-1 | head -3", "etude rows out/copied --unsealed"}},
       {"replay",
@@ -296,7 +298,7 @@ void GroupCommands(CLI::App& app) {
     std::vector<std::string> commands;
   };
   const CommandGroup groups[] = {{"Run and judge",
-                                  {"run", "evaluate", "scenario", "list", "report", "rows", "compare", "gate", "replay",
+                                  {"run", "evaluate", "scenario", "list", "report", "rows", "blind", "compare", "gate", "replay",
                                    "verify", "merge", "check-method"}},
                                  {"Your motions", {"clip", "bridge", "transition", "train", "crowd"}},
                                  {"Your recordings of people", {"teach", "recognise", "coach", "sensor"}},
@@ -318,6 +320,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineMerge(app, command_line, action);
   DefineReport(app, action);
   DefineRows(app, action);
+  DefineBlind(app, action);
   DefineReplay(app, action);
   DefineVerify(app, action);
   DefineGate(app, action);

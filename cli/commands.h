@@ -59,8 +59,10 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
 void DefineScenario(CLI::App& app, Action& action);
 /// `etude merge DIR… -o DIR`: merges shards into one run.
 void DefineMerge(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude report DIR`: writes DIR/report and DIR/video.
+/// `etude report DIR`: writes DIR/report and DIR/video; with --blind, DIR/blind instead.
 void DefineReport(CLI::App& app, Action& action);
+/// `etude blind FILE…`: summarises people's answers to pages of `etude report --blind`.
+void DefineBlind(CLI::App& app, Action& action);
 /// `etude rows DIR`: writes the rows as lines of text.
 void DefineRows(CLI::App& app, Action& action);
 /// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit code 1 if one differs), or packs

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
@@ -9,7 +11,9 @@
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/machine.h"
+#include "io/drawing/numbers.h"
 #include "io/files/files.h"
+#include "reports/blind_page.h"
 #include "reports/report.h"
 
 namespace etude {
@@ -37,6 +41,28 @@ Result<int> ReportCommand(const std::string& folder, const std::vector<std::stri
   ASSIGN_OR_RETURN(const int code, UnlessReplaced(folder, run, kSuccess));
   if (code == kSuccess) TellWritten(folder + "/report/index.html");
   return code;
+}
+
+Result<int> BlindPageCommand(const std::string& folder, BlindOptions options, Sealing sealing, int jobs) {
+  ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
+  TellUnsealed(run.unsealed);
+  RETURN_IF_ERROR(CheckRowsAgainstSummary(folder, run));
+  const Interrupt interrupt;
+  options.watch = WatchFilms(interrupt, jobs);
+  auto trial = MakeBlindTrial(run, options);
+  if (!trial) return Fail({folder}, "{}", trial.error().message);
+  if (!*trial) return TellStopped();
+  const auto& [page_html, key] = **trial;
+  // Both names are the digest of the content, so no other page's key is overwritten.
+  const FilePath page = Inside(folder) / "blind" / (key.page + ".html");
+  const FilePath key_file = Inside(folder) / "blind" / (key.page + ".key.json");
+  RETURN_IF_ERROR(WriteFileAtomically(key_file, WriteBlindKey(key)));
+  RETURN_IF_ERROR(WriteFileAtomically(page, page_html));
+  fmt::print("{} of {} recorded worlds; {} left out, where a method made no transition. Keep the key from raters.\n",
+             Plural(static_cast<long long>(key.pairs.size()), "pair"), key.worlds, key.left_out);
+  TellWritten(page.string());
+  TellWritten(key_file.string());
+  return kSuccess;
 }
 
 Result<int> RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
@@ -73,8 +99,22 @@ void DefineReport(CLI::App& app, Action& action) {
   AddUnsealed(*command, *sealing);
   auto jobs = std::make_shared<int>(0);
   AddJobs(*command, *jobs);
+  auto blind = std::make_shared<BlindOptions>();
+  CLI::Option* methods =
+      command
+          ->add_option("--blind", blind->methods,
+                       "Instead, write a page in DIR/blind on which people compare films of these methods' transitions "
+                       "without knowing which is which, and the key")
+          ->expected(2, 16)
+          ->excludes("--no-video", "--whole-sessions", "--real");
+  command->add_option("--pairs", blind->pairs, "With --blind: the largest number of pairs")
+      ->needs(methods)
+      ->check(NumberWithin(1, 1000, "number of pairs"))
+      ->capture_default_str();
+  AddSeed(*command, blind->seed, "With --blind: seed of the dice that draw worlds, order and sides")->needs(methods);
   command->callback([=, &action] {
     action = [=] {
+      if (!blind->methods.empty()) return Finish(BlindPageCommand(*folder, *blind, *sealing, *jobs));
       return Finish(
           ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing, *jobs));
     };

@@ -21,7 +21,7 @@ struct BodyRule {
   std::string_view unmet;  ///< why a value may be missing; empty if it is never missing
 };
 
-/// The rules of clean_share version 4. BodyMeasures holds its values in this order.
+/// The rules of clean_share since version 4. BodyMeasures holds its values in this order.
 constexpr std::array kBodyRules = {
     BodyRule{"zmp_off_cm", 25, "the ground never bears half of the weight"},
     BodyRule{"slip_mps2", 2, "the body has no support"},

@@ -66,7 +66,7 @@ Result<Digests> ReadSeal(const FilePath& path) {
 
 }  // namespace
 
-bool IsMadeFromResults(std::string_view part) { return part == "report" || part == "video"; }
+bool IsMadeFromResults(std::string_view part) { return part == "report" || part == "video" || part == "blind"; }
 
 Result<void> SealRun(const fs::path& folder) {
   ASSIGN_OR_RETURN(const auto digests, DigestsOf(folder));

@@ -107,7 +107,20 @@ void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules
   }
 }
 
-// Marks each stretch of frames without support that is a flight.
+/// Returns true if the ground can have thrown the body into the air at frame `from`, i.e. if the acceleration of the mass
+/// centre in the frame before and in `from` needs a force of at most SupportRules::max_push. Also true if fewer than two
+/// frames come before `from`, because the acceleration is then unknown.
+bool IsThrown(std::span<const BodyPose> poses, int from, double rate_hz, const SupportRules& rules) {
+  constexpr double kGravity = 9.81;
+  if (from < 2 || from + 1 >= static_cast<int>(poses.size())) return true;
+  const auto height = [&](int f) { return MassCentre(poses[f]).y; };
+  return std::ranges::all_of(std::array{from - 1, from}, [&](int f) {
+    const double up = (height(f + 1) - 2 * height(f) + height(f - 1)) * rate_hz * rate_hz;
+    return up / kGravity + 1 <= rules.max_push;
+  });
+}
+
+// Marks each run of frames without support that is a flight.
 void MarkFlights(std::span<const BodyPose> shown, int first, double rate_hz, const SupportRules& rules,
                  std::vector<Support>& support) {
   const auto by_nothing = [](const Support& s) { return !s.Holds(); };
@@ -115,7 +128,7 @@ void MarkFlights(std::span<const BodyPose> shown, int first, double rate_hz, con
     const auto end = std::find_if_not(begin, support.end(), by_nothing);
     const int from = first + static_cast<int>(begin - support.begin()), to = from + static_cast<int>(end - begin) - 1;
     const bool takes_off_and_lands = begin != support.begin() && end != support.end();
-    if (takes_off_and_lands &&
+    if (takes_off_and_lands && IsThrown(shown, from, rate_hz, rules) &&
         (FitsFlight(shown, from, to, rate_hz, rules) || FitsFlight(shown, from - 1, to + 1, rate_hz, rules))) {
       std::for_each(begin, end, [](Support& s) { s.flight = true; });
     }

@@ -30,6 +30,7 @@ struct SupportRules {
   /// second², and if the height deviates from a parabola by at most `flight_stray` (root mean square).
   double min_fall = 6.5, max_fall = 13;
   double flight_stray = 0.008;
+  double max_push = 3;  ///< largest force, in body weights, with which the ground throws a body into the air
 };
 
 /// The joints that support a body in one frame of a clip.
@@ -79,9 +80,9 @@ struct Support {
 ///   most SupportRules::level below the lowest such height, or within `height` of a higher surface; or
 /// - if it moves like a joint that bears the clip in that frame or a neighbouring one: its height differs by at most
 ///   SupportRules::height, its velocity by at most SupportRules::rest_speed.
-/// Consecutive frames without support are a flight if the body is supported just before and just after them, and if the
-/// mass centre falls as SupportRules states over these frames, or over these and the two neighbouring ones. A flight is
-/// judged over at least five frames.
+/// Consecutive frames without support are a flight if the body is supported just before and just after them, if the
+/// ground can have thrown it (SupportRules::max_push), and if the mass centre falls as SupportRules states over these
+/// frames, or over these and the two neighbouring ones. A flight is judged over at least five frames.
 class SupportFinder {
  public:
   /// The clips' poses must outlive this object.

@@ -10,7 +10,9 @@ struct ToolPage {
   std::string_view kind;  ///< the command: "capture"
   std::string title;
   std::string verdict;  ///< one or two sentences
-  std::string version, command;
+  std::string version;
+  std::string command;          ///< "" = not shown
+  std::string_view script = {};  ///< runs when the page is open; "" = the page allows no scripts
 };
 
 /// Writes one HTML page in the style of a run's page. It needs no other file, and may not use the network.

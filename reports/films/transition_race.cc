@@ -57,26 +57,10 @@ std::size_t TransitionPath::PointsBefore(int time) const {
       std::ranges::count_if(facts.transition_frames, [&](int point) { return TimeOf(point) < time; }));
 }
 
-Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario) {
-  // Find the world with recordings of the most methods.
-  const std::vector<RecordedRequest> worlds = RecordedRequestsOf(run, scenario);
-  const RecordedRequest* best = nullptr;
-  std::vector<const RecordedTransition*> shown;
-  for (const RecordedRequest& world : worlds) {
-    auto candidates = ShownOf(world, scenario.methods);
-    if (candidates.size() <= shown.size()) continue;
-    best = &world;
-    shown = std::move(candidates);
-  }
-  if (worlds.empty()) {
-    return Fail({}, "this run kept no recordings of transitions of this scenario (its key 'video')");
-  }
-  if (shown.size() < 2) return Fail({}, "no world kept recordings of two methods with a transition");
-  // Collect the path of each method.
-  TransitionRace race{.world = best->Name(), .request = best->Request(), .choice = {}, .paths = {}};
-  race.choice = fmt::format("the first of {} recorded worlds in which most of them have one",
-                            Plural(static_cast<long long>(worlds.size()), "world"));
-  for (const RecordedTransition* recorded : shown) {
+TransitionRace RaceIn(const RecordedRequest& world, const ScenarioSummary& scenario,
+                      const std::vector<std::string>& methods) {
+  TransitionRace race{.world = world.Name(), .request = world.Request(), .choice = {}, .paths = {}};
+  for (const RecordedTransition* recorded : ShownOf(world, methods)) {
     const BodyMotion& motion = *FindTrack(*recorded->recording, "coach");
     const std::string& method = recorded->row->method;
     race.paths.push_back({.method = method,
@@ -86,6 +70,27 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
                           .jumps_cm = SecondDifferencesCm(motion),
                           .request = RequestOf(recorded->facts, motion.rate_hz)});
   }
+  return race;
+}
+
+Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario) {
+  // Find the world with recordings of the most methods.
+  const std::vector<RecordedRequest> worlds = RecordedRequestsOf(run, scenario);
+  const RecordedRequest* best = nullptr;
+  std::size_t shown = 0;
+  for (const RecordedRequest& world : worlds) {
+    const std::size_t candidates = ShownOf(world, scenario.methods).size();
+    if (candidates <= shown) continue;
+    best = &world;
+    shown = candidates;
+  }
+  if (worlds.empty()) {
+    return Fail({}, "this run kept no recordings of transitions of this scenario (its key 'video')");
+  }
+  if (shown < 2) return Fail({}, "no world kept recordings of two methods with a transition");
+  TransitionRace race = RaceIn(*best, scenario, scenario.methods);
+  race.choice = fmt::format("the first of {} recorded worlds in which most of them have one",
+                            Plural(static_cast<long long>(worlds.size()), "world"));
   return race;
 }
 

@@ -39,8 +39,13 @@ struct TransitionRace {
 };
 constexpr std::size_t kMaxTransitionPaths = 4;
 
-/// Finds the first of the worlds in which the most methods have recordings (at most kMaxTransitionPaths, the first ones
-/// of the scenario). Fails with the reason if no world has recordings of two methods.
+/// Returns the transitions of these methods in a world, in their order, at most kMaxTransitionPaths. Methods without a
+/// transition that can be shown are left out.
+TransitionRace RaceIn(const RecordedRequest& world, const ScenarioSummary& scenario,
+                      const std::vector<std::string>& methods);
+
+/// Finds the first world that has recordings of the most methods (at most kMaxTransitionPaths, the first ones of the
+/// scenario). Fails with the reason if no world has recordings of two.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
 /// Maps frames of a film to times of a request, the same for every method. The film runs from a second before the

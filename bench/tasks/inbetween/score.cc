@@ -127,7 +127,7 @@ std::string WhyNotClean(const HiddenWindow& hidden) {
   return "";
 }
 
-/// Returns true if the filled gap passes all tests of a clean transition (clean_share version 4). The truth is the only
+/// Returns true if the filled gap passes all tests of a clean transition (clean_share). The truth is the only
 /// clip, and all frames of its file count as real. The length of the gap is given, so the time to settle does not
 /// count.
 bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Globals& truth) {

@@ -6,7 +6,6 @@
 
 #include "engine/motion/pendulum.h"
 #include "engine/transitions/joins/placing.h"
-#include "engine/transitions/joins/planted_feet.h"
 #include "engine/transitions/joins/splice.h"
 
 namespace etude {
@@ -182,6 +181,12 @@ const BodyPose& PairStage::LimbsAt(std::size_t length, int frames, JoinStyle way
     limbs.poses.push_back(limbs.play->At(static_cast<int>(limbs.poses.size())));
   }
   return limbs.poses[frame];
+}
+
+const FootPlan& PairStage::StepsIn(const JoinWindow& window, std::size_t length, bool carried) {
+  std::optional<FootPlan>& steps = steps_[length][carried ? 1 : 0];
+  if (!steps) steps = PlanSteps(window);
+  return *steps;
 }
 
 Burden PairStage::Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const {

@@ -9,6 +9,7 @@
 #include "engine/motion/support.h"
 #include "engine/transitions/choices/rehearsal.h"
 #include "engine/transitions/joins/minimum_jerk.h"
+#include "engine/transitions/joins/planted_feet.h"
 
 namespace etude {
 
@@ -69,7 +70,10 @@ class PairStage {
   /// Returns one frame of a join of length kLengths_s[length] (`frames` frames), without planted feet and without
   /// shift.
   const BodyPose& LimbsAt(std::size_t length, int frames, JoinStyle way, int frame);
-  /// Returns the burden of a join that shows `played`, then the wanted clip moved by `shift`.
+  /// Returns PlanSteps of a window that WindowFor returned for kLengths_s[length], with CarriedShift or without. Both
+  /// ways have the same steps, so they are planned once.
+  const FootPlan& StepsIn(const JoinWindow& window, std::size_t length, bool carried);
+  /// Returns what the ground must do if the join shows `played`, then the wanted clip moved by `shift`.
   Burden Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const;
 
   const OwnAccelerations& own() const { return own_; }
@@ -89,6 +93,7 @@ class PairStage {
   const OwnAccelerations own_;
   WindowTurns turns_;
   std::array<std::array<Limbs, kWays.size()>, kLengths_s.size()> limbs_;
+  std::array<std::array<std::optional<FootPlan>, 2>, kLengths_s.size()> steps_;  // by length, and carried or not
   const FramePair pair_;
   std::span<const double> playing_beside_, wanted_beside_;  // MotionLibrary::beside_feet of both clips
   const int before_;                                        // number of frames of `playing_` before the pair's frame

@@ -10,7 +10,6 @@
 
 #include "engine/base/smoothstep.h"
 #include "engine/transitions/choices/pair_stage.h"
-#include "engine/transitions/joins/planted_feet.h"
 
 namespace etude {
 namespace {
@@ -139,12 +138,13 @@ class Rehearsal {
   /// join's cost.
   void PlayFeet(OpenWay& open, std::vector<PlayedJoin>& ways) {
     PlayedJoin& way = open.way;
-    const PairStage& stage = StageOf(way);
+    PairStage& stage = StageOf(way);
     OpenWay::Limbs& limbs = *open.limbs;
-    const int planned = PlantFeet(limbs.window, limbs.shown);
+    const FootPlan& plan = stage.StepsIn(limbs.window, way.length, way.carried);
+    PlantFeet(limbs.window, plan, limbs.shown);
     CostMeter meter(limbs.window, stage.own(), usual_, rates_);
     for (const BodyPose& pose : limbs.shown) meter.Add(pose);
-    way.cost_s = Time(way) + meter.Seconds() + kSlides_s * SlideOf(limbs.shown) + kUnplanted_s * planned;
+    way.cost_s = Time(way) + meter.Seconds() + kSlides_s * SlideOf(limbs.shown) + kUnplanted_s * plan.unplanted_frames;
     if (way.cost_s < least_s_) {
       const Burden burden = stage.Rate(limbs.shown, limbs.shift);
       way.unsupported = burden.unsupported;

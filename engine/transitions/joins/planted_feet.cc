@@ -238,6 +238,7 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
 }  // namespace
 
 FootPlan PlanSteps(const JoinWindow& window) {
+  if (window.Frames() < 2) return {};
   // List the possible steps of both feet, cheapest first.
   const FootContacts old = FindFootContacts(window.old, window.rate_hz);
   const FootContacts next = FindFootContacts(window.next, window.rate_hz);
@@ -270,41 +271,41 @@ FootPlan PlanSteps(const JoinWindow& window) {
   return plan;
 }
 
-int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
-  if (window.Frames() < 2) return 0;
-  const auto [plan, unplanted_frames] = PlanSteps(window);
+void PlantFeet(const JoinWindow& window, const FootPlan& plan, std::vector<BodyPose>& played) {
+  if (window.Frames() < 2) return;
+  const std::array<FootStep, 2>& steps = plan.steps;
   // Find how far the hips must be lowered in each frame.
+  std::vector<std::array<LegPath, 2>> paths(played.size());
   std::vector<double> drop(played.size());
   double farthest = 0;  // largest distance of an ankle from its path
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
     for (std::size_t side = 0; side < kLegs.size(); ++side) {
-      if (plan[side].keeps) continue;
-      const LegPath path = PathAt(window, kLegs[side], plan[side], frame);
+      if (steps[side].keeps) continue;
+      const LegPath& path = paths[frame][side] = PathAt(window, kLegs[side], steps[side], frame);
       const glm::dvec3& hip = played[frame][kLegs[side].hip];
       drop[frame] = std::max(drop[frame], HipDrop(hip, path.ankle, ReachAt(window, kLegs[side], frame)));
       farthest = std::max(farthest, glm::distance(path.ankle, played[frame][kLegs[side].ankle]));
     }
   }
   constexpr double kRounding = 1e-9;
-  if (farthest < kRounding) return unplanted_frames;  // the plan moves no foot
+  if (farthest < kRounding) return;  // the join changes nothing
   // Lower the body and solve each leg for its path.
   drop = SmoothlyAbove(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
     BodyPose& pose = played[frame];
     for (glm::dvec3& joint : pose.joints) joint.y -= drop[frame];
     for (std::size_t side = 0; side < kLegs.size(); ++side) {
-      if (plan[side].keeps) continue;
-      PutLeg(window, kLegs[side], PathAt(window, kLegs[side], plan[side], frame), frame, pose);
+      if (steps[side].keeps) continue;
+      PutLeg(window, kLegs[side], paths[frame][side], frame, pose);
     }
   }
-  return unplanted_frames;
 }
 
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options) {
   const PreferredJoin preferred = PreferredJoinOf(input, options);
   const JoinWindow window = WindowOfJoin(input, preferred);
   std::vector<BodyPose> played = PlayMinimumJerk(window, preferred.way);
-  PlantFeet(window, played);
+  PlantFeet(window, PlanSteps(window), played);
   return ShowPlayed(std::move(played));
 }
 

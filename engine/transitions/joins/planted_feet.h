@@ -39,12 +39,13 @@ struct FootPlan {
 };
 
 /// Plans a step for each foot within the window (ours). It prefers long steps, because they need little acceleration,
-/// and steps that do not overlap, because one foot then supports the body while the other moves.
+/// and steps one after the other, because one foot then supports the body while the other moves. A window of fewer than
+/// two frames has no steps.
 FootPlan PlanSteps(const JoinWindow& window);
 
-/// Moves the feet of `played` (from PlayMinimumJerk) to the paths of the planned steps, and lowers the pelvis if a leg
-/// is too short. Limbs keep their lengths, and the first frame does not change. Returns FootPlan::unplanted_frames.
-int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played);
+/// Moves the feet of `played` (from PlayMinimumJerk) to the paths of a plan (PlanSteps), and lowers the pelvis if a leg
+/// is too short. Limbs keep their lengths, and the first frame does not change.
+void PlantFeet(const JoinWindow& window, const FootPlan& plan, std::vector<BodyPose>& played);
 
 /// Joins by MinimumJerk with PlantFeet. The new motion is aligned by AlignOnPlantedFeet.
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options);

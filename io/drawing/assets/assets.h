@@ -11,7 +11,9 @@ std::string_view ReportJs();
 /// Returns the style and script of pages that show motions (reports/viewer).
 std::string_view ViewerCss();
 std::string_view ViewerJs();
-/// Returns the style of pages that show figures of the papers, growth curves, or other curves.
+/// Returns the script of the page on which people compare films.
+std::string_view BlindJs();
+/// Returns the styles of pages with curves for the papers or of growth.
 std::string_view PaperCss();
 /// Returns the styles of pages that reports/transitions makes.
 std::string_view TransitionsCss();

@@ -96,6 +96,8 @@ MUTANTS = {
     "however fast": (support, {"FALL_MPS2": (6.5, 30)}, ["unsupported_frames"]),
     "nothing flies": (support, {"flies": lambda frames, rate: False}, ["unsupported_frames", "supported_share"]),
     "flights may wobble": (support, {"STRAY": 0.03}, ["unsupported_frames"]),
+    "whatever leaves the floor was thrown": (support, {"MAX_PUSH": 10}, ["unsupported_frames", "supported_share"]),
+    "the ground hardly throws": (support, {"MAX_PUSH": 1.5}, ["unsupported_frames", "supported_share"]),
     "judged for a second": (support, {"JUDGED_S": 1}, ["unsupported_frames"]),
     "judged for 1.4 s": (support, {"JUDGED_S": 1.4}, ["unsupported_frames"]),
     "the top of a jump is a floor": (support, {"falling": lambda frames, rate: [False] * len(frames)},

@@ -15,8 +15,10 @@ from independent import transition
 DOMAINS = [ik, tracking, capture, transition, support, body, pose_distance, detection, coach, evaluation, plausibility]
 METRICS = {name: function for domain in DOMAINS for name, function in domain.METRICS.items()}
 NEWER = {"natural_share": 3, "solved_practical": 2, "solved_tight": 2, "iterations_par2": 2, "fk_evaluations_par2": 2,
-         "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2, "clean_share": 4,
-         "unsupported_frames": 3, "supported_share": 3, "balance_cm": 3,
+         "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2,
+         # a flight must be thrown by the ground
+         "unsupported_frames": 4, "supported_share": 4, "clean_share": 5, "zmp_off_cm": 2, "slip_mps2": 2,
+         "glide_cm": 2, "balance_cm": 3,
          # the root is the files' own joint
          **dict.fromkeys(["mpjpe_root_mm", "mpjpe_root_scaled_mm", "pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "rte@wham",
                           "accel_error_mps2@wham", "pfc@edge"], 2),

@@ -217,16 +217,29 @@ TEST(FindSupport, SeesABodyThatSquatsInMidAirAndFeetThatAreTuckedAtOnce) {
   EXPECT_GE(Floating(tucks, clip), 10);
 }
 
+/// A crouch, and the push out of it with which a body leaves the floor at frame 45 at so many metres per second.
+void Push(BodyPose& pose, int f, double speed) {
+  constexpr double kPush = 0.8 * 9.81;
+  const double before = (45 - f) / kRate, takes = speed / kPush, depth = 0.5 * speed * takes;
+  if (before <= 0) return;
+  const double rises = std::max(takes - before, 0.0);
+  const double drop = depth * Ramp(f, 10, 45 - static_cast<int>(takes * kRate)) - 0.5 * kPush * rises * rises;
+  Tuck(pose, drop);
+  Carry(pose, {0, -drop, 0});
+}
+
 TEST(FindSupport, LetsABodyJumpAsGravityDoesAndNotOtherwise) {
   // Off the floor at frame 45, back at 60: half a second, 30 cm high.
-  const auto jump = [](double gravity) {
+  const auto jump = [](double gravity, bool is_thrown = true) {
     return ClipOf(Standing(), [=](BodyPose& pose, int f) {
       const double t = (f - 45) / kRate, whole = 15 / kRate;
+      if (is_thrown) Push(pose, f, gravity / 2 * whole);
       if (t > 0 && t < whole) Carry(pose, {0, gravity / 2 * t * (whole - t), 0});
     });
   };
   const Poses clip = Still(Standing());
   EXPECT_EQ(Floating(jump(9.81), clip), 0);
+  EXPECT_GE(Floating(jump(9.81, false), clip), 10) << "nothing throws it";
   EXPECT_GE(Floating(jump(4), clip), 10) << "as on Mars";
   EXPECT_GE(Floating(jump(20), clip), 10);
   const Poses hangs = ClipOf(Standing(), [](BodyPose& pose, int f) {
@@ -279,6 +292,7 @@ TEST(FindSupport, AsksOfAFlightThatItIsOneParabolaWithATakeOff) {
   const auto flies = [](double wobble) {
     return ClipOf(Standing(), [=](BodyPose& pose, int f) {
       const double t = (f - 45) / kRate, whole = 15 / kRate;
+      Push(pose, f, 9.81 / 2 * whole);
       if (t > 0 && t < whole) Carry(pose, {0, 9.81 / 2 * t * (whole - t) + wobble * std::sin(4 * kPi * t / whole), 0});
     });
   };

@@ -15,6 +15,8 @@ LEVEL = 0.12  # heights of rest further apart are two surfaces
 WINDOW_S = 1 / 3
 FALL_MPS2 = (6.5, 13)
 STRAY = 0.008
+MAX_PUSH = 3  # body weights with which the ground throws
+GRAVITY = 9.81
 FEWEST_OF_A_FLIGHT = 5
 FLOATING_FRAMES = 4
 JUDGED_S = 1.2
@@ -126,6 +128,15 @@ def flies(frames, rate):
     return FALL_MPS2[0] <= -2 * a <= FALL_MPS2[1] and math.sqrt(math.fsum(o * o for o in off) / n) <= STRAY
 
 
+def thrown(shown, start, rate):
+    """Whether the ground, at the end of the last frame on it, pushes no harder than it can."""
+    if start < 2 or start + 1 >= len(shown):
+        return True
+    heights = {f: mass_centre(shown[f])[1] for f in range(start - 2, start + 2)}
+    return all(1 + (heights[f - 1] - 2 * heights[f] + heights[f + 1]) * rate ** 2 / GRAVITY <= MAX_PUSH
+               for f in (start - 1, start))
+
+
 def support(join):
     """Of each frame judged: the joints that hold the body, and whether something does or it flies."""
     shown, rate = frames_of(join["shown"]), rate_of(join)
@@ -153,7 +164,7 @@ def held(shown, clips, rate, first, judged):
         stop = start
         while stop < len(joints) and not joints[stop]:
             stop += 1
-        if 0 < start < stop < len(joints) and any(
+        if 0 < start < stop < len(joints) and thrown(shown, first + start, rate) and any(
                 flies(shown[first + start - more:first + stop + more], rate) for more in (0, 1)):
             holds[start:stop] = [True] * (stop - start)
         start = max(stop, start + 1)

@@ -89,7 +89,7 @@ TEST(PlantFeet, LeavesAMotionThatGoesOnAsItWas) {
   const JoinWindow window =
       WindowOf({.shown = here, .target = here, .continuation = upcoming, .upcoming = upcoming, .preferred = {}}, 15);
   std::vector<BodyPose> played = window.next;
-  PlantFeet(window, played);
+  PlantFeet(window, PlanSteps(window), played);
   for (std::size_t f = 0; f < played.size(); ++f)
     EXPECT_EQ(played[f].joints, window.next[f].joints) << "to the last bit";
 }

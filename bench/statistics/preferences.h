@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/recordings/blind_files.h"
+#include "bench/statistics/interval.h"
+
+namespace etude {
+
+/// wins[i][j] is how often item i was preferred to item j; "no difference" is half a win for both.
+using WinTable = std::vector<std::vector<double>>;
+
+/// Fits the model of Bradley and Terry (1952): i is preferred to j with probability s_i / (s_i + s_j). Returns the
+/// strengths of maximum likelihood, whose sum is 1, by the MM algorithm (Hunter 2004, equation 3). An item without a
+/// win has strength 0; of items that were never compared, even through others, strengths cannot be compared either.
+std::vector<double> FitBradleyTerry(const WinTable& wins);
+
+/// How often people prefer the films of a method.
+struct PreferredMethod {
+  std::string method;
+  double wins = 0, answers = 0;
+  std::optional<double> share;  ///< probability that it is preferred, the mean over the methods it was compared with
+  std::optional<Interval> interval;  ///< over raters; nothing below kMinSample raters
+};
+
+/// How often a metric's better film of a pair is the one that most raters prefer. A pair counts if most raters prefer
+/// one side and the metric's two values differ.
+struct MetricAgreement {
+  std::string metric;
+  int agreed = 0, decided = 0;
+  int equal = 0, missing = 0;        ///< pairs on which the raters decided, but not the metric
+  std::optional<Interval> interval = {};  ///< Wilson's, over pairs
+};
+
+/// A rater who chose one side so often (two-sided p < 0.01 of a fair coin) that the answers may not be about the films.
+/// Sides are drawn by lot, so whoever looks chooses both about equally often.
+struct OneSidedRater {
+  std::string rater;
+  int left = 0, decided = 0;
+};
+
+struct Preferences {
+  int raters = 0, pairs = 0;
+  int answers = 0, same = 0, without = 0;  ///< `same` of the answers say "no difference"; `without`: no answer
+  std::vector<PreferredMethod> methods;    ///< the most preferred first
+  std::vector<MetricAgreement> metrics;    ///< the largest share of agreement first
+  std::vector<OneSidedRater> one_sided;
+};
+
+/// Summarises checked files (CheckBlindFiles). Intervals of methods are BCa intervals of raters drawn with replacement,
+/// from a stream keyed by `seed`; raters with the same name in several files are one.
+Preferences MeasurePreferences(const BlindFiles& files, std::uint64_t seed);
+
+}  // namespace etude
