@@ -199,7 +199,7 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   if (options.up == "auto" && camera.empty() && rig.has_unit && tilt < std::max(kFar, within) && is_level) {
     std::string told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), lean_from(usual));
     if (tilt > std::max(kSure * accuracy, kTold)) {
-      told += fmt::format(", although by {} it is {:.0f}° off level; if these are right, give --rig-up floor", found.by,
+      told += fmt::format("; by {} up is {:.0f}° away from this axis: if that is right, give --rig-up floor", found.by,
                           tilt);
     }
     return ChosenUp{usual, false, told};

@@ -37,7 +37,7 @@ std::vector<MethodKey> FilterFields() {
       one_euro("beta_per_m", &OneEuroOptions::beta_per_m, {0, 1000},
                "Increase of the cut-off frequency per metre a second."),
       one_euro("derivative_cutoff_hz", &OneEuroOptions::derivative_cutoff_hz, {0.01, 100},
-               "Cut-off frequency of the filter of that speed.")};
+               "Cut-off frequency of the low pass that smooths this speed.")};
 }
 
 }  // namespace

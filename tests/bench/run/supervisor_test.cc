@@ -126,7 +126,7 @@ TEST_F(HurriedSupervisorTest, AWorkerThatWaitsForeverIsEndedAndThisMachineIsToBl
   EXPECT_TRUE(IsOfThisMachine(whole.error()));
   EXPECT_THAT(ToString(whole.error()), HasSubstr("this machine: a worker used"));
   EXPECT_THAT(ToString(whole.error()),
-              HasSubstr(fmt::format("s of processor time before its limit of elapsed time; cells not run: {}",
+              HasSubstr(fmt::format("s of processor time within its limit of elapsed time; cells not run: {}",
                                     plan_.cell_count())));
   EXPECT_TRUE(rows_.empty());
 }

@@ -134,7 +134,7 @@ TEST(PlaceRig, TellsOfAFloorThatIsOffLevelAndLevelsItWhenAsked) {
   ASSERT_OK(kept, PlaceRig(SomeRig(), tilted, kPlaceRate, {}));
   EXPECT_TRUE(kept->IsNone());
   EXPECT_THAT(kept->told,
-              HasSubstr("although by resting feet it is 12° off level; if these are right, give --rig-up floor"));
+              HasSubstr("; by resting feet up is 12° away from this axis: if that is right, give --rig-up floor"));
   ASSERT_OK(level, PlaceRig(SomeRig(), tilted, kPlaceRate, {.up = "floor"}));
   const glm::dvec3 up = level->R * TurnAboutX(12) * glm::dvec3(0, 1, 0);
   EXPECT_GT(up.y, std::cos(Radians(0.1)));

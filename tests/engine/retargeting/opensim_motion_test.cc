@@ -326,7 +326,7 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   // A missing rate.
   Npz timeless = metres;
   timeless.arrays.erase("rate_hz");
-  EXPECT_THAT(testing::Refusal(ReadRawNpz(timeless, "a.npz")), HasSubstr("without rate_hz, the frames a second"));
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(timeless, "a.npz")), HasSubstr("without rate_hz, the frames per second"));
   EXPECT_EQ(ReadRawNpz(timeless, "a.npz", {.rate_hz = 50})->rate_hz, 50);
   // A camera's frame: Y down, Z forwards.
   Npz seen = metres;

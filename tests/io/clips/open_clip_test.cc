@@ -206,7 +206,7 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
            {"<?xml version=\"1.0\"?>\n<mvnx version=\"4\">", "Xsens' MVNX: export BVH"},
            {"<?xml version=\"1.0\"?>\n<COLLADA>", "a Collada scene"},
            {"<?xml version=\"1.0\"?>\n<thing/>", "XML of no kind known here"},
-           {std::string("\0\0\0 ftypisom", 12), "a film, picture or sound, no motion"},
+           {std::string("\0\0\0 ftypisom", 12), "a film, picture or sound, not a motion"},
            {std::string("\x55\xaa\0\1", 4), "a binary file of no kind known here; export BVH, FBX or C3D"},
            {"{\"Bodies\": []}", "JSON that is neither glTF (it has no \"asset\")"},
            {"[{\"keypoints\": []}]", "a JSON list; write joints with numpy.save"},

@@ -107,7 +107,7 @@ TEST(CoachedSession, RefusesWhatIsNone) {
   recorded.recording.extras_json = R"({"song": 3})";
   facts = ReadCoachedSession(recorded.Cell());
   ASSERT_FALSE(facts.has_value());
-  EXPECT_THAT(ToString(facts.error()), HasSubstr("no coached session's"));
+  EXPECT_THAT(ToString(facts.error()), HasSubstr("not those of a coached session"));
 }
 
 TEST(CoachedSession, TheWorstIsWhoWasNeedlesslyCorrectedAndMissedMost) {
