@@ -79,10 +79,10 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   const NumberArray *poses = npz.Find("poses"), *places = npz.Find("trans"), *rate = npz.Find("mocap_framerate");
   if (rate == nullptr) rate = npz.Find("mocap_frame_rate");
   const std::size_t width = WidthOf(poses);
+  std::vector<std::string> names;
+  for (const auto& [name, array] : npz.arrays) names.push_back(name);
+  for (const std::string& name : npz.skipped) names.push_back(name + " (no plain numbers)");
   if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3) {
-    std::vector<std::string> names;
-    for (const auto& [name, array] : npz.arrays) names.push_back(name);
-    for (const std::string& name : npz.skipped) names.push_back(name + " (no plain numbers)");
     return Fail({file},
                 "arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans (frames × 3) and "
                 "mocap_framerate or mocap_frame_rate, or of Kimodo with posed_joints and global_rot_mats; use a .npy file "
@@ -97,8 +97,9 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   }
   if (!told_hz && (rate == nullptr || rate->values.size() != 1)) {
     return Fail({file},
-                "{} mocap_framerate; allowed: one number, the frames a second, or `--rate` (`rate: 60` in a joint map)",
-                rate == nullptr ? "no" : ShapeText(*rate));
+                "arrays {}; allowed: beside them one number, mocap_framerate or mocap_frame_rate, the frames a second, or "
+                "`--rate` (`rate: 60` in a joint map)",
+                Join(names));
   }
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;
   const double rate_hz = told_hz ? *told_hz : rate->values.front();

@@ -69,11 +69,12 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
-/// Adds the user's edits to the list of changes. If the clip is resampled here, `from_hz` is its rate before.
-void AddEdits(std::optional<double> from_hz, const ConvertOptions& options, std::vector<std::string>& changes) {
+/// Adds the user's edits to the list of changes. `from_hz` is the clip's rate if the clip is resampled here, otherwise the
+/// wanted rate.
+void AddEdits(double from_hz, const ConvertOptions& options, std::vector<std::string>& changes) {
   if (options.trim) changes.emplace_back("trimmed");
-  if (from_hz && options.rate_hz && *options.rate_hz != *from_hz) {
-    changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", *from_hz, *options.rate_hz));
+  if (std::string said = DescribeResampling(from_hz, options.rate_hz.value_or(from_hz)); !said.empty()) {
+    changes.push_back(std::move(said));
   }
   if (options.mirror) changes.emplace_back("mirrored: left is right");
 }
@@ -113,8 +114,14 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
     }
     clips.push_back(std::move(*edited));
   }
+  // Say what its reader found, and what looks wrong if the body is understood.
+  const auto say = [&](const std::vector<std::string>& texts) {
+    converted.changes.insert(converted.changes.end(), texts.begin(), texts.end());
+  };
+  if (sources.front().made) say(sources.front().made->changes);
+  say(sources.front().remarks);
+  if (const auto opened = UnderstandClip(sources.front(), options.open)) say(opened->body.doubts);
   // Write BVH, or GLB with the file's own meshes where they still fit the skeleton.
-  for (const std::string& remark : sources.front().remarks) converted.changes.push_back(remark);
   AddEdits(sources.front().clip.rate_hz, options, converted.changes);
   if (format == MotionFormat::kBvh) {
     converted.bytes = WriteBvh(std::move(clips.front()));
@@ -170,7 +177,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);
     clips.push_back(RigClip(motion, rest, opened.source.clip.name));
   }
-  AddEdits(std::nullopt, options, converted.changes);
+  AddEdits(open.body.rate_hz, options, converted.changes);
   if (is_canonical) converted.changes.emplace_back("retargeted to the canonical proportions, 1.70 m tall");
   converted.note = clips.size() == 1 ? "as a body" : fmt::format("{} clips as bodies", clips.size());
   // Write the formats that hold a skeleton, after all clips are known.

@@ -163,7 +163,7 @@ TEST(Amass, TakesTheRateThatIsToldAndRefusesNone) {
   EXPECT_EQ(ReadAmass(npz, "a.npz", 50)->rate_hz, 50);
   npz.arrays.erase("mocap_framerate");
   EXPECT_EQ(ReadAmass(npz, "a.npz", 50)->rate_hz, 50);
-  EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")), HasSubstr("a.npz: no mocap_framerate; allowed: one number"));
+  EXPECT_THAT(testing::Refusal(ReadAmass(npz, "a.npz")), HasSubstr("arrays poses, trans; allowed: beside them one number"));
 }
 
 TEST(Amass, RefusesArraysThatAreNoMotion) {

@@ -6,6 +6,7 @@
 
 #include "engine/formats/bvh.h"
 #include "engine/formats/gltf/gltf.h"
+#include "engine/formats/trc.h"
 #include "engine/motion/statistics.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
@@ -61,6 +62,18 @@ TEST_F(ConvertTest, BvhToBvhKeepsTheFilesOwnSkeletonAndUnit) {
   EXPECT_EQ(after->skeleton.joints.size(), before.skeleton.joints.size());
   EXPECT_EQ(after->rate_hz, before.rate_hz);
   EXPECT_LT(WorstGap(before, 1, *after), 1e-4);
+}
+
+TEST_F(ConvertTest, OfMarkersToASkeletonSaysWhatTheirReaderChanged) {
+  BodyMotion raised{.rate_hz = 30, .poses = std::vector<BodyPose>(10, StandingPose())};
+  for (BodyPose& pose : raised.poses) {
+    for (glm::dvec3& joint : pose.joints) joint.y += 2;
+  }
+  const std::string trc = Write("raised.trc", WriteTrc(raised, "raised"));
+  for (const MotionFormat format : {MotionFormat::kBvh, MotionFormat::kGlb, MotionFormat::kCsv}) {
+    ASSERT_OK(converted, ConvertClips(*ReadClips(trc), format, {}));
+    EXPECT_THAT(converted->changes, ::testing::Contains(HasSubstr("the floor was at ")));
+  }
 }
 
 TEST_F(ConvertTest, BvhToGlbIsInMetresAndComesBackAsTheSamePlaces) {
