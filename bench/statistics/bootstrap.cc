@@ -36,7 +36,10 @@ std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregat
 class DrawnMedian {
  public:
   explicit DrawnMedian(std::span<const double> sorted)
-      : sorted_(sorted), lower_((sorted.size() - 1) / 2), upper_(sorted.size() / 2), near_(sorted.size() + kHalvesSlack) {
+      : sorted_(sorted),
+        lower_((sorted.size() - 1) / 2),
+        upper_(sorted.size() / 2),
+        near_(sorted.size() + kHalvesSlack) {
     // The middle draws are nearly always within three standard errors, √count / 2 each, of the middle value.
     const auto reach = static_cast<std::size_t>(1.5 * std::sqrt(static_cast<double>(sorted.size())));
     low_ = static_cast<std::uint32_t>(FirstDrawing(lower_ - std::min(lower_, reach)));
