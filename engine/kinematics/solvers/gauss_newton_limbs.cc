@@ -1,6 +1,6 @@
 // Solves one problem after the other, four limbs in the lanes of a vector and the trunk by rows. Compiled once per
 // instruction set; the best one is selected at run time (README.md). Whatever the width of the vectors, numbers are
-// added in the order of gauss_newton_plain.cc.
+// added in one order.
 #include <algorithm>
 #include <limits>
 
@@ -66,6 +66,7 @@ class LimbLanes final : public GaussNewtonLimbs {
         case kStep:
           Copy(now_, last_);
           course.Stepped(Step(next, rules));
+          if (rules.traces) help.Record(Angles());
           break;
         case kGoBack:
           Copy(last_, now_);

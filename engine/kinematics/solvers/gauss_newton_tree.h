@@ -10,6 +10,13 @@ namespace etude {
 
 struct KinematicTree;
 
+/// Returns the height of every joint: the number of joints from it to the farthest leaf.
+std::vector<int> JointHeights(const KinematicTree& tree);
+
+/// Returns the joints without the root, sorted by height: each comes after all joints beyond it, and joints of one
+/// height are independent of each other.
+std::vector<int> JointsInwards(const KinematicTree& tree);
+
 /// The tree in the form that the solver of many problems needs (gauss_newton_lanes.cc).
 struct GaussNewtonTree {
   struct Joint {
@@ -92,7 +99,7 @@ struct LimbPacks {
   std::vector<Level> levels;  ///< pack after pack, each outwards
   std::vector<Ends> ends;
   std::vector<TrunkJoint> trunk;  ///< parents before children, the root first
-  std::vector<Branch> branches;   ///< joint after joint, in the order in which `GaussNewtonStep` adds them
+  std::vector<Branch> branches;   ///< joint after joint, in the order in which they are added
   std::vector<int> inwards;       ///< trunk joints without the root, each after all beyond it
   std::vector<int> places;        ///< the angle index of each degree of freedom
   std::vector<int> end_places;    ///< of each effector: 4 times its index in `ends`, plus its lane

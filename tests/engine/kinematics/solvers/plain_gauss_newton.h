@@ -3,8 +3,6 @@
 #include <array>
 #include <memory>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/kinematics/ik_problem.h"
@@ -13,8 +11,8 @@
 
 namespace etude {
 
-/// Solves as `SolveGaussNewton` does with scalar code, written for readability: the code to read, and the oracle for
-/// the fast versions. The answer is the same to the last bit; the trace is filled if `IkOptions::trace` is set.
+/// Solves as `SolveGaussNewton` does with scalar code, written for readability: the code to read, and the oracle of that
+/// solver. The answer is the same to the last bit, and so is the trace.
 IkSolution SolveGaussNewtonPlainly(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                    const GaussNewtonOptions& own = {});
 
@@ -89,21 +87,5 @@ class GaussNewtonStep {
   std::vector<double> change_;
   bool is_exact_ = false;
 };
-
-/// Returns the height of every joint: the number of joints from it to the farthest leaf.
-std::vector<int> JointHeights(const KinematicTree& tree);
-
-/// Returns the joints without the root, sorted by height: each comes after all joints beyond it, and joints of one
-/// height are independent of each other.
-std::vector<int> JointsInwards(const KinematicTree& tree);
-
-/// Returns the options for the sweeps of `gauss-newton`. The problem's limits must already be the allowed ranges.
-IkOptions GaussNewtonSweepOptions(const IkOptions& options);
-
-/// Returns the names of the instruction sets that this CPU supports, widest vectors first. For tests and benchmarks.
-std::vector<std::string> BatchTargets();
-/// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. For
-/// tests and benchmarks: results are the same.
-void SetBatchTarget(std::string_view name);
 
 }  // namespace etude
