@@ -87,6 +87,13 @@ TEST(CellLine, OfACellThatMeasuredNothingIsShort) {
   EXPECT_EQ(ThereAndBack(cell)->row.result.reason, "died");
 }
 
+TEST(CellLine, OfACellThatIsOkGivesNoReason) {
+  FinishedCell cell;
+  cell.row.result.status = Status::kOk;
+  cell.row.result.reason = "";
+  EXPECT_EQ(ThereAndBack(cell)->row.result.reason, "");
+}
+
 TEST(CellLine, TellsItsCellAndStatusFirst) {
   const auto head = ReadCellLineHead(EncodeCellLine(12, SampleCell()));
   ASSERT_TRUE(head);
