@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Times `etude evaluate` on hours of pairs, beside NumPy on the same arrays in the same run.
 
-    bench/micro/evaluation_numpy.py FOLDER [--etude PROGRAM] [--hours 10] [--bvh]
+    bench/peers/evaluation_numpy.py FOLDER [--etude PROGRAM] [--hours 10] [--bvh]
 
 FOLDER receives pairs of five minutes at 30 Hz: a built-in dance, and the same with noise, another size and a drift.
 NumPy computes every positional metric, vectorised, without gaps; the script ends if a metric differs by more than 1e-8
