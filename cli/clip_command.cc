@@ -13,12 +13,10 @@
 #include "cli/move_table.h"
 #include "cli/output_file.h"
 #include "engine/base/names.h"
-#include "io/clips/clip_library.h"
 #include "io/clips/convert.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
 #include "tools/clips/clip_facts.h"
-#include "tools/clips/contact_index.h"
 #include "tools/clips/role_sheet.h"
 
 namespace etude {
@@ -34,7 +32,6 @@ constexpr const char* kClipExamples =
     "  etude clip render dance.bvh -o dance.png               a contact sheet\n"
     "  etude clip render builtin:clap -o clap.mp4             the bear, as a film\n"
     "  etude clip convert dance.bvh bear.glb --character bear a file for other viewers\n"
-    "  etude clip contacts dance.bvh -o contacts.svg          when its feet are on the floor\n"
     "  etude clip map odd.bvh -o odd.yaml                     names of joints: edit it, then --joint-map odd.yaml";
 
 struct ClipInfoOptions {
@@ -177,37 +174,6 @@ void DefineConvert(CLI::App& clip, Action& action) {
       "up).\n"
       "TRC, CSV, C3D, NPZ and Motion-BIDS hold the twenty joints of the body, MOT the angles between its limbs.");
   command->callback([=, &action] { action = [=] { return Finish(ClipConvertCommand(*options)); }; });
-}
-
-struct ClipContactsOptions {
-  std::string clip;
-  std::string output;  ///< an SVG picture
-  bool overwrite = false;
-  ClipReading reading;
-};
-
-Result<int> ClipContactsCommand(const ClipContactsOptions& options) {
-  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
-  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
-  ASSIGN_OR_RETURN(const auto clips, LoadClips({options.clip}, {}, reading));
-  if (clips.clips.size() != 1) {
-    return Fail({}, "'{}' matches {} clips; the contacts of only one can be drawn at a time", options.clip,
-                clips.clips.size());
-  }
-  RETURN_IF_ERROR(WriteFileAtomically(options.output, ContactIndexSvg(clips.clips[0].name, clips.clips[0].motion)));
-  TellWritten(options.output);
-  return kSuccess;
-}
-
-void DefineContacts(CLI::App& clip, Action& action) {
-  auto options = std::make_shared<ClipContactsOptions>();
-  CLI::App* command =
-      clip.add_subcommand("contacts", "Draw when the feet stand: their heights, speeds and contacts (SVG)");
-  command->add_option("clip", options->clip, "A clip")->required();
-  command->add_option("-o,--output", options->output, "The picture: .svg")->required();
-  AddOverwrite(*command, options->overwrite);
-  AddClipReading(*command, options->reading);
-  command->callback([=, &action] { action = [=] { return Finish(ClipContactsCommand(*options)); }; });
 }
 
 struct ClipMapOptions {
@@ -361,7 +327,6 @@ void DefineClip(CLI::App& app, Action& action) {
   DefineInfo(*clip, action);
   DefineConvert(*clip, action);
   DefineRender(*clip, action);
-  DefineContacts(*clip, action);
   DefineMap(*clip, action);
   DefineGrades(*clip, action);
 }

@@ -14,7 +14,6 @@
 #include "bench/model/row.h"
 #include "bench/model/unit.h"
 #include "engine/document/fields.h"
-#include "io/drawing/sensor_sheet.h"
 #include "io/files/json.h"
 #include "sim/random/stream.h"
 
@@ -64,9 +63,6 @@ class TaskWorld {
   /// Scores an answer as if a built-in method had given it. An answer of the wrong shape, size or range is an Error
   /// that names the position in the answer (e.g. "angles[3]"), the value found, and what is allowed.
   virtual Result<CellResult> Judge(const Json& answer) = 0;
-
-  /// Returns pictures of what the sensors see, and of how each of their effects changes it.
-  virtual Result<SensorSheet> MakeSensorSheet() { return Fail({}, "worlds of this task hold no pictures"); }
 };
 
 /// One scenario under one condition (one value of each swept parameter). It can build the world of any trial.

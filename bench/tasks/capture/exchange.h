@@ -8,7 +8,6 @@
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/capture/stages.h"
 #include "engine/capture/recover_frames.h"
-#include "io/drawing/sensor_sheet.h"
 
 namespace etude {
 
@@ -60,12 +59,6 @@ Result<Payload> MakeCaptureTruth(CaptureStages& stages);
 /// Fails without a renderer.
 Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& key, CaptureStages& stages,
                                  const AttachmentSink& keep);
-
-/// Makes a sheet of two cameras at the take's frame with the fastest motion: first as the scenario sets them, with
-/// labels, depth and the annotator's marks; then with each camera effect at three strengths, the other effects being as
-/// in the scenario. The true skeleton at that time is drawn over the effects of clocks and shutters. Fails without a
-/// renderer.
-Result<SensorSheet> MakeCaptureSheet(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
 /// The answer of an outside method, one entry per frame, null without a pose:
 ///

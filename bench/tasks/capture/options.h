@@ -30,7 +30,6 @@ enum class PerformerFigure {
 /// The target that the cameras are calibrated with.
 enum class CalibrationTargetKind {
   kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
-  kMarks,   ///< "marks": discs on planes, pointed at by hand and then found in the picture
   kBoards,  ///< "boards": a cube of calibration boards, found in the picture
 };
 

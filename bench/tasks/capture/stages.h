@@ -26,13 +26,6 @@ using CalibrationPairs = std::vector<std::vector<PointPair>>;
 /// human with an error of `calibration_noise_px`, and measured with one of `calibration_measure_mm`.
 CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-/// Returns the discs of a cube (sim/rig/calibration_target.h), found in a picture that each camera takes of it, with
-/// all effects of its optics and sensor. Each disc is searched near a position to which a human points with an error of
-/// `calibration_noise_px`. Each disc is measured by itself. Discs seen at more than 70° from their normal, and those
-/// not found, are left out.
-CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
-                            Renderer& renderer);
-
 /// Returns the corners of a cube of boards (sim/rig/calibration_target.h), found in a picture that each camera takes of
 /// it with all effects of its optics and sensor. A board is measured as a whole: all its corners have the same error.
 CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
