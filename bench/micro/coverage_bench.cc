@@ -1,7 +1,7 @@
-// Times what `etude bridge` computes of a library, without reading its files: tags, keys of in-betweens and the coverage
-// into any other clip, for 10⁴ to 10⁶ frames; and the coverage of all pairs, for the sizes at which it is affordable.
-// The library is made of performances with varied tempo and amplitude (tests/sim/choreography/varied_library.h). Arguments
-// other than options are the clips to vary.
+// Times what `etude bridge` computes of a library, without reading its files: tags, keys of in-betweens and the
+// coverage into any other clip, for 10⁴ to 10⁶ frames; and the coverage of all pairs, for the sizes at which it is
+// affordable. The library is made of performances with varied tempo and amplitude
+// (tests/sim/choreography/varied_library.h). Arguments other than options are the clips to vary.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -1,7 +1,5 @@
 #include "sim/rig/calibration_target.h"
 
-
-
 namespace etude {
 namespace {
 

@@ -66,7 +66,6 @@ class CaptureTaskWorld : public TaskWorld {
     return MakeCapturePictures(study_.options, key_, stages_, keep);
   }
 
-
   Result<CellResult> Judge(const Json& json) override {
     if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);
     ASSIGN_OR_RETURN(const auto answer, ReadCaptureAnswer(json, stages_.world().truth.size()));

@@ -102,12 +102,10 @@ FieldTable<StudioOptions> MakeConditionFields() {
                    "person, similar hues."),
        Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
        // Calibration, measurements and annotation.
-       Key::Name(
-           "calibration_target", &Options::calibration_target,
-           {{"points", CalibrationTargetKind::kPoints},
-            {"boards", CalibrationTargetKind::kBoards}},
-           "What the cameras are calibrated with: points on planes, clicked by the annotator; or a cube of coded "
-           "boards, found in the picture."),
+       Key::Name("calibration_target", &Options::calibration_target,
+                 {{"points", CalibrationTargetKind::kPoints}, {"boards", CalibrationTargetKind::kBoards}},
+                 "What the cameras are calibrated with: points on planes, clicked by the annotator; or a cube of coded "
+                 "boards, found in the picture."),
        Key::Number("calibration_pairs", &Options::calibration_pairs, {6, 1000}, "Number of clicked points per camera.")
            .With("calibration_target", {"points"}),
        Key::Number("calibration_measure_mm", &Options::calibration_measure_mm, {0, 100},

@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// Solves as `SolveGaussNewton` does with scalar code, written for readability: the code to read, and the oracle of that
-/// solver. The answer is the same to the last bit, and so is the trace.
+/// Solves as `SolveGaussNewton` does with scalar code, written for readability: the code to read, and the oracle of
+/// that solver. The answer is the same to the last bit, and so is the trace.
 IkSolution SolveGaussNewtonPlainly(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                    const GaussNewtonOptions& own = {});
 
