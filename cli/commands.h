@@ -104,10 +104,8 @@ void DefineTrain(CLI::App& app, Action& action);
 void DefineTeach(CLI::App& app, Action& action);
 /// `etude recognise`: prints recognised moves as JSON Lines, and scores if labels are given.
 void DefineRecognise(CLI::App& app, Action& action);
-/// `etude sensor stats|fit|sheet`
+/// `etude sensor stats|fit`
 void DefineSensor(CLI::App& app, Action& action);
-/// `etude sensor sheet`: draws a contact sheet of the scenario's first world.
-void DefineSheet(CLI::App& sensor, Action& action);
 /// `etude calibrate`: finds the cameras of a rig from point pairs or pictures of boards, or prints a board.
 void DefineCalibrate(CLI::App& app, Action& action);
 /// `etude capture`: finds the motion of a person in films by several cameras.

@@ -321,7 +321,6 @@ void DefineSensor(CLI::App& app, Action& action) {
   sensor->footer(kSensorExamples);
   DefineStats(*sensor, action);
   DefineFit(*sensor, action);
-  DefineSheet(*sensor, action);
 }
 
 }  // namespace etude

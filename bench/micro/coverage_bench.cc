@@ -1,7 +1,7 @@
 // Times the computations of `etude bridge` on a library, without reading its files: tags, keys of in-betweens, and the
 // coverage of transitions into any other clip, for 10⁴ to 10⁶ frames. It also times the coverage of all pairs of clips,
 // for sizes at which that is affordable. The library is made of performances with varied tempo and amplitude
-// (sim/choreography/varied_library.h). Arguments that are not options name the clips to vary.
+// (tests/sim/choreography/varied_library.h). Arguments that are not options name the clips to vary.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "engine/transitions/library/coverage.h"
 #include "engine/transitions/library/in_betweens.h"
 #include "engine/transitions/library/library.h"
-#include "sim/choreography/varied_library.h"
+#include "tests/sim/choreography/varied_library.h"
 
 namespace etude {
 namespace {

@@ -12,7 +12,7 @@
 #include "engine/transitions/choices/choice.h"
 #include "engine/transitions/choices/matching.h"
 #include "engine/transitions/choices/pair_rows.h"
-#include "sim/choreography/varied_library.h"
+#include "tests/sim/choreography/varied_library.h"
 
 namespace etude {
 namespace {

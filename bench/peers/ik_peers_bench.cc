@@ -21,9 +21,10 @@
 #include "engine/base/text.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
-#include "engine/kinematics/solvers/gauss_newton_plain.h"
+#include "engine/kinematics/solvers/gauss_newton_vectors.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/ik_solver.h"
+#include "tests/engine/kinematics/solvers/plain_gauss_newton.h"
 
 namespace etude {
 namespace {

@@ -1,13 +1,11 @@
 #include "bench/run/cell_line.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <iterator>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -19,7 +17,6 @@
 namespace etude {
 namespace {
 
-constexpr std::string_view kCellBegin = R"({"cell":)";
 constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
 constexpr std::size_t kSumSize = kSumBegin.size() + 16 + kSumEnd.size();
 
@@ -28,129 +25,67 @@ std::optional<std::size_t> IndexInCatalogue(const std::string& id) {
   return static_cast<std::size_t>(FindMetric(id) - AllMetrics().data());
 }
 
-/// Returns the reason why a result cannot be written as JSON, or "".
-std::string FindBadValue(const CellResult& result) {
+/// Appends items to the list that is a member of `line`.
+void Append(Json& line, const char* member, std::initializer_list<Json> items) {
+  for (const Json& item : items) line[member].push_back(item);
+}
+
+/// Encodes a finished cell without its checksum. Fails with the reason if JSON cannot represent a value.
+Result<std::string> TextOf(std::size_t cell, const FinishedCell& finished) {
+  const CellResult& result = finished.row.result;
+  const CellUsage& usage = finished.usage;
+  // The identity, status and usage.
+  Json line{{finished.is_measured ? "cell" : "answered", cell}, {"status", StatusName(result.status)}};
+  if (!result.reason.empty()) line["reason"] = result.reason;
+  line["usage"] = {usage.wall_s, usage.cpu_s, usage.peak_mb};
+  if (usage.world_wall_s > 0) Append(line, "usage", {usage.world_wall_s, usage.world_cpu_s});
+  // The values of the metrics, then the reasons of the missing ones, in the same order.
   for (const MetricValue& metric : result.metrics) {
-    if (FindMetric(metric.id) == nullptr) return "the metric '" + metric.id + "' is not in the catalogue";
-    if (metric.value && !std::isfinite(*metric.value)) return "the metric '" + metric.id + "' is not a finite number";
+    if (FindMetric(metric.id) == nullptr) return Fail({}, "the metric '{}' is not in the catalogue", metric.id);
+    if (metric.value && !std::isfinite(*metric.value)) {
+      return Fail({}, "the metric '{}' is not a finite number", metric.id);
+    }
+    const auto index = IndexInCatalogue(metric.id);
+    Append(line, "values", {index ? Json(*index) : Json(metric.id), metric.value ? Json(*metric.value) : Json()});
   }
+  for (const MetricValue& metric : result.metrics) {
+    if (!metric.value) Append(line, "why", {metric.null_reason});
+  }
+  for (const auto& [stage, digest] : result.digests) Append(line, "digests", {stage, digest});
+  // Curves, and the recording.
   for (const Series& series : result.series) {
-    for (double value : series.values) {
-      if (!std::isfinite(value)) return "the series '" + series.name + "' holds a value that is not finite";
+    if (!std::ranges::all_of(series.values, [](double value) { return std::isfinite(value); })) {
+      return Fail({}, "the series '{}' holds a value that is not finite", series.name);
     }
+    Json curve = {series.name, series.axis, series.values};
+    for (const std::string& name : series.names) curve.push_back(name);
+    line["series"].push_back(std::move(curve));
   }
-  return "";
+  if (result.recording) {
+    ASSIGN_OR_RETURN(line["recording"], EncodeRecording(*result.recording));
+  }
+  auto text = WriteJson(line);
+  if (!text) return Fail({}, "the recording holds a value that is not finite");
+  return text;
 }
 
-class LineWriter {
- public:
-  template <typename... Args>
-  void Add(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
-  }
-  void AddText(std::string_view text) { text_ += text; }
-  void AddString(const std::string& text) {
-    const bool plain = std::ranges::all_of(text, [](char c) { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; });
-    text_ += plain ? "\"" + text + "\"" : Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-  }
-  /// Adds `,"key":[…]` with one value per item; adds nothing if the list is empty.
-  template <typename List, typename AddOne>
-  void AddList(std::string_view key, const List& list, const AddOne& add_one) {
-    if (list.empty()) return;
-    Add(",\"{}\":[", key);
-    for (const auto& item : list) {
-      add_one(item);
-      text_ += ',';
-    }
-    text_.back() = ']';
-  }
-  std::string Take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
-
-/// Reads the parts of a line in order. After the first unexpected part, all further reads fail.
-class LineReader {
- public:
-  explicit LineReader(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
-
-  bool is_good() const { return good_; }
-  bool IsNext(std::string_view text) const { return good_ && Rest().starts_with(text); }
-  /// Skips `text` if it comes next. Returns true if it was skipped.
-  bool Skip(std::string_view text) {
-    if (!IsNext(text)) return false;
-    at_ += text.size();
-    return true;
-  }
-  void Expect(std::string_view text) { good_ = Skip(text); }
-  void Refuse() { good_ = false; }
-  template <typename Number>
-  Number ReadNumber() {
-    Number number{};
-    if (!good_) return number;
-    const auto [stop, status] = std::from_chars(at_, end_, number);
-    good_ = status == std::errc();
-    at_ = stop;
-    return number;
-  }
-  std::string ReadString() {
-    Expect("\"");
-    const char* const begin = at_;
-    bool plain = true;
-    for (; good_ && at_ != end_ && *at_ != '"'; ++at_) {
-      if (*at_ != '\\') continue;
-      plain = false;
-      if (++at_ == end_) break;
-    }
-    const std::string_view inside(begin, static_cast<std::size_t>(at_ - begin));
-    Expect("\"");
-    if (!good_) return "";
-    if (plain) return std::string(inside);
-    const Json text = Json::parse("\"" + std::string(inside) + "\"", nullptr, false);
-    if (!text.is_string()) Refuse();
-    return good_ ? text.get<std::string>() : "";
-  }
-  /// Reads a list that LineWriter::AddList wrote.
-  template <typename ReadOne>
-  void ReadList(std::string_view key, const ReadOne& read_one) {
-    if (!Skip(key)) return;
-    do read_one();
-    while (Skip(","));
-    Expect("]");
-  }
-  /// Returns the part of the line that has not been read yet, without the checksum.
-  std::string_view Rest() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
-
- private:
-  const char* at_;
-  const char* end_;
-  bool good_ = true;
-};
-
-CellLineHead ReadHead(LineReader& reader) {
-  CellLineHead head;
-  head.is_measured = !reader.Skip(kAnsweredBegin);
-  if (head.is_measured) reader.Expect(kCellBegin);
-  head.cell = reader.ReadNumber<std::size_t>();
-  reader.Expect(R"(,"status":)");
-  const auto status = FindStatus(reader.ReadString());
-  if (!status) reader.Refuse();
-  head.status = status.value_or(Status::kFailed);
-  return head;
+std::optional<CellLineHead> HeadOf(const Json& line) {
+  if (!line.is_object()) return std::nullopt;
+  const bool is_measured = line.contains("cell");
+  const Json cell = line.value(is_measured ? "cell" : "answered", Json()), status = line.value("status", Json());
+  const auto known = status.is_string() ? FindStatus(status.get<std::string>()) : std::nullopt;
+  if (!cell.is_number_unsigned() || !known) return std::nullopt;
+  return CellLineHead{cell.get<std::size_t>(), *known, is_measured};
 }
 
-CellUsage ReadUsage(LineReader& reader) {
-  CellUsage usage;
-  const std::array<double*, 5> fields = {&usage.wall_s, &usage.cpu_s, &usage.peak_mb, &usage.world_wall_s,
-                                         &usage.world_cpu_s};
-  std::size_t read = 0;
-  reader.ReadList(R"(,"usage":[)", [&] {
-    const double value = reader.ReadNumber<double>();
-    if (read < fields.size()) *fields[read] = value;
-    ++read;
-  });
-  return usage;
+/// Reads the metric that a line names: by its index in the catalogue, or a scenario's own by its id.
+std::optional<std::string> MetricNamed(const Json& name) {
+  if (name.is_string()) {
+    auto id = name.get<std::string>();
+    return AddedMetrics().contains(id) ? std::optional(std::move(id)) : std::nullopt;
+  }
+  if (!name.is_number_unsigned() || name.get<std::size_t>() >= AllMetrics().size()) return std::nullopt;
+  return AllMetrics()[name.get<std::size_t>()].id;
 }
 
 }  // namespace
@@ -170,144 +105,78 @@ bool HasRightSum(std::string_view line) {
 }
 
 std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
-  CellResult& result = finished.row.result;
-  // A result that JSON cannot represent becomes bad_output.
-  std::string recording, bad = FindBadValue(result);
-  if (bad.empty() && result.recording) {
-    const auto encoded = EncodeRecording(*result.recording);
-    const auto text = encoded ? WriteJson(*encoded) : tl::unexpected(encoded.error());
-    if (text) {
-      recording = *text;
-    } else {
-      bad = "the recording holds a value that is not finite";
-    }
+  auto text = TextOf(cell, finished);
+  if (!text) {
+    finished.row.result = CellResult::Ended(Status::kBadOutput, text.error().message);
+    finished.is_measured = true;
+    text = TextOf(cell, finished);
   }
-  if (!bad.empty()) result = CellResult::Ended(Status::kBadOutput, bad);
-
-  // Write the identity, status and usage.
-  LineWriter line;
-  line.AddText(finished.is_measured || !bad.empty() ? kCellBegin : kAnsweredBegin);
-  line.Add(R"({},"status":"{}")", cell, StatusName(result.status));
-  if (!result.reason.empty()) {
-    line.AddText(R"(,"reason":)");
-    line.AddString(result.reason);
-  }
-  const CellUsage& usage = finished.usage;
-  line.Add(R"(,"usage":[{},{},{})", usage.wall_s, usage.cpu_s, usage.peak_mb);
-  if (usage.world_wall_s > 0) line.Add(",{},{}", usage.world_wall_s, usage.world_cpu_s);
-  line.AddText("]");
-  // Write the values of the metrics, and then the reasons of the missing values, in the same order.
-  std::vector<const std::string*> why;
-  line.AddList("values", result.metrics, [&](const MetricValue& metric) {
-    const auto index = IndexInCatalogue(metric.id);
-    index ? line.Add("{},", *index) : line.Add("\"{}\",", metric.id);
-    if (metric.value) return line.Add("{}", *metric.value);
-    line.AddText("null");
-    why.push_back(&metric.null_reason);
-  });
-  line.AddList("why", why, [&](const std::string* reason) { line.AddString(*reason); });
-  line.AddList("digests", result.digests, [&](const auto& digest) {
-    line.AddString(digest.first);
-    line.AddText(",");
-    line.AddString(digest.second);
-  });
-  // Write the curves and the recording.
-  line.AddList("series", result.series, [&](const Series& series) {
-    line.AddText("[");
-    line.AddString(series.name);
-    line.AddText(",");
-    line.AddString(series.axis);
-    line.AddText(",[");
-    line.Add("{}]", fmt::join(series.values, ","));
-    for (const std::string& name : series.names) {
-      line.AddText(",");
-      line.AddString(name);
-    }
-    line.AddText("]");
-  });
-  if (!recording.empty()) line.Add(R"(,"recording":{})", recording);
-  line.AddText("}");
-  return WithSum(line.Take());
+  return WithSum(*std::move(text));
 }
 
 std::optional<CellLineHead> ReadCellLineHead(std::string_view line) {
+  constexpr std::string_view kStatus = R"(,"status":")";
   if (!HasRightSum(line)) return std::nullopt;
-  LineReader reader(line);
-  const CellLineHead head = ReadHead(reader);
-  return reader.is_good() ? std::optional(head) : std::nullopt;
+  // No status contains a quotation mark. What follows it is not read: recordings are long.
+  const std::size_t status = line.find(kStatus);
+  const std::size_t end = status == line.npos ? status : line.find('"', status + kStatus.size());
+  if (end == line.npos) return std::nullopt;
+  return HeadOf(Json::parse(std::string(line.substr(0, end + 1)) + "}", nullptr, false));
 }
 
 Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const Place& place) {
   if (!HasRightSum(line)) return Fail(place, "was changed after it was written");
+  ASSIGN_OR_RETURN(Json json, ReadJson(std::string(line), place.file, place.line));
+  const auto head = HeadOf(json);
+  if (!head) return Fail(place, "not a line of a cell");
   FinishedCell cell{std::move(identity), {}};
   CellResult& result = cell.row.result;
-  LineReader reader(line.substr(0, line.size() - kSumSize));
+  result.status = head->status;
+  cell.is_measured = head->is_measured;
+  std::size_t known = 3;  // members: the head's two, and the checksum
+  const auto take = [&](const char* name) {
+    const auto found = json.find(name);
+    if (found == json.end()) return Json();
+    ++known;
+    return std::move(*found);
+  };
   try {
-    // Read the head and the usage.
-    const CellLineHead head = ReadHead(reader);
-    result.status = head.status;
-    cell.is_measured = head.is_measured;
-    result.reason = reader.Skip(R"(,"reason":)") ? reader.ReadString() : "";
-    cell.usage = ReadUsage(reader);
-    // Read the metrics. A number is an index in the catalogue, a text is the id of a scenario's own metric.
-    std::vector<std::size_t> missing;
-    reader.ReadList(R"(,"values":[)", [&] {
-      std::string id;
-      if (reader.IsNext("\"")) {
-        id = reader.ReadString();
-        if (!AddedMetrics().contains(id)) reader.Refuse();
+    const Json reason = take("reason");
+    result.reason = reason.is_null() ? "" : reason.get<std::string>();
+    const Json usage = take("usage");
+    const std::array<double*, 5> fields = {&cell.usage.wall_s, &cell.usage.cpu_s, &cell.usage.peak_mb,
+                                           &cell.usage.world_wall_s, &cell.usage.world_cpu_s};
+    for (std::size_t i = 0; i < std::min(usage.size(), fields.size()); ++i) *fields[i] = usage.at(i).get<double>();
+    // The metrics, each an index or a name and a value, and the reasons of the missing values, in order.
+    const Json values = take("values"), why = take("why");
+    for (std::size_t i = 0, missing = 0; i < values.size(); i += 2) {
+      const auto id = MetricNamed(values[i]);
+      if (!id) return Fail(place, "not a line of a cell");
+      if (const Json& value = values.at(i + 1); value.is_null()) {
+        result.Missing(*id, why.at(missing++).get<std::string>());
       } else {
-        const auto index_in_catalogue = reader.ReadNumber<std::size_t>();
-        if (index_in_catalogue >= AllMetrics().size()) reader.Refuse();
-        if (reader.is_good()) id = AllMetrics()[index_in_catalogue].id;
+        result.Measure(*id, value.get<double>());
       }
-      reader.Expect(",");
-      if (!reader.is_good()) return;
-      if (reader.Skip("null")) {
-        missing.push_back(result.metrics.size());
-        result.Missing(id, "");
-      } else {
-        result.Measure(id, reader.ReadNumber<double>());
-      }
-    });
-    // Read the reasons of the missing values, in order.
-    std::size_t told = 0;
-    reader.ReadList(R"(,"why":[)", [&] {
-      std::string reason = reader.ReadString();
-      if (told < missing.size()) result.metrics[missing[told++]].null_reason = std::move(reason);
-    });
-    reader.ReadList(R"(,"digests":[)", [&] {
-      std::string stage = reader.ReadString();
-      reader.Expect(",");
-      result.digests.emplace_back(std::move(stage), reader.ReadString());
-    });
-    // Read each curve: name, axis, values, names of categories.
-    reader.ReadList(R"(,"series":[)", [&] {
+    }
+    const Json digests = take("digests");
+    for (std::size_t i = 0; i < digests.size(); i += 2) {
+      result.digests.emplace_back(digests.at(i).get<std::string>(), digests.at(i + 1).get<std::string>());
+    }
+    // Each curve: name, axis, values, names of categories.
+    for (const Json& curve : take("series")) {
       Series& series = result.series.emplace_back();
-      reader.Expect("[");
-      series.name = reader.ReadString();
-      reader.Expect(",");
-      series.axis = reader.ReadString();
-      reader.Expect(",[");
-      if (!reader.Skip("]")) {
-        do series.values.push_back(reader.ReadNumber<double>());
-        while (reader.Skip(","));
-        reader.Expect("]");
-      }
-      while (reader.Skip(",")) series.names.push_back(reader.ReadString());
-      reader.Expect("]");
-    });
-    if (reader.Skip(R"(,"recording":)")) {
-      ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(reader.Rest()), place.file, place.line));
-      ASSIGN_OR_RETURN(auto recording, DecodeRecording(json, place));
-      result.recording = std::move(recording);
-    } else if (!reader.Rest().empty()) {
-      reader.Refuse();
+      series.name = curve.at(0).get<std::string>();
+      series.axis = curve.at(1).get<std::string>();
+      series.values = curve.at(2).get<std::vector<double>>();
+      for (std::size_t i = 3; i < curve.size(); ++i) series.names.push_back(curve[i].get<std::string>());
+    }
+    if (const Json recording = take("recording"); !recording.is_null()) {
+      ASSIGN_OR_RETURN(result.recording, DecodeRecording(recording, place));
     }
   } catch (const Json::exception& error) {
     return Fail(place, "not a line of a cell: {}", error.what());
   }
-  if (!reader.is_good()) return Fail(place, "not a line of a cell");
+  if (known != json.size()) return Fail(place, "not a line of a cell");
   return cell;
 }
 

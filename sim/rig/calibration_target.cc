@@ -1,9 +1,5 @@
 #include "sim/rig/calibration_target.h"
 
-#include <cmath>
-
-#include "engine/base/angles.h"
-
 namespace etude {
 namespace {
 
@@ -27,22 +23,7 @@ void AddRectangle(const PlacedBoard& placed, const glm::dvec2& low, const glm::d
   }
 }
 
-void AddDisc(const PlacedDisc& disc, const glm::dvec3& right, const glm::dvec3& down, Surface& surface) {
-  constexpr double kRadius = 0.025;  // metres
-  constexpr int kCorners = 32;
-  const auto first = static_cast<std::uint32_t>(surface.positions.size());
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2 * kPi * i / kCorners;
-    surface.positions.push_back(disc.middle_W + kRadius * (std::cos(angle) * right + std::sin(angle) * down));
-    surface.normals.push_back(disc.outwards_W);
-  }
-  for (std::uint32_t i = 2; i < kCorners; ++i) {
-    surface.triangles.push_back({first, first + i, first + i - 1});  // counter-clockwise: down is clockwise of right
-    surface.parts.push_back(Part::kBackground);
-  }
-}
-
-// Adds a board to two surfaces of one colour each: a black square as one rectangle, a white square module by module.
+// Adds a board as rectangles of one colour: black squares whole, white squares module by module.
 void AddBoard(const PlacedBoard& placed, Surface& black, Surface& white) {
   const Board& board = placed.board;
   const double module = board.square / kModules;
@@ -87,26 +68,6 @@ std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards) {
   surfaces[1].colour = kWhite;
   for (const PlacedBoard& placed : boards) AddBoard(placed, surfaces[0], surfaces[1]);
   return surfaces;
-}
-
-MarkedCube MakeMarkedCube(const glm::dvec3& middle) {
-  constexpr double kThickness =
-      0.001;  // metres between a disc and its plane, which would otherwise coincide in the picture
-  MarkedCube cube;
-  cube.surfaces.resize(2);
-  Surface &black = cube.surfaces[0], &white = cube.surfaces[1];
-  black.colour = kBlack;
-  white.colour = kWhite;
-  for (const PlacedBoard& placed : CalibrationTarget(middle)) {
-    AddRectangle(placed, glm::dvec2(0), glm::dvec2(kCube), white);
-    const glm::dvec3 outwards = glm::cross(placed.down_W, placed.right_W);
-    for (int square = 0; square < kSquares * kSquares; ++square) {
-      const glm::dvec2 point = placed.board.square * glm::dvec2(square % kSquares + 0.5, square / kSquares + 0.5);
-      cube.discs.push_back({placed.At(point) + kThickness * outwards, outwards});
-      AddDisc(cube.discs.back(), placed.right_W, placed.down_W, black);
-    }
-  }
-  return cube;
 }
 
 std::vector<PointPair> PairsOf(std::span<const PlacedBoard> boards, std::span<const SeenCorner> seen) {

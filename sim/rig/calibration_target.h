@@ -28,22 +28,7 @@ std::vector<PlacedBoard> CalibrationTarget(const glm::dvec3& middle);
 /// Returns these boards as surfaces for the renderer.
 std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards);
 
-/// A dark disc on a bright plane. A person marks the disc's centre in pictures.
-struct PlacedDisc {
-  glm::dvec3 middle_W{0};
-  glm::dvec3 outwards_W{0};  ///< unit normal of the plane
-};
-
-/// A cube like that of CalibrationTarget, but with a disc of 5 cm in the centre of every square: paper B's "marks on
-/// different planes".
-struct MarkedCube {
-  std::vector<PlacedDisc> discs;
-  std::vector<Surface> surfaces;  ///< the discs and the planes, for the renderer
-};
-/// Makes the cube at the place of the cube of `CalibrationTarget(middle)`.
-MarkedCube MakeMarkedCube(const glm::dvec3& middle);
-
-/// Returns the seen corners, each with its position in the world.
+/// Returns the corners that were seen, each with its position in the world.
 std::vector<PointPair> PairsOf(std::span<const PlacedBoard> boards, std::span<const SeenCorner> seen);
 
 }  // namespace etude

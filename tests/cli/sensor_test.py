@@ -80,9 +80,6 @@ class Sensor(EtudeCase):
             digests[sensor, occluder] = str([row["digest_stream"] for row in rows])
         self.assertEqual(len(set(digests.values())), 4)
 
-    def test_a_sheet_is_written_where_it_was_asked_for_alone(self):
-        self.assertIn("--output is required", self.sensor("sheet", "scenarios/quick/capture.yaml", code=2).stderr)
-
     def test_complains_of_what_it_cannot_read(self):
         broken = self.folder / "broken.txt"
         broken.write_text("1 2 3\n")

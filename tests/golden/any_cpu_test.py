@@ -59,7 +59,7 @@ scenarios:
                {name: lengths, segmenter: running, recovery: bundle, lengths: measured, smoothing: rts},
                {name: silhouettes, segmenter: hue-gated, recovery: silhouettes}]}
   - {scenario: furnished-capture, task: capture, duration_s: 0.1, clips: ['builtin:boxing'], scene: 0.5, clothes: coded,
-     calibration_target: marks, metrics: [mpjpe_mm], question: 'Same bytes?',
+     calibration_target: boards, metrics: [mpjpe_mm], question: 'Same bytes?',
      methods: [{name: annotator, segmenter: rgb, pieces: large}, {name: colours, segmenter: rgb, pieces: large, marks: colours},
                {name: bundle, segmenter: rgb, pieces: large, marks: colours, recovery: bundle},
                {name: live, segmenter: rgb, marks: colours, causal: true}]}

@@ -39,49 +39,6 @@ void DrawPictures(Canvas& canvas, const Shot& shot, const std::vector<int>& fram
   }
 }
 
-constexpr double kSensorWidth = 260, kSensorHeight = 195;
-constexpr double kHead = 40, kRowTitle = 26, kCaption = 20;
-constexpr double kTitleSize = 18, kRowSize = 14, kCaptionSize = 12.5;
-constexpr double kRowHeight = kRowTitle + kSensorHeight + kCaption + kGap;
-
-Paint PaintOf(const Rgb8& colour) { return {colour.r / 255.0, colour.g / 255.0, colour.b / 255.0, 1}; }
-
-// Returns the largest box with the picture's aspect ratio, centred in another box.
-Box Inside(const ColourImage& picture, const Box& box) {
-  const double scale = std::min(box.width / picture.width, box.height / picture.height);
-  const double width = scale * picture.width, height = scale * picture.height;
-  return {box.x + (box.width - width) / 2, box.y + (box.height - height) / 2, width, height};
-}
-
-void DrawMarks(Canvas& canvas, const SheetPicture& shown, const Box& box) {
-  const glm::dvec2 scale{box.width / shown.picture.width, box.height / shown.picture.height};
-  const Box picture{0, 0, static_cast<double>(shown.picture.width), static_cast<double>(shown.picture.height)};
-  const auto inside = [&](const glm::dvec2& p) {
-    return p.x >= 0 && p.y >= 0 && p.x <= picture.width && p.y <= picture.height;
-  };
-  for (const SheetMark& mark : shown.marks) {
-    if (!inside(mark.a) || !inside(mark.b)) continue;  // never draw outside the picture, over its neighbours
-    const glm::dvec2 corner{box.x, box.y};
-    if (mark.a == mark.b) {
-      canvas.DrawDot(corner + mark.a * scale, 3, PaintOf(mark.colour));
-    } else {
-      canvas.DrawLine(corner + mark.a * scale, corner + mark.b * scale, 1.8, PaintOf(mark.colour));
-    }
-  }
-}
-
-void DrawRow(Canvas& canvas, const SheetRow& row, double y) {
-  canvas.DrawText({kMargin, y + 17}, row.title, kRowSize, kInk, canvas.width() - 2 * kMargin, true);
-  double x = kMargin;
-  for (const SheetPicture& shown : row.pictures) {
-    const Box box = Inside(shown.picture, {x, y + kRowTitle, kSensorWidth, kSensorHeight});
-    canvas.DrawImage(shown.picture, box);
-    DrawMarks(canvas, shown, box);
-    canvas.DrawText({x, y + kRowTitle + kSensorHeight + 15}, shown.caption, kCaptionSize, kSoftInk, kSensorWidth);
-    x += kSensorWidth + kGap;
-  }
-}
-
 }  // namespace
 
 Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer) {
@@ -117,24 +74,6 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
     y += kTitle;
     DrawPictures(canvas, shots[i], frames[i], options, y, studio, renderer);
     y += RowsOf(static_cast<int>(frames[i].size()), options.columns) * (options.height + kGap) + kMargin;
-  }
-  return canvas.Png();
-}
-
-Result<std::string> DrawSensorSheet(const SensorSheet& sheet) {
-  std::size_t columns = 0;
-  for (const SheetRow& row : sheet.rows) columns = std::max(columns, row.pictures.size());
-  if (columns == 0) return Fail({}, "there is no picture to show");
-  const double width = 2 * kMargin + static_cast<double>(columns) * (kSensorWidth + kGap) - kGap;
-  const double height = kHead + static_cast<double>(sheet.rows.size()) * kRowHeight + kMargin;
-  if (width > kMaxSheetSide || height > kMaxSheetSide) {
-    return Fail({}, "the sheet would have {:g} × {:g} pixels; allowed: {} a side", width, height, kMaxSheetSide);
-  }
-  Canvas canvas(static_cast<int>(width), static_cast<int>(height));
-  canvas.FillBox({0, 0, width, height}, kBackdrop);
-  canvas.DrawText({kMargin, 27}, sheet.title, kTitleSize, kInk, width - 2 * kMargin, true);
-  for (std::size_t i = 0; i < sheet.rows.size(); ++i) {
-    DrawRow(canvas, sheet.rows[i], kHead + static_cast<double>(i) * kRowHeight);
   }
   return canvas.Png();
 }

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "io/drawing/sensor_sheet.h"
 #include "sim/render/renderer.h"
 #include "tools/clips/clip_film.h"
 
@@ -24,9 +23,5 @@ constexpr int kMaxSheetSide = 16'000;
 /// Draws each clip as a block of pictures, evenly spread over its time. The blocks are placed one below the other, all
 /// at one scale. Returns the bytes of a PNG file. Fails if the sheet is too large.
 Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer);
-
-/// Draws the pictures of sensors in rows, one below the other, each picture in a box of the same size. Returns the
-/// bytes of a PNG file. Fails if the sheet is too large or has no picture.
-Result<std::string> DrawSensorSheet(const SensorSheet& sheet);
 
 }  // namespace etude

@@ -14,7 +14,6 @@
 #include "bench/model/row.h"
 #include "bench/model/unit.h"
 #include "engine/document/fields.h"
-#include "io/drawing/sensor_sheet.h"
 #include "io/files/json.h"
 #include "sim/random/stream.h"
 
@@ -66,9 +65,6 @@ class TaskWorld {
   /// Scores an outside method's answer by the rules for built-in methods. Fails if the answer has a wrong shape, size
   /// or range. The error names the position in the answer (e.g. "angles[3]"), the value found, and what is allowed.
   virtual Result<CellResult> Judge(const Json& answer) = 0;
-
-  /// Returns a sheet with pictures of what the sensors see and of how each camera effect changes them.
-  virtual Result<SensorSheet> MakeSensorSheet() { return Fail({}, "worlds of this task hold no pictures"); }
 };
 
 /// One scenario under one condition (one value of each swept parameter). A task can build the world of any trial.

@@ -66,8 +66,6 @@ class CaptureTaskWorld : public TaskWorld {
     return MakeCapturePictures(study_.options, key_, stages_, keep);
   }
 
-  Result<SensorSheet> MakeSensorSheet() override { return MakeCaptureSheet(study_.options, key_, stages_); }
-
   Result<CellResult> Judge(const Json& json) override {
     if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);
     ASSIGN_OR_RETURN(const auto answer, ReadCaptureAnswer(json, stages_.world().truth.size()));

@@ -8,7 +8,6 @@
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/capture/stages.h"
 #include "engine/capture/recover_frames.h"
-#include "io/drawing/sensor_sheet.h"
 
 namespace etude {
 
@@ -63,13 +62,7 @@ Result<Payload> MakeCaptureTruth(CaptureStages& stages);
 Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& key, CaptureStages& stages,
                                  const AttachmentSink& keep);
 
-/// Makes a sheet of two cameras at the frame of the take with the fastest motion. The first pictures have the
-/// scenario's camera effects; labels, depth and the annotator's marks are shown too. Then each camera effect is shown
-/// at three strengths, with the scenario's strengths of the other effects. Over the effects of clocks and shutters, the
-/// true skeleton at that time is drawn. Fails without a renderer.
-Result<SensorSheet> MakeCaptureSheet(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
-
-/// The answer of an outside method, one entry per frame, null for a frame without a pose:
+/// The answer of an outside method, one entry per frame, null without a pose:
 ///
 ///     {"poses": [[sixty numbers], null, …]}
 ///

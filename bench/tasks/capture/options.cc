@@ -103,20 +103,17 @@ FieldTable<StudioOptions> MakeConditionFields() {
                    "person, similar hues."),
        Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
        // Calibration, measurements and annotation.
-       Key::Name(
-           "calibration_target", &Options::calibration_target,
-           {{"points", CalibrationTargetKind::kPoints},
-            {"marks", CalibrationTargetKind::kMarks},
-            {"boards", CalibrationTargetKind::kBoards}},
-           "What the cameras are calibrated with: points on planes, clicked by the annotator; discs on the planes of a "
-           "cube, clicked and then refined in the picture; or a cube of coded boards, found in the picture."),
+       Key::Name("calibration_target", &Options::calibration_target,
+                 {{"points", CalibrationTargetKind::kPoints}, {"boards", CalibrationTargetKind::kBoards}},
+                 "What the cameras are calibrated with: points on planes, clicked by the annotator; or a cube of coded "
+                 "boards, found in the picture."),
        Key::Number("calibration_pairs", &Options::calibration_pairs, {6, 1000}, "Number of clicked points per camera.")
            .With("calibration_target", {"points"}),
        Key::Number("calibration_measure_mm", &Options::calibration_measure_mm, {0, 100},
-                   "Standard deviation of the measured position of each point, mark or board, along each axis."),
+                   "Standard deviation of the measured position of each point or board, along each axis."),
        Key::Number("calibration_noise_px", &Options::calibration_noise_px, {0, 20},
-                   "Standard deviation of a click on a calibration point or mark, in u and in v.")
-           .With("calibration_target", {"points", "marks"}),
+                   "Standard deviation of a click on a calibration point, in u and in v.")
+           .With("calibration_target", {"points"}),
        Key::Number(
            "annotation_error_px", &Options::annotation_error_px, {0, 50},
            "Standard deviation of an annotator's marks, in u and in v; an annotator's other errors grow with it."),

@@ -29,8 +29,7 @@ enum class PerformerFigure {
 
 /// The target with which the cameras are calibrated.
 enum class CalibrationTargetKind {
-  kPoints,  ///< "points": points marked on planes, and clicked in the picture (paper B)
-  kMarks,   ///< "marks": discs on planes, pointed at by hand and then found in the picture
+  kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
   kBoards,  ///< "boards": a cube of calibration boards, found in the picture
 };
 

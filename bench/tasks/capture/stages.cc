@@ -8,10 +8,8 @@
 #include "bench/metrics/measurement.h"
 #include "bench/tasks/capture/nearest_poses.h"
 #include "bench/tasks/capture/shooting.h"
-#include "engine/base/angles.h"
 #include "engine/base/digest.h"
 #include "engine/boards/find_boards.h"
-#include "engine/boards/find_disc.h"
 #include "engine/capture/calibrate_cameras.h"
 #include "engine/capture/synchronise.h"
 #include "sim/rig/calibration_target.h"
@@ -48,47 +46,12 @@ std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& cam
   return pairs;
 }
 
-// Finds a disc near the pixel to which a human points with the error `off`. Returns nullopt if the disc is seen at more
-// than 70° from its normal, or is not found.
-std::optional<glm::dvec2> FindPointedAt(const PlacedDisc& disc, const Camera& camera, const GreyImage& picture,
-                                        const glm::dvec2& off) {
-  constexpr double kMaxAside_deg = 70;
-  constexpr double kReach = 8, kMaxWidth = 40;  // pixels
-  const glm::dvec3 to_camera = glm::normalize(camera.p_WC - disc.middle_W);
-  if (glm::dot(to_camera, disc.outwards_W) < std::cos(Radians(kMaxAside_deg))) return std::nullopt;
-  const auto pixel = Project(camera, disc.middle_W);
-  return pixel ? FindDisc(picture, *pixel + off, kReach, kMaxWidth) : std::nullopt;
-}
-
 }  // namespace
 
 CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key) {
   CalibrationPairs pairs;
   for (const Camera& camera : world.cameras) {
     pairs.push_back(ClickedBy(options, camera, pairs.size(), world.middle, key));
-  }
-  return pairs;
-}
-
-CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
-                            Renderer& renderer) {
-  const MarkedCube cube = MakeMarkedCube(world.middle);
-  RandomStream tape(key, "capture/measured-marks");
-  std::vector<glm::dvec3> measured;
-  for (const PlacedDisc& disc : cube.discs) {
-    measured.push_back(disc.middle_W + options.calibration_measure_mm * kMetresPerMm * tape.Normal3());
-  }
-  Shooting shooting(world, options.camera, key, renderer);
-  CalibrationPairs pairs;
-  for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-    const GreyImage grey = ToGrey(shooting.ShootStage(camera, {Figure{.shape = {}, .surfaces = cube.surfaces}}));
-    RandomStream hand(key, fmt::format("capture/camera-{}/calibration-marks", camera));
-    std::vector<PointPair>& found = pairs.emplace_back();
-    for (std::size_t i = 0; i < cube.discs.size(); ++i) {
-      const glm::dvec2 off = options.calibration_noise_px * DrawMiss(hand);
-      const auto pixel = FindPointedAt(cube.discs[i], world.cameras[camera], grey, off);
-      if (pixel) found.push_back({measured[i], *pixel});
-    }
   }
   return pairs;
 }
@@ -234,8 +197,7 @@ Result<const CalibrationPairs*> CaptureStages::GetCalibrationPairs() {
     pairs_ = ClickedPoints(options_, world_, key_);
   } else {
     ASSIGN_OR_RETURN(const auto renderer, GetRenderer());
-    const auto find = options_.calibration_target == CalibrationTargetKind::kMarks ? FoundMarks : FoundCorners;
-    pairs_ = find(options_, world_, key_, *renderer);
+    pairs_ = FoundCorners(options_, world_, key_, *renderer);
   }
   return &*pairs_;
 }

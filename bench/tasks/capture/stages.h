@@ -28,16 +28,8 @@ using CalibrationPairs = std::vector<std::vector<PointPair>>;
 /// (standard deviations).
 CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-/// Returns the discs of a cube (sim/rig/calibration_target.h). Each camera takes a picture of the cube with all effects
-/// of its optics and sensor, and the discs are found in it. Each disc is searched near a position to which a human
-/// points with an error of `calibration_noise_px`. The position of each disc is measured separately. Discs seen at more
-/// than 70° from their normal, and discs that are not found, are left out.
-CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
-                            Renderer& renderer);
-
-/// Returns the corners of a cube of boards (sim/rig/calibration_target.h). Each camera takes a picture of the cube with
-/// all effects of its optics and sensor, and the corners are found in it. A board is measured as a whole, so all its
-/// corners have the same error.
+/// Returns the corners of a cube of boards (sim/rig/calibration_target.h), found in a picture that each camera takes of
+/// it with all effects of its optics and sensor. A board is measured as a whole: all its corners have the same error.
 CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
                               Renderer& renderer);
 

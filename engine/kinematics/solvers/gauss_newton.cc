@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "engine/kinematics/sine_cosine.h"
-#include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "engine/kinematics/solvers/gauss_newton_vectors.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/linear_targets.h"
@@ -57,9 +57,22 @@ class ScalarHelp final : public GaussNewtonHelp {
     for (int i = 0; i < next.sweeps; ++i) {
       sweep.Sweep();
       std::ranges::copy(sweep.Angles(), angles.begin());
+      if (run_ != nullptr) Record(angles);
       const bool may_go_on = course.CountSweep();
       if (!may_go_on || (!sweep.MissesGoals() && MeetsGoalsOf(problem, angles))) break;
     }
+  }
+
+  /// Makes `run` record the start and whatever comes after it; only for one problem. `run` must outlive this.
+  void RecordIn(IkRun& run) {
+    run_ = &run;
+    Record(run.start_angles());
+  }
+
+  void Record(std::span<const double> angles) override {
+    TreeState state = find_(0).start;
+    state.angles.assign(angles.begin(), angles.end());
+    run_->RecordFrames(ComputeFrames(tree_, state), state.angles);
   }
 
   IkStatus StatusOf(int n, const GaussNewtonCourse& course) {
@@ -79,6 +92,7 @@ class ScalarHelp final : public GaussNewtonHelp {
   const KinematicTree& tree_;
   const IkOptions& options_;
   const FindProblem find_;
+  IkRun* run_ = nullptr;
 };
 
 // Hands out the problems of a batch and stores their solutions.
@@ -192,10 +206,16 @@ class GaussNewtonSolver::Solver {
 
   IkSolution Solve(const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own) {
     ScalarHelp help(tree_, options, [&problem](int) { return problem; });
+    GaussNewtonRules rules = RulesFor(options, own, Precision::kDouble);
+    std::optional<IkRun> traced;
+    if (options.trace) {
+      help.RecordIn(traced.emplace(tree_, problem, options));
+      rules.traces = true;
+    }
     PutAngles(problem, options);
     PutTargets(problem);
     GaussNewtonCourse course(options, own, {});
-    limbs_->Solve(RulesFor(options, own, Precision::kDouble), course, help);
+    limbs_->Solve(rules, course, help);
     IkSolution solution;
     solution.angles.resize(packs_.places.size());
     for (std::size_t d = 0; d < packs_.places.size(); ++d) solution.angles[d] = limbs_->angles[packs_.places[d]];
@@ -207,6 +227,7 @@ class GaussNewtonSolver::Solver {
     solution.status = help.StatusOf(0, course);
     solution.iterations = course.iterations();
     solution.fk_evaluations = course.fk_evaluations();
+    if (traced) solution.trace = traced->Finish(solution.angles).trace;
     return solution;
   }
 
@@ -267,7 +288,7 @@ GaussNewtonSolver::~GaussNewtonSolver() = default;
 IkSolution GaussNewtonSolver::Solve(const IkProblem& problem, const IkOptions& options,
                                     const GaussNewtonOptions& own) const {
   if (!solver_ || !FindFault(options).empty() || !FindProblemFault(tree_, problem).empty()) return BadInput(tree_);
-  return options.trace ? SolveGaussNewtonPlainly(tree_, problem, options, own) : solver_->Solve(problem, options, own);
+  return solver_->Solve(problem, options, own);
 }
 
 IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,

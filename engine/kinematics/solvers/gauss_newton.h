@@ -29,7 +29,7 @@ struct GaussNewtonOptions {
 /// met:
 ///
 /// 1. `first_sweeps` sweeps of coordinate descent, none by default;
-/// 2. Gauss–Newton steps with a pull towards the start (`GaussNewtonStep`). The damping is proportional to the squared
+/// 2. Gauss–Newton steps with a pull towards the start. The damping is proportional to the squared
 ///    residual: far from the targets steps are short, so few angles reach their limits, and near the targets
 ///    convergence is quadratic;
 /// 3. Levenberg–Marquardt steps without the pull, if the pull has led to limits that block progress. These steps never

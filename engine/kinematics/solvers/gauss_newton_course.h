@@ -8,6 +8,9 @@ namespace etude {
 struct IkOptions;
 struct GaussNewtonOptions;
 
+/// Returns the options for the sweeps of `gauss-newton`. The problem's limits must already be the allowed ranges.
+IkOptions GaussNewtonSweepOptions(const IkOptions& options);
+
 /// The state machine of `gauss-newton` for one problem: it decides the next action from the residual of each pose
 /// (gauss_newton.h lists the phases). It does not use angles or trees, so the scalar solver and the vector solvers
 /// share it:

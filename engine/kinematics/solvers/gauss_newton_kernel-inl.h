@@ -1,6 +1,6 @@
-// The parts of a Gauss–Newton step (gauss_newton_plain.h) and of its forward kinematics, for a value type V: a `Lanes`
+// The parts of a Gauss–Newton step (gauss_newton.h) and of its forward kinematics, for a value type V: a `Lanes`
 // contains one number of each of many problems, a `Four` one number of each of four limbs. All operations are those of
-// `ComputeFrames` and `GaussNewtonStep` in the same order, so a problem in double gets the same bits in every lane on
+// `ComputeFrames` and of the tests' `GaussNewtonStep` in the same order, so a problem in double gets the same bits in every lane on
 // every CPU. This file is included once per instruction set, which explains the include guard.
 #if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
@@ -146,7 +146,7 @@ struct TargetQuadraticLanes {
   V vector[6];  ///< η
 };
 
-/// Λ is symmetric except for rounding. In double both triangles are stored, to give the same bits as `GaussNewtonStep`.
+/// Λ is symmetric except for rounding. In double both triangles are stored, to give the same bits as scalar code.
 /// In float, bits need not agree, so only the lower triangle is stored.
 template <class V>
 inline constexpr bool kHasUpperTriangle = !std::is_same_v<V, Lanes<float>>;
@@ -194,7 +194,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
     squares = squares + V(2.0) * u * (V(1.0) - Dot3(R_WE[k], target.axes[k]));
     miss.squared_chord = Larger(miss.squared_chord, Select(Below(nothing, u), Dot3(chord, chord), nothing));
   }
-  // Compute Λ and η (see `GaussNewtonStep::LineariseTarget`).
+  // Compute Λ and η (see the tests' `GaussNewtonStep::LineariseTarget`).
   const V ux = target.axis_weights[0], uy = target.axis_weights[1], uz = target.axis_weights[2];
   const V straight = w * Dot3(p_RE_W, p_RE_W) + ux + uy + uz;
   for (int k = 0; k < 3; ++k) asked.lever[k] = p_RE_W[k] * w;

@@ -1,6 +1,6 @@
 // Solves problems one after the other, with four limbs side by side in the lanes of a vector; the trunk's joints come
 // one by one, with a matrix row per vector. This file is compiled once per instruction set; the best one is selected at
-// run time (README.md). Whatever the width of the vectors, numbers are added in the order of gauss_newton_plain.cc.
+// run time (README.md). Whatever the width of the vectors, numbers are added in the order of the tests' plain_gauss_newton.cc.
 #include <algorithm>
 #include <limits>
 
@@ -66,6 +66,7 @@ class LimbLanes final : public GaussNewtonLimbs {
         case kStep:
           Copy(now_, last_);
           course.Stepped(Step(next, rules));
+          if (rules.traces) help.Record(Angles());
           break;
         case kGoBack:
           Copy(last_, now_);

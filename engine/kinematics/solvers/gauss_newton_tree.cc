@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "engine/kinematics/tree.h"
 
 namespace etude {
@@ -224,6 +223,27 @@ class LimbPacker {
 };
 
 }  // namespace
+
+std::vector<int> JointHeights(const KinematicTree& tree) {
+  std::vector<int> height(tree.joints.size());
+  for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
+    int& above = height[tree.joints[n].parent];
+    above = std::max(above, height[n] + 1);
+  }
+  return height;
+}
+
+std::vector<int> JointsInwards(const KinematicTree& tree) {
+  const std::vector<int> height = JointHeights(tree);
+  std::vector<int> inwards;
+  inwards.reserve(tree.joints.size());
+  for (int h = 0; h < height[0]; ++h) {
+    for (std::size_t n = 1; n < tree.joints.size(); ++n) {
+      if (height[n] == h) inwards.push_back(static_cast<int>(n));
+    }
+  }
+  return inwards;
+}
 
 GaussNewtonTree::GaussNewtonTree(const KinematicTree& tree)
     : joints(tree.joints.size()), inwards(JointsInwards(tree)), dof_count(tree.dof_count()) {

@@ -10,6 +10,13 @@ namespace etude {
 
 struct KinematicTree;
 
+/// Returns the height of every joint: the number of joints from it to the farthest leaf.
+std::vector<int> JointHeights(const KinematicTree& tree);
+
+/// Returns the joints without the root, sorted by height: each comes after all joints beyond it, and joints of one
+/// height are independent of each other.
+std::vector<int> JointsInwards(const KinematicTree& tree);
+
 /// The tree in the form that the solver of many problems needs (gauss_newton_lanes.cc).
 struct GaussNewtonTree {
   struct Joint {

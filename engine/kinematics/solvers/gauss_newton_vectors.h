@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/kinematics/solvers/gauss_newton_course.h"
 #include "engine/kinematics/solvers/gauss_newton_tree.h"
@@ -20,7 +23,8 @@ struct GaussNewtonRules {
   double squared_distance_met = 0, squared_distance_missed = 0;
   double squared_chord_met = 0, squared_chord_missed = 0;
   int extra_passes = 0;
-  double max_turn = 0;  ///< maximum change of an angle in one step, radians (`kMaxTurn`)
+  double max_turn = 0;  ///< `kMaxTurn`
+  bool traces = false;  ///< true: the angles after every step go to `GaussNewtonHelp::Record` (one problem only)
 
   /// Returns true if a pose meets the goals. If the squares are too close to the goals to tell, calls `measure()`.
   template <class Measure>
@@ -47,7 +51,15 @@ class GaussNewtonHelp {
   /// Scatters and sweeps as `next` prescribes, and counts the sweeps. `angles` are read and replaced.
   virtual void Sweep(int problem, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course,
                      std::span<double> angles) = 0;
+  /// Records the angles after a step.
+  virtual void Record(std::span<const double> angles) = 0;
 };
+
+/// Returns the names of the instruction sets that this CPU supports, widest vectors first. For tests and benchmarks.
+std::vector<std::string> BatchTargets();
+/// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. For
+/// tests and benchmarks: results are the same.
+void SetBatchTarget(std::string_view name);
 
 // ---- One problem, four limbs in lanes (gauss_newton_limbs.cc) ------------------------------------------------------
 

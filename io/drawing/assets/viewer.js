@@ -86,116 +86,12 @@ const load = (file) => new Promise((resolve, reject) => {
   document.head.append(script);
 });
 
-// ---- Vectors and rotations, for cameras and for files.
+// ---- Vectors.
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (a) => { const l = Math.hypot(...a) || 1; return a.map((x) => x / l); };
 const jointOf = (places, j) => [places[3 * j], places[3 * j + 1], places[3 * j + 2]];
-const times = ([a, b, c, d], [e, f, g, h]) => [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g,
-  a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e];
-const back = ([w, x, y, z]) => [w, -x, -y, -z];
-const turned = (q, v) => times(times(q, [0, ...v]), back(q)).slice(1);
-const shortest = (from, to) => {
-  const a = unit(from), b = unit(to), w = 1 + dot(a, b);
-  if (w < 1e-6) return [0, ...unit(cross(a, Math.abs(a[0]) < .5 ? [1, 0, 0] : [0, 0, 1]))];
-  const q = [w, ...cross(a, b)], l = Math.hypot(...q);
-  return q.map((x) => x / l);
-};
-// Returns the rotation whose Y is `up` and whose X is near `left`.
-const standing = (left, up) => {
-  const z = unit(cross(left, up)), x = unit(cross(up, z)), y = unit(up);
-  const first = shortest([1, 0, 0], x), mid = turned(first, [0, 1, 0]);
-  const half = Math.atan2(dot(cross(mid, y), x), dot(mid, y)) / 2;
-  return times([Math.cos(half), ...x.map((v) => v * Math.sin(half))], first);
-};
-
-// ---- Export files for other programs. At rest, arms point sideways; limbs turn by the shortest rotation, so that all
-// joints are where the viewer shows them.
-const restOf = (body) => PARENT.map((parent, j) => {
-  if (parent < 0) return [0, 0, 0];
-  const p = place(body, body.begin), length = Math.hypot(...sub(jointOf(p, j), jointOf(p, parent)));
-  const side = JOINTS[j].startsWith('left') ? 1 : -1;
-  const way = j < 4 ? [0, 1, 0] : j < 12 || j % 4 === 0 ? [side, 0, 0] : j % 4 === 3 ? [0, 0, 1] : [0, -1, 0];
-  return way.map((x) => x * length);
-});
-const rigged = (body, rest, t) => {
-  const p = place(body, t), at = (j) => jointOf(p, j), way = (a, b) => sub(at(b), at(a)), turns = [];
-  const follow = (above, j) => times(shortest(turned(above, rest[j]), way(PARENT[j], j)), above);
-  turns[0] = standing(way(16, 12), way(0, 1));
-  turns[1] = turns[2] = standing(way(8, 4), way(1, 2));
-  turns[3] = follow(turns[2], 3);
-  for (const root of [4, 8, 12, 16]) {
-    turns[root] = follow(turns[root < 12 ? 2 : 0], root + 1);
-    turns[root + 1] = follow(turns[root], root + 2);
-    turns[root + 2] = turns[root + 3] = follow(turns[root + 1], root + 3);
-  }
-  return PARENT.map((parent, j) => {
-    const q = parent < 0 ? [1, 0, 0, 0] : back(turns[parent]);
-    return {place: parent < 0 ? at(0) : turned(q, way(parent, j)), turn: times(q, turns[j])};
-  });
-};
-const NAMES = JOINTS.map((name) => name.replace(' ', '_'));
-const timesOf = (body) => Array.from({length: body.frames}, (_, f) => body.begin + f);
-const csvOf = (world, body) => [['frame', 'time_s', ...(body.joints ?? NAMES).flatMap((name) => [...'xyz'].map((a) => `${name}_${a}_m`))].join(),
-  ...timesOf(body).map((t, f) => [f, f / world.rate_hz, ...Array.from(place(body, t), (x) => x === x ? x.toFixed(5) : '')].join())].join('\n') + '\n';
-const bvhOf = (world, body) => {
-  const rest = restOf(body), order = [], digits = (x) => x.toFixed(5);
-  const joint = (j) => {
-    order.push(j);
-    const children = PARENT.flatMap((p, c) => p === j ? [c] : []);
-    return `${j ? 'JOINT' : 'ROOT'} ${NAMES[j]}\n{\nOFFSET ${rest[j].map(digits).join(' ')}\n` +
-        'CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n' +
-        (children.map(joint).join('') || 'End Site\n{\nOFFSET 0 0 0\n}\n') + '}\n';
-  };
-  const frame = (t) => {
-    const locals = rigged(body, rest, t);
-    return order.map((j) => {
-      const {place: at, turn: [w, x, y, z]} = locals[j], degrees = 180 / Math.PI;
-      const turns = [Math.atan2(2 * (w * z - x * y), 1 - 2 * (x * x + z * z)), Math.asin(Math.min(1, Math.max(-1, 2 * (y * z + w * x)))),
-        Math.atan2(2 * (w * y - x * z), 1 - 2 * (x * x + y * y))];
-      return [...at, ...turns.map((a) => a * degrees)].map(digits).join(' ');
-    }).join(' ');
-  };
-  const head = joint(0);
-  return `HIERARCHY\n${head}MOTION\nFrames: ${body.frames}\nFrame Time: ${(1 / world.rate_hz).toFixed(8)}\n` +
-      timesOf(body).map(frame).join('\n') + '\n';
-};
-const glbOf = (world, body) => {
-  const rest = restOf(body), frames = timesOf(body).map((t) => rigged(body, rest, t)), n = frames.length;
-  const seconds = frames.map((_, f) => f / world.rate_hz), numbers = [...seconds], channels = [], samplers = [];
-  const accessors = [{bufferView: 0, byteOffset: 0, componentType: 5126, count: n, type: 'SCALAR', min: [0], max: [Math.fround(seconds[n - 1])]}];
-  PARENT.forEach((_, j) => {
-    let last = [1, 0, 0, 0];
-    for (const [path, type] of [['translation', 'VEC3'], ['rotation', 'VEC4']]) {
-      channels.push({sampler: samplers.length, target: {node: j, path}});
-      samplers.push({input: 0, output: accessors.length});
-      accessors.push({bufferView: 0, byteOffset: 4 * numbers.length, componentType: 5126, count: n, type});
-      for (const frame of frames) {
-        let q = frame[j].turn;
-        // q and −q are the same rotation: take the one that is nearer to the last quaternion
-        if (dot(q.slice(1), last.slice(1)) + q[0] * last[0] < 0) q = q.map((x) => -x);
-        if (type === 'VEC4') last = q;
-        numbers.push(...(type === 'VEC3' ? frame[j].place : [q[1], q[2], q[3], q[0]]));
-      }
-    }
-  });
-  const nodes = PARENT.map((_, j) => {
-    const children = PARENT.flatMap((p, c) => p === j ? [c] : []);
-    return {name: NAMES[j], translation: rest[j], ...(children.length ? {children} : {})};
-  });
-  const json = JSON.stringify({asset: {version: '2.0', generator: 'Etude'}, scene: 0, scenes: [{nodes: [0]}], nodes,
-    animations: [{name: body.label, channels, samplers}], accessors, bufferViews: [{buffer: 0, byteLength: 4 * numbers.length}],
-    buffers: [{byteLength: 4 * numbers.length}]});
-  const text = new TextEncoder().encode(json), padded = Math.ceil(text.length / 4) * 4, size = 28 + padded + 4 * numbers.length;
-  const bytes = new Uint8Array(size).fill(32), view = new DataView(bytes.buffer);
-  [[0, 0x46546c67], [4, 2], [8, size], [12, padded], [16, 0x4e4f534a], [20 + padded, 4 * numbers.length], [24 + padded, 0x004e4942]]
-      .forEach(([at, value]) => view.setUint32(at, value, true));
-  bytes.set(text, 20);
-  numbers.forEach((x, i) => view.setFloat32(28 + padded + 4 * i, x, true));
-  return bytes;
-};
-const writers = {BVH: bvhOf, GLB: glbOf, CSV: csvOf};
 
 // ---- Draw. A scene is {items: [{places, colours, ghost, tree}], spots: [{at, radius, colour, squash}], floor, page,
 // line}.
@@ -541,15 +437,8 @@ const show = (world, cells) => {
     }
   };
 
-  const download = (format) => {
-    const body = world.bodies[Number(of.value)];
-    const link = make('a', {href: URL.createObjectURL(new Blob([writers[format](world, body)])),
-      download: `${world.title}-${labelOf(body)}`.replace(/[^\w.=-]+/g, '_') + '.' + format.toLowerCase()});
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
-  };
-  const of = make('select', {'aria-label': 'Motion to save'}, ...world.bodies.map((body, i) => make('option', {value: i}, labelOf(body))));
-  of.value = String([...chosen].find((i) => world.bodies[i].kind !== 'ghost') ?? 0);
+  const {id, method} = world.cells.find((cell) => cell.id === cells[0]);
+  const motion = `${id.slice(0, -method.length - 1)}@${method}`;  // as `etude clip` names it
   const boxes = make('fieldset', {}, make('legend', {}, 'Shown'), ...world.bodies.map((body, i) => make('label', {},
       make('input', {type: 'checkbox', checked: chosen.has(i), onchange: (event) => {
         event.target.checked ? chosen.add(i) : chosen.delete(i);
@@ -568,8 +457,7 @@ const show = (world, cells) => {
   make('div', {class: 'halves'},
       make('div', {}, stage, make('div', {class: 'controls'}, play, time, speed, apart, byError, nearer, farther), lanes, caption),
       make('div', {}, boxes, ...failed, ...world.notes.map((note) => make('p', {}, note)), table, moments,
-          make('div', {class: 'controls'}, 'Save', of, ...Object.keys(writers).map((format) =>
-            button(format, () => download(format), {disabled: format !== 'CSV' && world.bodies.some((body) => body.joints)}))),
+          make('details', {}, make('summary', {}, 'As a file'), make('code', {class: 'file'}, `etude clip convert 'RUN#${motion}' motion.bvh`)),
           make('details', {}, make('summary', {}, 'Keys'), make('p', {}, KEYS)))));
 
   const colours = {page: rgb('--page'), ghost: rgb('--quiet'), accent: rgb('--accent'), methods: world.cells.map((c) => rgb(`--m${c.colour % 8}`))};
@@ -716,7 +604,6 @@ window.etudeViewer = {
   },
   get drawn() { return drawn; },
   get opened() { return opened; },
-  files: writers,
   flat: false,
 };
 document.addEventListener('click', (event) => {

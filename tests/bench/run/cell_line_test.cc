@@ -86,6 +86,13 @@ TEST(CellLine, OfACellThatMeasuredNothingIsShort) {
   EXPECT_EQ(ThereAndBack(cell)->row.result.reason, "died");
 }
 
+TEST(CellLine, OfACellThatIsOkGivesNoReason) {
+  FinishedCell cell;
+  cell.row.result.status = Status::kOk;
+  cell.row.result.reason = "";
+  EXPECT_EQ(ThereAndBack(cell)->row.result.reason, "");
+}
+
 TEST(CellLine, TellsItsCellAndStatusFirst) {
   ASSERT_OK(head, ReadCellLineHead(EncodeCellLine(12, SampleCell())));
   EXPECT_EQ(head->cell, 12u);

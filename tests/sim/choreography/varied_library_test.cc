@@ -1,4 +1,4 @@
-#include "sim/choreography/varied_library.h"
+#include "tests/sim/choreography/varied_library.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "engine/base/angles.h"
-#include "engine/boards/find_disc.h"
 #include "engine/cameras/dlt.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/render/renderer.h"
@@ -61,38 +59,6 @@ TEST(CalibrationTarget, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
       ASSERT_OK(matrix, Calibrate(pairs, Calibration::kDltNormalised)) << trial;
       const glm::dvec3 head(0, 1.6, 0.3);  // a place that no board has
       EXPECT_LT(glm::distance(*Project(*matrix, head), *Project(MatrixOf(camera), head)), 1.5);
-    }
-  }
-}
-
-TEST(MarkedCube, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
-  ASSERT_OK(renderer, SharedRenderer());
-  const std::vector<BodyPose> motion{StandingPose()};
-  const MarkedCube cube = MakeMarkedCube(MiddleOnFloor(motion));
-  EXPECT_EQ(cube.discs.size(), 125u);
-  for (int trial = 0; trial < 3; ++trial) {
-    const WorldKey key{.suite_seed = 3, .scenario = "marks", .trial = trial};
-    for (const Camera& camera : SetUpCameras({}, motion, key)) {
-      const GreyImage picture = ToGrey(DrawSmooth(**renderer, {Figure{{}, {}, cube.surfaces}}, camera));
-      std::vector<PointPair> pairs;
-      int towards = 0;
-      double squares = 0;
-      for (const PlacedDisc& disc : cube.discs) {
-        if (glm::dot(glm::normalize(camera.p_WC - disc.middle_W), disc.outwards_W) < std::cos(Radians(70))) continue;
-        ++towards;
-        const glm::dvec2 pixel = *Project(MatrixOf(camera), disc.middle_W);
-        const auto found = FindDisc(picture, pixel + glm::dvec2(2, -1), 8, 40);
-        if (!found) continue;
-        EXPECT_LT(glm::distance(*found, pixel), 0.5) << trial;
-        squares += glm::dot(*found - pixel, *found - pixel);
-        pairs.push_back({disc.middle_W, *found});
-      }
-      ASSERT_GE(towards, 25) << "a side at least";
-      EXPECT_GE(pairs.size(), 0.8 * towards);
-      EXPECT_LT(std::sqrt(squares / static_cast<double>(pairs.size())), 0.15) << "four rays a pixel";
-      ASSERT_OK(matrix, Calibrate(pairs, Calibration::kDltNormalised)) << trial;
-      const glm::dvec3 head(0, 1.6, 0.3);  // a place that has no disc
-      EXPECT_LT(glm::distance(*Project(*matrix, head), *Project(MatrixOf(camera), head)), 0.5);
     }
   }
 }

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "engine/kinematics/solvers/jacobian_solvers.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
+#include "tests/engine/kinematics/solvers/plain_gauss_newton.h"
 
 namespace etude {
 namespace {

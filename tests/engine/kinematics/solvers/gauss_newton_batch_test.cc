@@ -4,9 +4,10 @@
 #include <limits>
 
 #include "engine/kinematics/solvers/gauss_newton.h"
-#include "engine/kinematics/solvers/gauss_newton_plain.h"
+#include "engine/kinematics/solvers/gauss_newton_vectors.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/any_problem.h"
+#include "tests/engine/kinematics/solvers/plain_gauss_newton.h"
 
 namespace etude {
 namespace {
@@ -35,6 +36,12 @@ void ExpectSameBits(const IkSolution& a, const IkSolution& b) {
   for (std::size_t e = 0; e < a.errors.size(); ++e) {
     EXPECT_EQ(a.errors[e].position, b.errors[e].position);
     EXPECT_EQ(a.errors[e].axis_angles, b.errors[e].axis_angles);
+  }
+  ASSERT_EQ(a.trace.size(), b.trace.size());
+  for (std::size_t i = 0; i < a.trace.size(); ++i) {
+    EXPECT_EQ(a.trace[i].angles, b.trace[i].angles);
+    EXPECT_EQ(a.trace[i].worst_position, b.trace[i].worst_position);
+    EXPECT_EQ(a.trace[i].worst_axis, b.trace[i].worst_axis);
   }
 }
 
@@ -76,6 +83,8 @@ TEST(GaussNewton, IsTheSolverOneWouldWriteDownToTheLastBit) {
   bound.angle_change_tolerance = 0.5;
   IkOptions free = Tightly(200);
   free.limits = false;
+  IkOptions traced = Tightly(200);
+  traced.trace = true;
   std::vector<std::string> targets = BatchTargets();
   targets.push_back("");
   for (const std::string& target : targets) {
@@ -83,7 +92,7 @@ TEST(GaussNewton, IsTheSolverOneWouldWriteDownToTheLastBit) {
     SetBatchTarget(target);
     GaussNewtonSolver solver(Body());
     SetBatchTarget("");
-    for (const IkOptions& options : {Tightly(200), Tightly(7), bound, free}) {
+    for (const IkOptions& options : {Tightly(200), Tightly(7), bound, free, traced}) {
       for (const GaussNewtonOptions& own :
            {GaussNewtonOptions{}, GaussNewtonOptions{.first_sweeps = 2}, GaussNewtonOptions{.extra_passes = 0}}) {
         for (const IkProblem& problem : problems) {

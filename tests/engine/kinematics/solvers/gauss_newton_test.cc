@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "engine/kinematics/solvers/jacobian_solvers.h"
 #include "tests/engine/kinematics/solvers/any_problem.h"
+#include "tests/engine/kinematics/solvers/plain_gauss_newton.h"
 
 namespace etude {
 namespace {

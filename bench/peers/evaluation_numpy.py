@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Times `etude evaluate` on hours of pairs, and NumPy on the same arrays in the same run.
 
-    bench/micro/evaluation_numpy.py FOLDER [--etude PROGRAM] [--hours 10] [--bvh]
+    bench/peers/evaluation_numpy.py FOLDER [--etude PROGRAM] [--hours 10] [--bvh]
 
 FOLDER receives pairs of files of five minutes at 30 Hz: a built-in dance, and a copy with noise, another size and a
 drift. NumPy computes every positional metric, vectorised, on motions without gaps. The script fails if a metric differs

@@ -1,4 +1,4 @@
-#include "engine/kinematics/solvers/gauss_newton_plain.h"
+#include "tests/engine/kinematics/solvers/plain_gauss_newton.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,11 @@
-#include "engine/kinematics/solvers/gauss_newton_plain.h"
+#include "tests/engine/kinematics/solvers/plain_gauss_newton.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "engine/kinematics/solvers/gauss_newton_course.h"
+#include "engine/kinematics/solvers/gauss_newton_tree.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
@@ -319,27 +320,6 @@ std::span<const double> GaussNewtonStep::Solve(std::span<const double> angles, s
   EliminateInwards(damping);
   is_exact_ = !SubstituteOutwards();
   return change_;
-}
-
-std::vector<int> JointHeights(const KinematicTree& tree) {
-  std::vector<int> height(tree.joints.size());
-  for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
-    int& above = height[tree.joints[n].parent];
-    above = std::max(above, height[n] + 1);
-  }
-  return height;
-}
-
-std::vector<int> JointsInwards(const KinematicTree& tree) {
-  const std::vector<int> height = JointHeights(tree);
-  std::vector<int> inwards;
-  inwards.reserve(tree.joints.size());
-  for (int h = 0; h < height[0]; ++h) {
-    for (std::size_t n = 1; n < tree.joints.size(); ++n) {
-      if (height[n] == h) inwards.push_back(static_cast<int>(n));
-    }
-  }
-  return inwards;
 }
 
 }  // namespace etude

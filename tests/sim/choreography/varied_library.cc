@@ -1,4 +1,4 @@
-#include "sim/choreography/varied_library.h"
+#include "tests/sim/choreography/varied_library.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,9 @@
 #include "engine/base/directions.h"
 #include "engine/motion/edit.h"
 
+// A named namespace, because this file is compiled together with others that have types of these names.
 namespace etude {
-namespace {
+namespace varied_library {
 
 using enum Role;
 
@@ -159,18 +160,18 @@ BodyMotion Perform(const BodyMotion& seed, const MeanPose& mean, RandomStream& s
   return is_mirrored ? Mirror(performed) : performed;
 }
 
-}  // namespace
+}  // namespace varied_library
 
 std::vector<BodyMotion> VariedLibrary(std::span<const BodyMotion> seeds, int frames, RandomStream& stream) {
-  std::vector<MeanPose> means;
+  std::vector<varied_library::MeanPose> means;
   for (const BodyMotion& seed : seeds) {
     assert(seed.poses.size() >= 2);
-    means.push_back(ComputeMean(seed));
+    means.push_back(varied_library::ComputeMean(seed));
   }
   std::vector<BodyMotion> library;
   auto left = static_cast<std::size_t>(std::max(frames, 0));
   for (std::size_t turn = 0; left > 0; turn = (turn + 1) % seeds.size()) {
-    BodyMotion clip = Perform(seeds[turn], means[turn], stream);
+    BodyMotion clip = varied_library::Perform(seeds[turn], means[turn], stream);
     clip.poses.resize(std::min(clip.poses.size(), left));
     left -= clip.poses.size();
     library.push_back(std::move(clip));

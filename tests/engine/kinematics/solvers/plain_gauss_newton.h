@@ -3,8 +3,6 @@
 #include <array>
 #include <memory>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/kinematics/ik_problem.h"
@@ -91,22 +89,5 @@ class GaussNewtonStep {
   std::vector<double> change_;
   bool is_exact_ = false;
 };
-
-/// Returns the height of every joint: the number of joints from it to the farthest leaf.
-std::vector<int> JointHeights(const KinematicTree& tree);
-
-/// Returns the joints without the root, sorted by height: each comes after all joints beyond it, and joints of one
-/// height are independent of each other.
-std::vector<int> JointsInwards(const KinematicTree& tree);
-
-/// Returns the options for the sweeps of `gauss-newton`. The problem's limits must already be the allowed ranges.
-IkOptions GaussNewtonSweepOptions(const IkOptions& options);
-
-/// Returns the names of the instruction sets that this CPU supports, widest vectors first. Tests and benchmarks use
-/// them.
-std::vector<std::string> BatchTargets();
-/// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. Only
-/// tests and benchmarks need this, because the results are the same.
-void SetBatchTarget(std::string_view name);
 
 }  // namespace etude
