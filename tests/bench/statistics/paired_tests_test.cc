@@ -200,7 +200,7 @@ TEST(PairsNeeded, IsWhereTheSmallestPOfATestReachesItsLevel) {
 
 TEST(SignFlipTest, OfVeryManyDifferencesIsNormal) {
   RandomStream dice({.suite_seed = 6, .scenario = "many", .trial = 0}, "x");
-  std::vector<double> differences(20'000);
+  std::vector<double> differences(kMaxResampled);
   for (double& difference : differences) difference = dice.Normal(0.01, 1);
   const PairedTest drawn = SignFlipTest(differences, Aggregate::kMean, 1, "x");
   differences.push_back(0.01);
@@ -209,7 +209,7 @@ TEST(SignFlipTest, OfVeryManyDifferencesIsNormal) {
   EXPECT_NEAR(*of_mean.p, *drawn.p, 0.02);
   // Of a median the sign test: |2k − n| / √n.
   const auto above = std::count_if(differences.begin(), differences.end(), [](double value) { return value > 0; });
-  const double z = std::abs(2.0 * static_cast<double>(above) - 20'001) / std::sqrt(20'001);
+  const double z = std::abs(2.0 * static_cast<double>(above) - (kMaxResampled + 1)) / std::sqrt(kMaxResampled + 1);
   EXPECT_NEAR(*SignFlipTest(differences, Aggregate::kMedian, 1, "x").p, std::erfc(z / std::sqrt(2)), 1e-8);
 }
 
