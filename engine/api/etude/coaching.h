@@ -27,7 +27,7 @@ struct CoachOptions {
   bool dances_at_once = false;              ///< starts with the dance instead of waiting for a clap
   /// A performance is right if its evidence is at least this, in (0, 1]; nullopt: the recogniser's own threshold.
   std::optional<double> right_from = {};
-  /// The place of the sensor, metres; players are asked to stand 1.5 to 3.6 m from it.
+  /// The position of the sensor in the world, metres; players are asked to stand 1.5 to 3.6 m from it.
   glm::dvec3 sensor_m{0, 1, 2.75};
 };
 
