@@ -28,8 +28,8 @@ struct Error {
   ErrorKind kind = ErrorKind::kInput;
 };
 
-/// Formats "file:line:column: message" without the unknown parts, with "this machine: " before an error of the machine, on
-/// one line and safe to show (Visible).
+/// Formats "file:line:column: message" without the unknown parts. An error of the machine begins with "this machine: ".
+/// The text is one line and safe to show (Visible).
 std::string ToString(const Error& error);
 std::string ToString(const Place& place);
 

@@ -15,7 +15,7 @@ namespace [[gnu::visibility("default")]] etude {
 struct NumberSetting {
   std::string key;
   double fallback = 0;
-  double lowest = 0, largest = 0;  ///< both allowed
+  double lowest = 0, largest = 0;  ///< the allowed range, both ends included
   bool is_whole = false;
   std::string meaning;  ///< one sentence, for people
 };
@@ -26,7 +26,7 @@ template <typename Options>
 class SettingTable {
  public:
   struct Row {
-    /// `lowest` and `largest` are both allowed; `meaning` is one sentence, for people.
+    /// The allowed range of values is `lowest` to `largest`, both included; `meaning` is one sentence, for people.
     template <typename Number>
     Row(std::string key, Number Options::*member, double lowest, double largest, std::string meaning)
         : setting{std::move(key),
