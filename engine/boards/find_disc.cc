@@ -13,7 +13,7 @@ namespace etude {
 namespace {
 
 constexpr double kMinWidthPx = 3;
-constexpr double kMinDiscContrast = 20;  // counts of 255
+constexpr double kMinDiscContrast = 20;  // grey levels (of 255)
 // The maximum relative difference between a region's area and that of the ellipse with the same second moments.
 constexpr double kMaxShapeError = 0.25;
 
