@@ -356,7 +356,7 @@ BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& opt
     assert(state.angles.size() == inputs.body.tree.limits.size());
     variables.frames.emplace_back(state);
   }
-  // Without a usable solution, the result is the start.
+  // If Ceres finds no usable solution, return the start poses.
   BundleSolution solution;
   solution.lengths = inputs.body.lengths;
   solution.states.assign(inputs.start.begin(), inputs.start.end());

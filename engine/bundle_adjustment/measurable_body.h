@@ -16,7 +16,7 @@ struct BodyPoint {
 
 /// The linear dependence of an offset on a length: the offset grows by `per_metre` for every metre of the length.
 struct LengthShare {
-  int index = 0;   ///< of the joint (offset p_PJ) or of the point (offset p_LQ)
+  int index = 0;   ///< index of the joint (whose offset is p_PJ) or of the point (whose offset is p_LQ)
   int length = 0;  ///< index in `MeasurableBody::lengths`
   glm::dvec3 per_metre{0};
 };
