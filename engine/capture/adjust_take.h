@@ -67,7 +67,7 @@ struct MeasureLengthsOptions {
 /// Measures the limb lengths of the person in the pictures (future work in paper B, section 6.2.2): the lengths with
 /// which paper B's body best explains the marks of a few frames. Each frame has an independent pose (`AdjustBundle`
 /// over lengths and poses). The search starts at the medians of the distances between triangulated joints. Returns
-/// nothing if no frame shows a body or a length of the solution is not positive.
+/// nullopt if no frame shows a body or a length of the solution is not positive.
 /// @param measured the joints of every frame (`MeasureJoints`)
 std::optional<LimbLengths> MeasureLengths(const MeasureInputs& pictures, std::span<const JointMeasurements> measured,
                                           const MeasureLengthsOptions& options = {});

@@ -59,7 +59,7 @@ std::vector<OptionalJoints> BridgeJoints(std::span<const JointMeasurements> meas
 std::vector<OptionalJoints> SmoothJoints(std::span<const JointMeasurements> measured, double rate_hz);
 
 /// Completes a body: hip centre and spine are interpolated between other joints; missing joints are attached to their
-/// neighbours as in `like`, rotated about the vertical to the heading of hips and shoulders. Returns nothing if no
+/// neighbours as in `like`, rotated about the vertical to the heading of hips and shoulders. Returns nullopt if no
 /// joint has a position.
 std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyPose& like);
 

@@ -101,7 +101,7 @@ class LiveRecovery {
   /// `body` must outlive this object.
   LiveRecovery(const CaptureBody& body, const RecoverOptions& recover, const BridgeOptions& bridge);
 
-  /// Takes the next marked frame and returns its skeleton, or nothing while too little has been seen.
+  /// Takes the next marked frame and returns its skeleton; nullopt as long as too little of the body has been seen.
   std::optional<RecoveredFrame> Next(const FrameMeasurement& measured, const KnownAngles& known = {});
 
  private:
