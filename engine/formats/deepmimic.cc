@@ -82,7 +82,7 @@ Result<Numbers> ReadNumbers(const Json& frame, std::size_t index, const std::str
   return numbers;
 }
 
-/// Makes a pose from a frame's numbers; returns nothing if a quaternion has length 0.
+/// Makes a pose from a frame's numbers; returns nullopt if a quaternion has length 0.
 std::optional<LocalPose> PoseOf(const Numbers& numbers) {
   LocalPose pose;
   std::size_t next = 1;  // skips the duration

@@ -70,7 +70,7 @@ std::optional<double> NumberIn(std::string_view cell) {
 struct TrcHeader {
   double rate_hz = 0;
   std::size_t frames = 0, markers = 0;
-  double metres = 0;  ///< per unit
+  double metres = 0;  ///< metres per unit of the file
 };
 
 Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, const Place& place) {

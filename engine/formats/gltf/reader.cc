@@ -31,7 +31,7 @@ struct Fetcher {
   std::string file;
   bool wants_pictures = false;
   double bytes_left = kMaxGltfBytes;
-  std::optional<Error> complaint;  ///< the first one
+  std::optional<Error> complaint;  ///< the first error of a callback
 
   bool Complain(Error error) {
     if (!complaint) complaint = std::move(error);
@@ -88,9 +88,9 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
 
 bool WriteWholeFile(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
-/// Makes `parser` read files only through `fetcher`. It is a template because tinygltf's versions differ: since 2.9 it
-/// also asks for a file's size; if a callback is missing, it returns an error and keeps its own callbacks, which read
-/// any file.
+/// Makes `parser` read files only through `fetcher`. It is a template because tinygltf's versions differ: version 2.9
+/// added a callback for a file's size. If a callback is missing, tinygltf reports an error and keeps its own callbacks,
+/// which read any file.
 template <typename Callbacks, typename Parser>
 Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
   Callbacks callbacks{};
@@ -218,7 +218,7 @@ Result<void> CheckIndexLists(const nlohmann::json& json, const std::string& file
 }
 
 /// Refuses file names with a NUL character, plain or escaped, because tinygltf 2.9 would cut the name there and request
-/// the rest.
+/// another file.
 Result<void> CheckFileNames(const nlohmann::json& json, const std::string& file) {
   for (const char* list : {"buffers", "images"}) {
     if (!json.is_object() || !json.contains(list) || !json[list].is_array()) continue;
@@ -238,7 +238,7 @@ void PutNumber(std::string& bytes, std::size_t number) {
   for (int i = 0; i < 4; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xffU);
 }
 
-/// Returns the file without its meshes if they are compressed by Draco, because the parser would fail on them; nothing
+/// Returns the file without its meshes if they are compressed by Draco, because the parser would fail on them; nullopt
 /// for other files.
 std::optional<std::string> WithoutDracoMeshes(const GltfContainer& container) {
   if (container.json.find(kDraco) == std::string_view::npos) return std::nullopt;

@@ -37,7 +37,7 @@ class GltfBytes {
   std::vector<unsigned char> bytes_;
 };
 
-/// The use of a buffer view.
+/// The content of a buffer view, for its property `target`.
 enum class GltfTarget { kOther, kVertices, kIndices };
 
 /// The elements of an accessor: their location and type.
@@ -265,7 +265,7 @@ class GlbWriter {
     mesh.name = GltfText(first.name);
     for (const SkinnedMesh& part : group) {
       if (is_rigid && IsMirrored(character_.skeleton, first.bindings[0].joint)) {
-        SkinnedMesh turned = part;  // because reading will flip it again
+        SkinnedMesh turned = part;  // flipped, because the reader flips the triangles of a mirrored joint
         FlipTriangles(turned);
         mesh.primitives.push_back(MakePrimitive(turned, false));
       } else {
