@@ -22,7 +22,7 @@ struct Material {
 struct SkinnedMesh {
   /// A joint that vertices may follow.
   struct Binding {
-    int joint = 0;               ///< of the character's skeleton
+    int joint = 0;               ///< index of a joint in the character's skeleton
     glm::dmat4 inverse_bind{1};  ///< from the mesh's frame to the joint's, in the bind pose
   };
   struct Vertex {
@@ -34,7 +34,7 @@ struct SkinnedMesh {
   };
 
   std::string name;
-  int material = 0;  ///< of the character
+  int material = 0;  ///< index into the character's materials
   std::vector<Binding> bindings;
   std::vector<Vertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside

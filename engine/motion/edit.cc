@@ -176,7 +176,7 @@ Clip Resample(const Clip& clip, double rate_hz) {
   if (rate_hz == clip.rate_hz) return clip;
   Clip resampled{.name = clip.name, .skeleton = clip.skeleton, .rate_hz = rate_hz, .frames = {}};
   const double frames_per_sample = clip.rate_hz / rate_hz;
-  constexpr double kRounding = 1e-6;  // of a sample; keeps the last sample if one rate is a multiple of the other
+  constexpr double kRounding = 1e-6;  // in samples; keeps the last sample if one rate is a multiple of the other
   const auto count = static_cast<std::size_t>(clip.DurationSeconds() * rate_hz + kRounding) + 1;
   resampled.frames.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -252,7 +252,7 @@ Clip WithWorldAxesAtRest(Clip clip) {
 Clip WithOneRoot(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::count(joints, -1, &Joint::parent) == 1) return clip;
-  // Every index increases by one, so the parent −1 becomes the new root.
+  // The new root gets index 0, so every index increases by one, and the parent −1 becomes the new root.
   for (Joint& joint : joints) ++joint.parent;
   joints.insert(joints.begin(), {.name = UnusedName(clip.skeleton, "root"), .parent = -1, .rest = {}});
   for (LocalPose& pose : clip.frames) pose.insert(pose.begin(), LocalTransform{});
