@@ -15,7 +15,8 @@ namespace etude {
 /// arms are much shorter; or thighs, or both limbs of an elbow, are shorter in nearly all frames. Of the two ways to
 /// undo all crossings, the one with fewer joints is returned. `frames` have any unit; unseen joints do not count.
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames);
-/// Says, for people, that these left joints look exchanged with the right ones, which `name_of` names; "" for none.
+/// Returns a message for the user that these left joints look exchanged with the right ones, or "" if the list is
+/// empty. `name_of` returns the name of a joint for the message.
 std::string DescribeExchangedJoints(std::span<const Role> left, const std::function<std::string(Role)>& name_of);
 std::string DescribeExchangedJoints(const BodyMotion& motion);
 

@@ -137,7 +137,7 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
 
 double MedianStature(const std::vector<BodyPose>& poses) { return LowerPercentile(OverFrames(poses, Stature), 0.5); }
 
-/// Returns the unit in which `stature` is human, or null.
+/// Returns the unit in which `stature` is that of a human, or null if there is none.
 const Unit* UnitOf(double stature) {
   const auto is_human = [&](const Unit& unit) {
     return stature * unit.metres >= unit.min_stature && stature * unit.metres <= kMaxStature;
@@ -214,7 +214,7 @@ double LeftLegLength(const BodyPose& pose) {
   return glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
 }
 
-/// Returns `told` if it is within a leg's length of the floor found, otherwise that floor.
+/// Returns `told` if it is within a leg's length of the floor that FindFloor finds, otherwise the floor of FindFloor.
 double FloorOf(const std::vector<BodyPose>& poses, const std::optional<double>& told) {
   const double own = FindFloor(poses);
   return told && std::abs(own - *told) <= LeftLegLength(poses.front()) ? *told : own;

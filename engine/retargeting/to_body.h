@@ -102,10 +102,11 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 /// meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
 
-/// Describes a change of the rate for people; "" if both rates read alike.
+/// Describes a change of the rate for people; "" if both rates are printed alike.
 std::string DescribeResampling(double from_hz, double to_hz);
 
-/// Says, for people, that no person is as tall as this body in its median frame (under 0.5 m, over 2.75 m); else "".
+/// Returns a message for the user if no person is as tall as this body in its median frame (under 0.5 m or over 2.75
+/// m), otherwise "".
 std::string DescribeImpossibleHeight(std::span<const BodyPose> poses);
 
 /// Returns true if the body stands with straight legs and both arms stretched out sideways.

@@ -60,7 +60,7 @@ UpRule TrcUp();
 /// by the convention of biomechanics.
 UpRule C3dUp(char axis, bool is_negative);
 UpRule ArrayUp();
-UpRule RawArraysUp();  ///< of ReadRawNpz, which has turned them
+UpRule RawArraysUp();  ///< for arrays that ReadRawNpz has already rotated
 UpRule JointCsvUp();
 UpRule MotiveUp();
 UpRule AmassUp();
