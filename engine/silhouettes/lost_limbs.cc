@@ -71,8 +71,8 @@ class LimbCost {
 
   const std::span<const SilhouetteView> views_;
   const SilhouetteCostOptions& options_;
-  SilhouetteBody limb_;                       // its flesh is only the limb's
-  std::vector<std::vector<double>> to_rest_;  // [view][outline column]: distance to the nearest flesh of the rest
+  SilhouetteBody limb_;                       // the body with only this limb's flesh
+  std::vector<std::vector<double>> to_rest_;  // [view][outline column]: distance to the rest of the body's flesh
   TreeFrames frames_;
   std::vector<ProjectedCapsule> flesh_;
   std::vector<double> distances_;
