@@ -48,7 +48,7 @@ struct StreamRecording {
   bool is_level = false;      ///< Y points up and the floor is at 0, because Etude wrote the file
   double rate_hz = kJudgedRateHz;
   double seconds_per_count = 1;            ///< the unit of the clock's column
-  double first_count = 0;                  ///< the count of the clock that became 0 s
+  double first_count = 0;                  ///< the time in the clock's column that became 0 s
   double metres_per_unit = 1;              ///< the factor that was applied to positions
   std::vector<RecordedFrame> frames = {};  ///< in ascending order of time
   std::vector<std::string> remarks = {};   ///< decisions made while reading ("2 bodies, of which body 0")

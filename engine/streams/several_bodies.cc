@@ -95,7 +95,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
   const auto begin_of = [](const Body& body) { return body.frames.front().frame; };
   for (std::size_t a = 0; a < bodies_.size(); ++a) {
     const Seen& end = bodies_[a].frames.back();
-    const auto first = std::ranges::upper_bound(bodies_, end.frame, {}, begin_of);  // by first appearance
+    const auto first = std::ranges::upper_bound(bodies_, end.frame, {}, begin_of);  // sorted by first appearance
     for (auto b = static_cast<std::size_t>(first - bodies_.begin()); b < bodies_.size(); ++b) {
       const Seen& begin = bodies_[b].frames.front();
       if (recording.frames[begin.frame].time_s - recording.frames[end.frame].time_s > kMaxBreak_s) break;
