@@ -30,7 +30,7 @@ std::string PersonInName(std::string_view name);
 
 /// A performance within its recording.
 struct LabelledPart {
-  std::size_t stream = 0;  ///< index
+  std::size_t stream = 0;  ///< index of the recording
   std::string move, fault, person;
   int begin = 0, end = 0;        ///< frames [begin, end)
   bool is_action_point = false;  ///< `begin` is the frame of the action point; `end` is one more
@@ -55,7 +55,7 @@ SkeletonStream PartOf(const SkeletonStream& stream, int begin, int end);
 /// A person of a data set, with all recordings of this person.
 struct RecordedPerson {
   std::string name;
-  std::vector<std::size_t> streams;  ///< indices
+  std::vector<std::size_t> streams;  ///< indices of this person's recordings
 };
 
 /// Recordings, the people in them, and the moves performed.
