@@ -373,7 +373,7 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
     if (!numbers.empty()) steps.push_back(static_cast<double>(*number - numbers.back()));
     numbers.push_back(*number);
   }
-  // Numbers may rise by more than 1 per frame, and may count from 0, from 1 or from any first number.
+  // Numbers may increase by more than 1 per frame, and may count from 0, from 1 or from any first number.
   const auto usual = static_cast<long>(LowerPercentile(std::move(steps), 0.5));
   const auto frames = static_cast<long>(of.frames);
   const long last = numbers.back();
