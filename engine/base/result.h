@@ -21,7 +21,7 @@ enum class ErrorKind {
   kMachine,  ///< neither the input nor a method: no process can be started, the disk is full (machine.h)
 };
 
-/// An error of bad input, for people: where it is, what was found, what is allowed.
+/// An error with a message for the user: the position in the input, what was found, what is allowed.
 struct Error {
   Place place;
   std::string message;
