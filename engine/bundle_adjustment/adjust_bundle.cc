@@ -48,7 +48,7 @@ class TurnManifold final : public ceres::Manifold {
 
 /// All parameter blocks of the problem.
 struct Variables {
-  MeasurableBody body;  // with the lengths of the last evaluation
+  MeasurableBody body;  // the body with the lengths of the last evaluation
   std::vector<double> lengths;
   std::vector<FrameVariables> frames;
 };
