@@ -170,7 +170,7 @@ class Bundle {
  private:
   /// The free parameter of a column of the Jacobian.
   struct Column {
-    std::size_t camera = 0;  ///< or the target, counted after the cameras
+    std::size_t camera = 0;  ///< index of the camera, or number of cameras + index of the target
     int intrinsic = -1;      ///< an Intrinsic; −1 if the parameter belongs to a pose
   };
 
