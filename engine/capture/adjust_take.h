@@ -21,7 +21,7 @@ struct TakeBody {
   /// The same body for `AdjustBundle`: every role that a mark can show is a point; its lengths are the members of
   /// LimbLengths in their order, equal on both sides.
   MeasurableBody measurable;
-  std::array<int, kRoleCount> points{};  ///< of each role: its index in `measurable.points`, −1 if no mark shows it
+  std::array<int, kRoleCount> points{};  ///< for each role: its index in `measurable.points`, −1 if no mark shows it
 };
 
 TakeBody MakeTakeBody(const LimbLengths& lengths);
@@ -45,7 +45,7 @@ struct AdjustTakeOptions {
 struct AdjustedTake {
   bool is_solved = false;
   CaptureBody body;               ///< paper B's body with the lengths of the solution
-  std::vector<TreeState> states;  ///< of `body`, one per frame
+  std::vector<TreeState> states;  ///< one pose of `body` per frame
 };
 
 /// Adjusts a whole take at once (`AdjustBundle`): fits paper B's body in all frames to the marks of all pictures. The

@@ -117,7 +117,7 @@ void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_L
 // same side as at rest; if it is straight at rest, like a back, it bends backwards.
 glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
                                    const glm::dvec3& back_W, int mirrored) const {
-  glm::dvec3 p_LT(0);  // the end of the limb from which the chain leads to the known joint
+  glm::dvec3 p_LT(0);  // the end of the limb, where the rest of the chain begins
   for (int beyond = body_.roles[Index(aim.role)].joint; beyond > 0 && beyond != limb;) {
     p_LT = tree_.joints[beyond].p_PJ;
     beyond = tree_.joints[beyond].parent;

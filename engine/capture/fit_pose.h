@@ -74,7 +74,7 @@ class PoseFitter {
 
   const CaptureBody& body_;
   std::vector<Role> effector_roles_;
-  const KinematicTree tree_;  // with one effector per role that is not fixed to the root
+  const KinematicTree tree_;  // the body's tree with one effector per role that is not fixed to the root
   const GaussNewtonSolver solver_;
   std::vector<std::vector<int>> children_;
 };

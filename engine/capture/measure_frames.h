@@ -24,7 +24,7 @@ namespace etude {
 std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> cameras,
                                               std::span<const std::vector<Marks>> marks, double tolerance_px = 12);
 
-/// One vector per role, empty for roles without one.
+/// One vector per role; nullopt if the role has none.
 using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
 /// The spatial measurements from the marks of one frame.

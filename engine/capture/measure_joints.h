@@ -47,7 +47,7 @@ struct JointMeasurements {
 /// cm *(ours)*. `inputs.known` is ignored.
 std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const MarkErrors& errors = {});
 
-/// Joint positions of one frame, empty for joints without one.
+/// Joint positions of one frame; nullopt for a joint whose position is unknown.
 using OptionalJoints = RoleVectors;
 
 /// Fills the gaps of each joint's track: linearly between measurements, constant before the first and after the last. A
