@@ -31,7 +31,7 @@ struct BvhChannel {
 /// The HIERARCHY section of a BVH file.
 struct BvhHierarchy {
   Skeleton skeleton;
-  std::vector<BvhChannel> channels;  ///< in the order of the numbers in a frame
+  std::vector<BvhChannel> channels;  ///< in the order of their numbers in a frame
 };
 
 constexpr int kMaxNesting = 128;

@@ -131,7 +131,7 @@ std::vector<std::string> TextsOf(const NpyParts& parts) {
   return texts;
 }
 
-/// Reads the numbers of an .npy file; returns nothing if its values are not plain numbers.
+/// Reads the numbers of an .npy file; returns nullopt if its values are not plain numbers.
 Result<std::optional<NumberArray>> NumbersIn(const NpyParts& parts, const std::string& file) {
   const Place place{file};
   const auto [header, data] = parts;

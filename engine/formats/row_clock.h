@@ -26,7 +26,7 @@ struct RowGrid {
   double rate_hz = 0;
   std::vector<GridFrame> frames;
   bool is_even = true;  ///< true if every frame is exactly one row
-  std::string remark;   ///< a text for people about holes, uneven steps and equal times; "" if there are none
+  std::string remark;   ///< a text for users about holes, uneven steps and equal times; "" if there are none
 };
 
 /// Places rows on an even grid of frames by their times, which may be rounded to some decimals. The rate fits the steps

@@ -11,7 +11,7 @@ namespace etude {
 struct TimeScale {
   double first = 0;         ///< the time in the file that becomes 0 s
   double seconds = 1;       ///< seconds per unit of the file's times
-  std::string remark = "";  ///< what was concluded, for people; "" if the file counts seconds from near 0
+  std::string remark = "";  ///< what was concluded, for users; "" if the file counts seconds from near 0
 
   /// Converts a time of the file to seconds since `first`. If `first` is not 0, the result is rounded to microseconds.
   double SecondsOf(double count) const;

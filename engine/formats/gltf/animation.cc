@@ -348,8 +348,8 @@ class ClipReader {
     return {};
   }
 
-  /// Returns the animation's name as in the file; an unnamed animation is named by its index, and duplicate names get a
-  /// number.
+  /// Returns the animation's name as in the file. An unnamed animation is named by its index, and a number is appended
+  /// to duplicate names.
   std::string UniqueName(int index) {
     const std::string& given = At(index).name;
     const std::string base = given.empty() ? fmt::format("animation_{}", index) : given;

@@ -231,7 +231,7 @@ Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents 
   if (accessor.sparse.isSparse) {
     RETURN_IF_ERROR(ReadSparse(*this, accessor, numbers, name + ".sparse"));
   }
-  const bool is_index = allowed == GltfComponents::kUnsigned;  // indices are checked by CheckIndex instead
+  const bool is_index = allowed == GltfComponents::kUnsigned;  // callers check the range of indices
   for (std::size_t i = 0; !is_index && i < numbers.values.size(); ++i) {
     if (!(std::abs(numbers.values[i]) <= kMaxGltfNumber)) {
       return Refuse(name, "found {} in element {}; allowed: numbers within ±{:g}", numbers.values[i], i / width,

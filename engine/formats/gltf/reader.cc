@@ -182,7 +182,7 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
     for (const auto& [key, value] : json.items()) {
       if (key == "extras" || key == "extensions") continue;
       const std::string name = where.empty() ? key : where + "." + key;
-      const bool may_be_object = key == "indices" && !where.starts_with("meshes");  // in a sparse accessor it is one
+      const bool may_be_object = key == "indices" && !where.starts_with("meshes");  // an object in a sparse accessor
       if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() &&
           !(may_be_object && value.is_object())) {
         return Fail({file}, "{}: found {}; allowed: a whole number from 0", name, value.dump().substr(0, 40));
