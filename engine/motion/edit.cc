@@ -157,7 +157,7 @@ class ScaleRemover {
  private:
   const Skeleton& skeleton_;
   std::vector<GlobalTransform> globals_;
-  std::vector<glm::dquat> rotations_;  ///< in the world
+  std::vector<glm::dquat> rotations_;  ///< rotations of the joints in the world
 };
 
 void SetRest(Skeleton& skeleton, const LocalPose& rest) {

@@ -33,7 +33,7 @@ enum class FaultKind {
 struct FaultRule {
   std::string_view
       name;  ///< "floats", "sinks", "skates", "jumps", "pops", "freezes", "stretches", "bends", "passes", …
-  std::string_view unit;  ///< of the fault's size: "m", "m/s", "s", "share", "deg" or "m/s2"
+  std::string_view unit;  ///< unit of the fault's size: "m", "m/s", "s", "share", "deg" or "m/s2"
   std::string rule;       ///< the rule in words, with the thresholds (fault_limits.h)
 };
 const std::vector<FaultRule>& FaultRules();
@@ -46,7 +46,7 @@ struct MotionFault {
   double from_s = 0, to_s = 0;     ///< times of its first and last frame
   std::optional<Role> joint = {};  ///< the joint at fault; a limb is named by its far end; absent: the whole body
   double size = 0;                 ///< unit: FaultKind
-  std::string text = {};           ///< a sentence for people: "floats 6 cm from 1.20 to 3.20 s"
+  std::string text = {};           ///< a sentence for users: "floats 6 cm from 1.20 to 3.20 s"
 };
 
 struct MotionFaults {
@@ -76,8 +76,8 @@ constexpr std::size_t kMinFramesForFaults = 8;
 /// than kMinFramesForFaults frames returns no faults.
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options = {});
 
-/// Returns the sentences of the three largest faults of each kind. One more sentence counts the faults left out, if
-/// any.
+/// Returns the sentences of the three largest faults of each kind. If faults are left out, one more sentence states
+/// their number.
 std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults);
 
 }  // namespace etude

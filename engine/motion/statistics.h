@@ -18,7 +18,7 @@ double LowestHeight(const BodyPose& pose);
 /// The horizontal speeds of feet in stance, metres per second; nullopt if no foot ever stands.
 struct FootSlide {
   std::optional<double> mean;                    ///< over all frames and feet in stance
-  std::array<std::optional<double>, 2> of_foot;  ///< by side, in the order of Side
+  std::array<std::optional<double>, 2> of_foot;  ///< one mean per foot, in the order of Side
   std::array<double, 2> stance_share{};          ///< share of the frames in which the foot stands
 };
 

@@ -190,7 +190,7 @@ class TornFinder {
     }
   }
 
-  /// Finds distances that are too long in the median frame, and a head that lies on the neck.
+  /// Finds distances that are too long in the median frame, and a head joint that coincides with the base of the neck.
   void FindLengths() {
     for (const Link& link : kLinks) {
       const auto median = MedianOf(Distances(link.inner, link.outer));
