@@ -234,7 +234,7 @@ class AnatomyFinder {
   }
 
   const SkeletonTree& tree_;
-  std::vector<Chain> below_;  ///< for each joint
+  std::vector<Chain> below_;  ///< for each joint: its longest chain
 };
 
 }  // namespace

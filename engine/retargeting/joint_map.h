@@ -59,7 +59,7 @@ Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file,
 /// The roles found in a skeleton, even if some are missing.
 struct PartialRoles {
   std::array<int, kRoleCount> found;     ///< joints found by name, by Index(role); −1: none
-  std::array<int, kRoleCount> proposed;  ///< by shape, for limbs without names; −1: none
+  std::array<int, kRoleCount> proposed;  ///< joints found by shape, for limbs without names, by Index(role); −1: none
   double confidence = 0;                 ///< the confidence of `proposed`
 };
 PartialRoles FindPartialRoles(const Skeleton& skeleton);

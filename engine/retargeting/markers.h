@@ -28,7 +28,7 @@ struct MarkerBody {
   UpFinding up;       ///< the axis of the file that became Y
   double floor = 0;   ///< the height of the file's floor, metres; it became 0
   std::size_t first_frame = 0;  ///< the file's index of the first kept frame
-  /// The name of the marker set, then a text for people about each correction of the file's data.
+  /// The name of the marker set, then a text for users about each correction of the file's data.
   std::vector<std::string> changes;
   /// The joints exactly as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by
   /// a rule, and the floor is not moved. First come the joints that the set determines, named by role, then the

@@ -21,7 +21,7 @@ struct SkinJoint {
   Role left, before;       ///< a joint of the left side, and the joint at the other end of its limb
   std::string_view size;   ///< the name of the joint's width in files, without the side
   double share;            ///< distance from marker to centre over the length between the limb's markers
-  std::string_view where;  ///< text for people: "knees {:.1f} cm inside"
+  std::string_view where;  ///< text for users: "knees {:.1f} cm inside"
 };
 constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWIDTH", 0.12, "knees"},
                                                    {kLeftAnkle, kLeftKnee, "ANKLEWIDTH", 0.085, "ankles"},

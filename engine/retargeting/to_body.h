@@ -36,7 +36,7 @@ struct BodyConversion {
   UpFinding found_up = {};         ///< the axis of the file that points up, and its evidence
   double floor = 0;                ///< height of the floor in the file's unit, along its up axis
   std::size_t dropped_frames = 0;  ///< length of a leading T-pose that was dropped, frames
-  /// A text for people about each finding and each correction of the file's data: "1 unit = 5.64 cm (CMU)", "dropped a
+  /// A text for users about each finding and each correction of the file's data: "1 unit = 5.64 cm (CMU)", "dropped a
   /// leading T-pose".
   std::vector<std::string> changes = {};
   std::vector<std::string> doubts = {};  ///< those of `changes` that say what looks wrong in the file
@@ -102,7 +102,7 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 /// meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
 
-/// Describes a change of the rate for people; "" if both rates are printed alike.
+/// Describes a change of the rate for users; "" if both rates are printed alike.
 std::string DescribeResampling(double from_hz, double to_hz);
 
 /// Returns a message for the user if no person is as tall as this body in its median frame (under 0.5 m or over 2.75

@@ -31,14 +31,14 @@ struct UpFinding {
   glm::dvec3 axis{0, 1, 0};
   UpEvidence evidence = UpEvidence::kPosture;
   std::string source = "";
-  /// A sentence for people if the posture contradicts the axis or shows nothing; otherwise empty.
+  /// A sentence for users if the posture contradicts the axis or shows nothing; otherwise empty.
   std::string doubt = "";
 };
 
 /// Finds the axis that points up (ours). The result is the rule's axis, unless the rule's evidence is kPosture and the
 /// whole motion is evidence for another axis. An axis has evidence if the body is upright along it and hardly ever
 /// along the usual axis, and
-/// - the lowest joint stays at one height along this axis, but not along the usual axis (this also holds for people who
+/// - the lowest joint stays at one height along this axis, but not along the usual axis (this also holds for users who
 ///   lie, crawl or stand on their hands), or
 /// - the body walks: it travels across this axis while one foot stands, or
 /// - the file or its format states the usual axis, and along the usual axis the body stands on its head, but not on its
@@ -71,7 +71,7 @@ UpRule DeepMimicUp();
 std::string AxisName(const glm::dvec3& axis);
 /// Returns the unit vector of the axis.
 glm::dvec3 AxisOf(UpAxis up);
-/// Describes a rotation for people: "turned upright from Z up (the rule of AMASS)"; "" for Y.
+/// Describes a rotation for users: "turned upright from Z up (the rule of AMASS)"; "" for Y.
 std::string DescribeTurn(const UpFinding& up);
 
 /// Rotates a point so that `up`, an axis of the file, becomes Y. If `up` is Z, a body that faced −Y faces +Z.
