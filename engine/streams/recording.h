@@ -33,11 +33,11 @@ std::optional<StreamFormat> DetectStreamFormat(std::string_view text);
 
 /// One frame as a file contains it.
 struct RecordedFrame {
-  double time_s = 0;  ///< by the file's own clock
+  double time_s = 0;  ///< time by the file's own clock
   int line = 0;       ///< its line in the text, from 1; 0: not known
   /// The positions of the joints in the file's own space with Y up, metres; nullopt if a joint was not reported.
   RolePositions places = {};
-  std::array<TrackingState, kRoleCount> states{};  ///< of joints that have a position
+  std::array<TrackingState, kRoleCount> states{};  ///< states of the joints that have a position
 };
 
 /// The content of a file, not yet levelled and resampled.
