@@ -20,7 +20,7 @@ struct NamedStream {
   std::string person;  ///< the person in the file's name, for known data sets (PersonInName); otherwise empty
   SkeletonStream stream;
   double start_s = 0;                     ///< time of the first frame by the file's own clock
-  std::string description;                ///< one line for people: format, length, states, level, remarks
+  std::string description;                ///< one line for users: format, length, states, level, remarks
   std::optional<BodyMotion> motion = {};  ///< the true motion; known for clips only
 };
 
