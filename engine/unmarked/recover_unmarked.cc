@@ -306,7 +306,7 @@ class Recovery {
   std::vector<ProjectionMatrix> matrices_;
   std::vector<ColourImage> rooms_;
   std::vector<std::vector<Mask>> masks_;
-  std::vector<std::vector<Silhouette>> silhouettes_;  ///< of the frames tracked last
+  std::vector<std::vector<Silhouette>> silhouettes_;  ///< silhouettes of the frames tracked last
   std::vector<ProjectedCapsule> flesh_;
 };
 
