@@ -14,7 +14,7 @@ namespace {
 // Colours are counted in cells with a side of 8 levels. A likelihood is the logarithm of a cell's share.
 constexpr int kCells = 32, kLevels = 256 / kCells;
 constexpr double kAnyColour = 0.05;     // share of the person's pixels that have a new colour
-constexpr float kDecay = 0.98f;         // per picture
+constexpr float kDecay = 0.98f;         // factor of the learnt colour counts per picture
 constexpr double kMinWornPixels = 400;  // pixels needed to learn the person's colours
 
 // Log-likelihoods of a pixel that shows the room: unchanged, in another light, or changed.
