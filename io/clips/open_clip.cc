@@ -32,7 +32,7 @@ std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::s
   return std::ranges::count_if(clips, ends_so) == 1 ? std::ranges::find_if(clips, ends_so) : clips.end();
 }
 
-/// Keeps only the animation that was asked for, or all.
+/// Keeps only the requested animation, or all if none is requested.
 Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, std::vector<Clip>& clips) {
   if (clips.empty()) {
     return Fail({wanted.path, 0, 0}, "holds no animation, only a figure (joints: {}, meshes: {})",
