@@ -46,7 +46,7 @@ std::optional<Axes> AxesLike(const Saddle& saddle, bool is_bright, const Axes& e
 // line.
 bool IsEdge(const GreyImage& picture, const glm::dvec2& a, const glm::dvec2& b) {
   constexpr double kOffsetPx = 1.5;
-  constexpr double kMinStep = 15;  // grey levels (of 255)
+  constexpr double kMinStep = 15;  // minimum difference of brightness, grey levels (of 255)
   const glm::dvec2 along = b - a;
   const glm::dvec2 offset = kOffsetPx / glm::length(along) * glm::dvec2(-along.y, along.x);
   int brighter = 0, darker = 0;
@@ -205,7 +205,7 @@ class Reader {
   // is unknown, or if its margin is not white.
   std::optional<std::uint16_t> ReadCode(const CornerGrid& grid, const GridIndex& place) const {
     const auto [i, j] = place;
-    if ((i + j) % 2 != 0) return std::nullopt;  // a black square
+    if ((i + j) % 2 != 0) return std::nullopt;  // a black square has no code
     // Collect the corners of the square.
     std::array<glm::dvec2, 4> corners;
     for (int k = 0; k < 4; ++k) {
