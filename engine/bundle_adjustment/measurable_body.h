@@ -39,8 +39,8 @@ MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> l
 /// whole body about the root around the world's x, y, z (radians), each angle (radians), and each length (metres).
 struct PlacedPoints {
   std::vector<glm::dvec3> positions;  ///< p_WQ, metres
-  int columns = 0;                    ///< 6 + angles + lengths
-  std::vector<glm::dvec3> gains;      ///< [point · columns + column]
+  int columns = 0;                    ///< number of columns: 6 + angles + lengths
+  std::vector<glm::dvec3> gains;      ///< the Jacobian: [point · columns + column]
 
   const glm::dvec3* gains_of(int point) const { return gains.data() + static_cast<std::size_t>(point) * columns; }
 };
