@@ -29,7 +29,7 @@ glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel);
 struct StrokePlane {
   glm::dvec3 normal_W{0};  ///< unit, ray(a) × ray(b)
   glm::dvec3 ray_a_W{0};   ///< unit, from the camera through the stroke's start
-  glm::dvec3 ray_b_W{0};   ///< unit, through its end
+  glm::dvec3 ray_b_W{0};   ///< unit, from the camera through the stroke's end
   double length_px = 0;    ///< length of the stroke
 };
 

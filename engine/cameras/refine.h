@@ -67,7 +67,7 @@ struct RefinedRig {
   std::size_t points = 0;  ///< N, the number of point pairs
   /// p, the number of free parameters. If corners have errors of σ per coordinate, rms_px is near σ √(2 − p / N).
   std::size_t parameters = 0;
-  std::vector<IntrinsicsDeviation> deviations;  ///< 0 for cameras held fixed
+  std::vector<IntrinsicsDeviation> deviations;  ///< per camera; 0 if cameras are held fixed
 };
 
 /// Finds the cameras and target poses that minimise the sum of squared reprojection errors, with distortion (method
