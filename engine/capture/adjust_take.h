@@ -17,7 +17,7 @@ namespace etude {
 
 /// Paper B's body in the form that bundle adjustment compares with marks.
 struct TakeBody {
-  CaptureBody body;  ///< `PaperBody`
+  CaptureBody body;  ///< the body that `PaperBody` makes
   /// The same body for `AdjustBundle`: every role that a mark can show is a point; its lengths are the members of
   /// LimbLengths in their order, equal on both sides.
   MeasurableBody measurable;
