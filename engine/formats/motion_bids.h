@@ -25,7 +25,7 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
 
 /// The properties that `_motion.json` states.
 struct BidsFacts {
-  double rate_hz = 0;            ///< SamplingFrequency
+  double rate_hz = 0;            ///< the value of SamplingFrequency
   std::string missing = "n/a";  ///< MissingValues: how the recording writes a missing value
 };
 

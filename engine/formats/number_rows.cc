@@ -40,7 +40,7 @@ std::vector<std::string_view> WordsOf(std::string_view line, char separator) {
     if (by_comma || !word.empty()) words.push_back(word);
     start = i + 1;
   }
-  if (by_comma && !words.empty() && words.back().empty()) words.pop_back();  // "1,2,3,"
+  if (by_comma && !words.empty() && words.back().empty()) words.pop_back();  // a comma at the end: "1,2,3,"
   return words;
 }
 

@@ -15,7 +15,9 @@ namespace {
 
 constexpr double kMaxStep_s = 600, kMaxBridged_s = 1, kMinSpan_s = 0.5;
 constexpr double kBriefTolerance = 0.05;
-constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;  // a row's tolerances, in frames
+// The distance, in frames, within which a row coincides with a frame is the rounding of the times, but at least kEven
+// (kExact for a whole rate) and at most kMaxEven.
+constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;
 constexpr double kMaxAddedValues = 1e7;
 
 /// Returns the power of ten, at most 0.1, of which all times are multiples: the last decimal to which they were

@@ -180,7 +180,7 @@ GltfCurve::Value GltfCurve::Spline(std::size_t key, double t, double seconds) co
   return value;
 }
 
-constexpr double kMaxFrameBytes = 200e6;  // limit for all clips together
+constexpr double kMaxFrameBytes = 200e6;  // limit for all clips together, bytes
 constexpr double kMinRateHz = 0.1;
 constexpr double kMaxRateHz = 10'000;
 constexpr double kDefaultRateHz = 60;

@@ -107,7 +107,7 @@ class JsonShape {
   int depth_ = 0;
   std::size_t values_ = 0;
   std::size_t buffers_ = 0;
-  std::string_view key_;  ///< the last string at the top level
+  std::string_view key_;  ///< the last string at the top level: a key or a value
 };
 
 }  // namespace

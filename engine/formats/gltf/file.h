@@ -34,7 +34,7 @@ enum class GltfComponents {
   kFloat,
   kFloatOrNormalized,  ///< integers only if they are normalised to −1…1
   kAny,                ///< also integers with their own values (KHR_mesh_quantization)
-  kUnsigned,           ///< indices
+  kUnsigned,           ///< unsigned integers, for indices
 };
 
 /// A parsed but untrusted file: every index and size is checked here.

@@ -33,7 +33,7 @@ class GltfTextures {
 
   const GltfFile& file_;
   const DecodePicture& decode_;
-  std::map<int, SharedTexture> plain_;  ///< by index, before multiplication by a colour
+  std::map<int, SharedTexture> plain_;  ///< decoded pictures by texture index, not yet multiplied by a colour
   std::size_t pixels_left_ = 64'000'000;
 };
 

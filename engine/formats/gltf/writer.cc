@@ -181,7 +181,7 @@ void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& c
   // An animation needs at least one channel. If nothing moves, one channel needs all keys, so that the length is kept.
   const bool all_still = std::ranges::all_of(tracks, &Track::IsStill);
   const int times = AddTimes(model, clip.frames.size(), clip.rate_hz);
-  int first_time = -1;  // created on first use
+  int first_time = -1;  // accessor with one time for constant properties; created on first use
 
   tinygltf::Animation animation;
   animation.name = GltfText(clip.name);
