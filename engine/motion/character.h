@@ -27,7 +27,7 @@ struct SkinnedMesh {
   };
   struct Vertex {
     glm::dvec3 position{0};
-    glm::dvec3 normal{0};                       ///< unit
+    glm::dvec3 normal{0};                       ///< unit vector
     std::array<int, 4> bindings{};              ///< indices into the mesh's bindings
     std::array<double, 4> weights{1, 0, 0, 0};  ///< sum to 1
     glm::dvec2 on_texture{0};                   ///< texture coordinates
@@ -51,7 +51,7 @@ struct Character {
 /// A mesh's vertices in the world, in one pose of its skeleton.
 struct DeformedMesh {
   std::vector<glm::dvec3> positions;
-  std::vector<glm::dvec3> normals;  ///< unit
+  std::vector<glm::dvec3> normals;  ///< unit vectors
 };
 
 /// Deforms a mesh by linear blend skinning: v ↦ Σ wᵢ · globalᵢ · inverse_bindᵢ · v. `globals` is the output of

@@ -227,7 +227,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
 /// inverse of its squared excesses in the frames around, so a standing foot weighs most.
 glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
   constexpr int kNear = 2, kFar = 6;   // a velocity step also changes the excesses of the neighbouring frames
-  constexpr double kSmallest = 1e-10;  // square metres
+  constexpr double kSmallest = 1e-10;  // avoids a division by zero; square metres
   glm::dvec3 sum{0};
   double weights = 0;
   for (std::size_t j = 0; j < kRoleCount; ++j) {

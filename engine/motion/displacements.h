@@ -30,7 +30,7 @@ struct Displacement {
 struct Pop {
   FrameRange frames;
   Role joint = Role::kHipCentre;
-  double size = 0;  ///< metres
+  double size = 0;  ///< distance, metres
 };
 
 /// A sudden change of the velocity along the floor, from one frame to the next, that all joints share.

@@ -75,7 +75,7 @@ std::string OtherSide(std::string_view name) {
     }
     const std::size_t end = EndOfWord(name, at);
     const std::string_view word = name.substr(at, end - at);
-    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // "L5"
+    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // a vertebra such as "L5"
     for (const SideWord& turn : kSideWords) {
       if (word == turn.from && !is_numbered) return Replaced(name, at, turn);
     }

@@ -45,14 +45,14 @@ struct MotionFault {
   FaultKind kind = FaultKind::kFloats;
   double from_s = 0, to_s = 0;     ///< times of its first and last frame
   std::optional<Role> joint = {};  ///< the joint at fault; a limb is named by its far end; absent: the whole body
-  double size = 0;                 ///< unit: FaultKind
+  double size = 0;                 ///< FaultKind states its meaning and unit
   std::string text = {};           ///< a sentence for users: "floats 6 cm from 1.20 to 3.20 s"
 };
 
 struct MotionFaults {
   double floor_m = 0;           ///< the height of the floor that the motion is judged by
   bool is_floor_found = false;  ///< true if the motion is far from height 0 and its floor is where its feet rest
-  std::vector<MotionFault> faults = {};  ///< by kind, then by time
+  std::vector<MotionFault> faults = {};  ///< sorted by kind, then by time
 };
 
 /// Options of FindMotionFaults.

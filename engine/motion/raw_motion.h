@@ -22,7 +22,7 @@ struct RawMotion {
   std::string name;  ///< the name under which the file was requested
   double rate_hz = 30;
   std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
-  std::vector<std::string> joints;  ///< names
+  std::vector<std::string> joints;  ///< names of the joints
   /// Indices of joints that the file does not name: BVH's End Sites, and the hip centre that its reader adds.
   std::vector<int> added;
   std::vector<int> parents;         ///< parent of each joint; −1: a root; empty: the file has points, not a skeleton

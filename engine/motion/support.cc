@@ -220,7 +220,7 @@ class SupportFinder::ClipSupport {
 
   SupportingClip clip_;
   SupportRules rules_;
-  int window_ = 0;  // frames
+  int window_ = 0;  // SupportRules::window_s in frames
   std::vector<BodyPose> velocities_;
   std::vector<Bearing> bearing_;
   JointSet ever_bear_, ever_rest_;           // a joint that rests is in both sets
