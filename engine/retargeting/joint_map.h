@@ -19,7 +19,7 @@ struct RolePoint {
 
 /// The points of a clip's own skeleton that play the twenty roles.
 struct JointMap {
-  std::array<RolePoint, kRoleCount> points;  ///< by Index(role)
+  std::array<RolePoint, kRoleCount> points;  ///< one per role, by Index(role)
   /// The roles that no joint or end site of the skeleton plays. Their points are fixed to a neighbouring joint.
   std::vector<Role> composed;
   /// The roles that were found by the skeleton's shape (ProposeByAnatomy) instead of by name, and the confidence in

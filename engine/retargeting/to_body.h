@@ -20,7 +20,7 @@ struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;
   std::optional<UpAxis> up = std::nullopt;           ///< given by the user; overrules everything else
-  std::optional<UpRule> up_rule = std::nullopt;      ///< of the file or its format
+  std::optional<UpRule> up_rule = std::nullopt;      ///< rule of the file or its format
   std::optional<UpFinding> found_up = std::nullopt;  ///< the result of FindGround, if the file has several clips
   bool keep_floor = false;                           ///< do not move the file's floor to 0
   std::optional<double> floor = std::nullopt;    ///< the floor's height along the up axis, in the file's unit
@@ -81,7 +81,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
 /// The up axis of a file, the height of its floor, and the stature of its body.
 struct Ground {
   UpAxis up = UpAxis::kY;
-  double floor = 0;    ///< along that axis, in the file's unit
+  double floor = 0;    ///< height of the floor along the up axis, in the file's unit
   double stature = 0;  ///< median over the frames, in the file's unit
   UpFinding found_up = {};
 };

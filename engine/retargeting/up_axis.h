@@ -23,7 +23,7 @@ struct UpRule {
   std::string source = "the usual axis";
   /// True if the body at rest stands along `axis`; a still stance along another axis is then no evidence.
   bool is_of_rest = false;
-  bool is_y_or_z = false;             ///< no other axis is considered
+  bool is_y_or_z = false;             ///< true if only Y and Z can be the up axis
 };
 
 /// The up axis of a file, and its evidence.
