@@ -67,7 +67,7 @@ class LimbCost {
   }
 
  private:
-  static constexpr double kFar = 1e4;  // pixels
+  static constexpr double kFar = 1e4;  // larger than any distance in a picture, pixels
 
   const std::span<const SilhouetteView> views_;
   const SilhouetteCostOptions& options_;
