@@ -165,7 +165,7 @@ Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, c
 }
 
 Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
-  constexpr double kMinTrunk_m = 0.15, kMaxTrunk_m = 0.95;  // a toddler's, a tall adult's
+  constexpr double kMinTrunk_m = 0.15, kMaxTrunk_m = 0.95;  // trunk lengths of a toddler and of a tall adult
   const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
   const struct {
     double metres;

@@ -56,9 +56,9 @@ struct StreamRecording {
 
 /// Properties of a file that the user can state.
 struct StreamReading {
-  std::optional<StreamFormat> format = {};  ///< otherwise detected by content
-  std::optional<double> rate_hz = {};       ///< for files without a clock; otherwise 30
-  std::optional<int> body = {};  ///< which of several bodies, by first appearance; otherwise the one in most frames
+  std::optional<StreamFormat> format = {};  ///< if absent, detected by content
+  std::optional<double> rate_hz = {};       ///< for files without a clock; if absent, 30
+  std::optional<int> body = {};  ///< which of several bodies, by first appearance; if absent, the one in most frames
 };
 
 /// Reads a file of skeletons. Fails, with file, line and column, for an unknown format, a wrong number of joints, text

@@ -338,7 +338,7 @@ class NtuReader {
     const double state = values[11];
     Joint joint;
     if (is_missing || p == glm::dvec3(0) || state == 0) return joint;
-    joint.place = glm::dvec3(-p.x, p.y, -p.z);  // as in ReadKinectRows
+    joint.place = glm::dvec3(-p.x, p.y, -p.z);  // converted as in kinect_rows.cc (FromSensor)
     if (state == 1) joint.state = TrackingState::kInferred;
     return joint;
   }
