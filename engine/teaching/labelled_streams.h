@@ -63,7 +63,7 @@ struct LabelledStreams {
   std::string file;  ///< the labels' file, for error messages; the first recording's without labels
   std::vector<NamedStream> streams;
   std::vector<LabelledPart> parts;     ///< sorted by stream, then by time
-  std::vector<RecordedPerson> people;  ///< by name
+  std::vector<RecordedPerson> people;  ///< sorted by name
   std::vector<std::string> moves;      ///< all moves that labels name, sorted
   std::string nobody;                  ///< a recording whose person is not known; "" if there is none
 };
