@@ -41,7 +41,7 @@ constexpr Body kDressed =
 constexpr const Body& BodyOf(FigureKind kind) { return kind == FigureKind::kDressed ? kDressed : kCapsules; }
 constexpr std::size_t kHeadStroke = kStrokeCount - 1;
 constexpr std::size_t kMinPixels = 6;   // smaller regions are noise
-constexpr std::size_t kMinBorder = 3;   // pixel sides
+constexpr std::size_t kMinBorder = 3;   // minimum length of a border in pixel sides
 constexpr double kMinSeenShare = 0.25;  // minimum visible share of a limb of which one end was not found
 
 /// The common border of a limb and its parent part in the picture.
