@@ -141,7 +141,7 @@ class SoundFile {
         WriteFileAtomically(sound.path_, WriteWav(ClickTrack(beats, seconds, kSoundRate), kSoundRate), OnDisk::kLater));
     return sound;
   }
-  const std::filesystem::path& path() const { return path_; }  ///< empty for a silent film
+  const std::filesystem::path& path() const { return path_; }  ///< path of the file; empty for a silent film
 
  private:
   SoundFile() = default;

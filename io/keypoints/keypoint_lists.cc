@@ -243,7 +243,7 @@ void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleO
   film.frames = std::move(frames);
 }
 
-constexpr std::size_t kMaxSpread = 10;  // frames per entry
+constexpr std::size_t kMaxSpread = 10;  // maximum number of frames per entry
 
 /// Returns the time of a frame, in the file's unit.
 std::optional<double> TimeOf(const Json& frame) {

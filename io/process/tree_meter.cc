@@ -65,7 +65,7 @@ std::size_t CountDescriptors(pid_t process, std::string_view status) {
   const std::string folder = fmt::format("/proc/{}/fd", process);
   struct stat told {};
   if (::stat(folder.c_str(), &told) == 0 && told.st_size > 0) return static_cast<std::size_t>(told.st_size);
-  DIR* files = ::opendir(folder.c_str());  // before Linux 6.2
+  DIR* files = ::opendir(folder.c_str());  // Linux before 6.2 does not state the number
   if (files == nullptr) return static_cast<std::size_t>(FieldOf(status, "\nFDSize:"));
   std::size_t count = 0;
   while (const dirent* file = ::readdir(files)) count += file->d_name[0] != '.' ? 1 : 0;
