@@ -75,7 +75,8 @@ struct Solution {
   double determined;  // ratio of the second smallest to the largest singular value
 };
 
-// Solves the two equations of each pair (2.4 and 2.5 of the paper, here for the entries of H) for |H| = 1.
+// Solves the two equations of each pair (2.4 and 2.5 of the paper, here for the entries of H) for |H| = 1: H is the
+// right singular vector of the smallest singular value.
 Solution SolveDlt(std::span<const PointPair> pairs, const Normalisation<3>& world, const Normalisation<2>& pixel) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * pairs.size(), 12);
   for (std::size_t i = 0; i < pairs.size(); ++i) {

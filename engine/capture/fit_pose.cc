@@ -165,7 +165,8 @@ glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::
     bent.push_back(limb);
     return BendTowards(limb, *main, wanted.places[main->role] - p_WL, R_WL, -Facing(wanted.places), mirrored);
   }
-  // Otherwise turn about the direction so that all known roles fit best.
+  // Otherwise rotate the limb about its direction so that the squared distances of all known roles from their targets
+  // are smallest.
   std::vector<glm::dvec3> now, then;
   for (const Aim& aim : aims) {
     now.push_back(R_WL * aim.p_LQ);
@@ -224,7 +225,7 @@ std::optional<PoseFit> PoseFitter::Fit(const PoseTargets& wanted, const std::opt
   for (const Role role : AllRoles()) {
     if (wanted.weights[Index(role)] > 0 && !IsFinite(wanted.places[role])) return std::nullopt;
   }
-  // Start from the pointed pose; try other starts while the residual is too large.
+  // Start from the pose of the first step (Point); try other starts while the residual is too large.
   const double enough = last ? std::max(kMet, kLikeTheLast * last->squares) : kMet;
   const Pointed pointed = Point(wanted);
   PoseFit best = Settle(wanted, pointed.state);

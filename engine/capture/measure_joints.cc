@@ -214,7 +214,7 @@ std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyP
   middle(kSpine, kHipCentre, kShoulderCentre, kSpineShare);
   if (std::ranges::none_of(filled, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
 
-  // Attach missing joints to their neighbours as in `like`, turned by the difference of headings.
+  // Attach missing joints to their neighbours as in `like`, rotated by the difference of headings.
   const auto across = AcrossOf(joints);
   const glm::dvec3 like_across = like[kLeftHip] - like[kRightHip];
   const FloorMove turn{.yaw = across ? YawOf(*across) - YawOf(like_across) : 0};

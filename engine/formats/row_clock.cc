@@ -31,8 +31,9 @@ double PrintedStep(std::span<const double> times) {
   return 0;
 }
 
-/// Returns the rate that best fits steps of one to three frames, starting from the rate of the median step. Steps about
-/// half-way between whole numbers of frames are unclear and left out; they occur beside a row at a wrong time.
+/// Returns the rate that best fits steps of one to three frames, starting from the rate of the median step. If
+/// `only_clear_steps`, steps about half-way between whole numbers of frames are left out; they occur beside a row at a
+/// wrong time.
 double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
   constexpr double kUnclear = 0.4;  // a step farther than this from a whole number of frames is unclear
   constexpr int kRounds = 4;
@@ -147,7 +148,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   ASSIGN_OR_RETURN(const auto rows, CountingRows(times_s, lines, file));
   if (rows.size() < 2) return std::nullopt;
 
-  // Fit the rate to the steps.
+  // Fit the rate to the time steps between rows.
   std::vector<double> steps;
   for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(times_s[rows[i]] - times_s[rows[i - 1]]);
   const double start = times_s[rows.front()], span = times_s[rows.back()] - start;

@@ -230,7 +230,7 @@ Clip WithoutScales(Clip clip) {
 Clip WithWorldAxesAtRest(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::all_of(joints, [](const Joint& joint) { return joint.rest.rotation == kNoTurn; })) return clip;
-  // The new frame of a joint is its old frame rotated by R₀⁻¹, where R₀ are the joint's axes at rest in the world.
+  // A joint's new coordinate frame is its old one rotated by R₀⁻¹, where R₀ are the joint's axes at rest in the world.
   std::vector<glm::dquat> at_rest(joints.size());
   const auto above = [&](std::size_t joint) {
     return joints[joint].parent < 0 ? kNoTurn : at_rest[joints[joint].parent];

@@ -272,7 +272,7 @@ double TreeMeter::HeldMb(double scratch_mb, double precise_from_mb) {
 }
 
 void TreeMeter::ClaimTime() {
-  // The tree's time is read only if we have waited for long.
+  // Measure the tree's processor time only if this process has waited for most of a long measurement.
   const ElapsedTime now = Now();
   const ElapsedTime measuring{now.cpu_s - started_.cpu_s, now.wall_s - started_.wall_s};
   static const double cores = std::thread::hardware_concurrency();

@@ -242,7 +242,7 @@ void PutNumber(std::string& bytes, std::size_t number) {
 /// for other files.
 std::optional<std::string> WithoutDracoMeshes(const GltfContainer& container) {
   if (container.json.find(kDraco) == std::string_view::npos) return std::nullopt;
-  // Check that Draco is required.
+  // Return nullopt unless the file requires Draco.
   auto json = nlohmann::json::parse(container.json, nullptr, /*allow_exceptions=*/false);
   const bool is_file = json.is_object() && json.contains("extensionsRequired") && json["extensionsRequired"].is_array();
   if (!is_file || std::ranges::find(json["extensionsRequired"], kDraco) == json["extensionsRequired"].end()) {
