@@ -50,7 +50,7 @@ struct MeasureInputs {
   /// `marks[camera][frame]`, pixels. All cameras have the same number of frames, taken at the same times; an unmarked
   /// picture has an empty `Marks{}`.
   std::span<const std::vector<Marks>> marks;
-  /// Empty, or one known measurement per frame.
+  /// One known measurement per frame; empty if there are none.
   std::span<const KnownMeasurement> known = {};
 };
 

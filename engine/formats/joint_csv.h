@@ -22,7 +22,7 @@ std::string WriteJointCsv(const BodyMotion& motion);
 struct JointCsvColumns {
   std::size_t count = 0;
   std::optional<std::size_t> time = {}, number = {};
-  /// The columns of x, y and z for each joint; empty if the file lacks the joint.
+  /// The columns of x, y and z for each joint; nullopt if the file lacks the joint.
   std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount> joints = {};
 };
 

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A word of a text with its line and column, both counted from 1 (columns in bytes). The text is empty at the end of
+/// A word of a text with its line and column, both counted from 1 (columns in bytes). `text` is empty for the end of
 /// the scanned text.
 struct Token {
   std::string_view text;

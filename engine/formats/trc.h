@@ -21,7 +21,7 @@ std::string WriteTrc(const BodyMotion& motion, std::string name);
 struct MarkerMotion {
   double rate_hz = 30;
   std::vector<std::string> names;
-  /// The markers' positions in each frame, in metres; empty if a marker was not seen.
+  /// The markers' positions in each frame, in metres; nullopt if a marker was not seen.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
   std::string remark = "";     ///< a message of the reader for the user
   double metres_per_unit = 1;  ///< metres per unit of the file; the positions here are in metres

@@ -58,7 +58,7 @@ Crossing CrossingOf(std::span<const JointPositions> frames, Role near, Role far)
   return {.is_certain = is_constant || is_impossible, .may_be = may_be};
 }
 
-/// Returns true if the hips point to the other side than the shoulders in nearly all frames.
+/// Returns true if the line of the hips points opposite to the line of the shoulders in nearly all frames.
 bool IsTrunkTwisted(std::span<const JointPositions> frames) {
   constexpr double kNearlyAll = 0.9;
   double seen = 0, opposite = 0;

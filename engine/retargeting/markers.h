@@ -33,7 +33,7 @@ struct MarkerBody {
   /// The joints exactly as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by
   /// a rule, and the floor is not moved. First come the joints that the set determines, named by role, then the
   /// person's other markers under their own names in lower case. Metres, Y up. Its remark names the set and the
-  /// assumptions. Empty unless MarkerOptions::keeps_shown.
+  /// assumptions. It has no frames unless MarkerOptions::keeps_shown is set.
   MarkerMotion shown = {};
 
   /// Returns `changes` as one line, separated by semicolons.

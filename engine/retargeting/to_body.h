@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// Properties of a file that are known. The others are estimated.
+/// The known properties of a file; all others are estimated.
 struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;

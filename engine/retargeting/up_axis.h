@@ -54,7 +54,7 @@ UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& 
 /// upright, or Y if it stands along neither.
 UpFinding FindUp(const BodyPose& rest, std::span<const BodyPose> poses, double rate_hz);
 
-/// The rules of formats. TRC, C3D without Y_SCREEN, and joint arrays have only a usual axis.
+/// The rules of formats. For TRC, C3D without Y_SCREEN and joint arrays there is no rule, only a usual axis.
 UpRule TrcUp();
 /// `axis` is 'X', 'Y' or 'Z' as in the file's entry Y_SCREEN, or 0 without that entry. Without it, Z is the usual axis,
 /// by the convention of biomechanics.

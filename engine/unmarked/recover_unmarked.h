@@ -47,7 +47,7 @@ struct UnmarkedTake {
   std::span<const Camera> cameras;
   /// `pictures[camera][frame]`, taken at the same times by all cameras.
   std::span<const std::vector<ColourImage>> pictures;
-  /// The empty room in each camera's picture; if empty, rooms are estimated from the pictures.
+  /// The empty room in each camera's picture; if there are none, rooms are estimated from the pictures.
   std::span<const ColourImage> rooms;
   /// `masks[camera][frame]`: the person in each picture, at the cameras' picture sizes, from any segmenter. With masks,
   /// `pictures` and `rooms` are not used and may be empty. Without masks, the person is found in `pictures`.

@@ -38,7 +38,7 @@ constexpr std::size_t kMaxLockBytes = 4 << 20;
 constexpr std::size_t kEnoughLocks = 17'000;  // more than a program may have (ProgramLimits::kFileLocks)
 constexpr int kMaxSamplesUnseen = 3;
 
-/// Returns the time since this thread started, and since the epoch of Clock.
+/// Returns the processor time of this thread and the wall time since the epoch of Clock.
 ElapsedTime Now() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

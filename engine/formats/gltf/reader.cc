@@ -272,7 +272,7 @@ std::optional<std::string> WithoutDracoMeshes(const GltfContainer& container) {
   return bytes += container.binary;
 }
 
-/// The maximal length of a name; every clip copies the names of its joints, so long ones would multiply.
+/// The maximal length of a name; every clip copies the names of its joints, so long names would use much memory.
 constexpr std::size_t kMaxNameBytes = 500;
 
 template <typename Named>
