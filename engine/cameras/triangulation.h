@@ -71,7 +71,7 @@ class EpipolarGeometry {
 class PairGeometry {
  public:
   explicit PairGeometry(std::span<const ProjectionMatrix> cameras);
-  /// Returns nullopt for a camera and itself, and if EpipolarGeometry::Of returns nullopt.
+  /// Returns nullopt if both indices are equal, or if EpipolarGeometry::Of returns nullopt.
   const std::optional<EpipolarGeometry>& operator()(std::size_t first, std::size_t second) const {
     return of_[first * cameras_ + second];
   }

@@ -115,7 +115,7 @@ std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
   }
   const int top = static_cast<int>(std::ranges::find(below | std::views::reverse, wanted).base() - below.begin()) - 1;
   if (top < 0) return "";
-  // Collect the joints outside its subtree, with the file's own names: readers number equal names ("Hips#2").
+  // Collect the joints outside the subtree of `top`, with the file's own names: readers number equal names ("Hips#2").
   constexpr std::size_t kMinJoints = 12;
   Skeleton others;
   std::vector<int> place(skeleton.joints.size(), -1);
