@@ -39,8 +39,8 @@ struct RefineOptions {
   /// Holds focal lengths, principal points and lenses fixed at their start values: for rigs whose cameras were
   /// calibrated one by one and then set up.
   bool hold_intrinsics = false;
-  /// Holds the cameras fixed, and estimates the pose of the first target, too. This measures how well known cameras
-  /// explain the views.
+  /// Holds the cameras fixed and estimates the poses of all targets, including the first. The residuals then show how
+  /// well known cameras explain the views.
   bool hold_cameras = false;
   int most_iterations = 200;
 };

@@ -14,7 +14,7 @@ namespace {
 /// stays at nearly the same height. The body is `length` long; `columns` are those of the wrists.
 bool StandsOnHands(std::span<const glm::dvec3> positions, std::size_t joints, const std::array<std::size_t, 2>& columns,
                    double length) {
-  constexpr double kStillFloor = 0.1, kNear = 0.3, kMost = 0.5;  // the first two in body lengths, kMost as a share
+  constexpr double kStillFloor = 0.1, kNear = 0.3, kMost = 0.5;  // first two in body lengths, kMost a share of frames
   std::vector<double> lowest;
   double low = 0;
   for (std::size_t begin = 0; begin < positions.size(); begin += joints) {

@@ -25,7 +25,7 @@ class Bodies {
 
   /// Copies one body into the recording's frames. Takes the requested body, counted by first appearance; without a
   /// request, the body in most frames. If several are in equally many frames, takes the one that moves most, because in
-  /// crowded rooms sensors sometimes take furniture for a person. JoinContinued runs first.
+  /// crowded rooms sensors sometimes take furniture for a person. Calls JoinContinued before it chooses.
   Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
 
  private:

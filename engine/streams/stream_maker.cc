@@ -156,7 +156,7 @@ StreamLevel LevelOf(std::span<const RecordedFrame> frames, double rate_hz) {
 }  // namespace
 
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz) {
-  // Turn back a sensor in portrait or upside down.
+  // If the sensor was mounted in portrait or upside down, rotate the frames upright first.
   if (const int quarters = QuartersOfSensor(frames); quarters != 0) {
     const glm::dmat3 R_TF = QuarterTurns(quarters);
     std::vector<RecordedFrame> turned(frames.begin(), frames.end());

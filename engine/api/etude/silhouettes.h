@@ -12,7 +12,7 @@
 namespace etude::engine {
 
 struct FollowOptions {
-  double stature_m = 1.74;  ///< height of the person, who has an average adult's limbs for that height; 0.5 to 2.5
+  double stature_m = 1.74;  ///< height of the person, 0.5 to 2.5; the limbs have an adult's average proportions
   /// Poses of this person from which limb lengths are measured; `stature_m` is then ignored.
   std::vector<BodyPose> measured = {};
   double rate_hz = 30;  ///< frames per second, 1 to 1000; it limits how far a person can move between two pictures
