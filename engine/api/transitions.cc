@@ -74,7 +74,7 @@ std::vector<NumberSetting> TransitionJoinSettings(const std::string& join) { ret
 namespace {
 
 etude::BodyProportions ToEngineProportions(const BodyProportions& told) {
-  constexpr double kLowest = 0.1, kHighest = 10;  // metres
+  constexpr double kLowest = 0.1, kHighest = 10;  // range of the hips' height, metres
   if (!(told.hip_height >= kLowest && told.hip_height <= kHighest)) {
     throw BadInput(fmt::format("hips {} m high; allowed: {} to {}", told.hip_height, kLowest, kHighest));
   }

@@ -8,8 +8,8 @@
 namespace etude {
 namespace {
 
-/// Returns true if a spreadsheet would read the text as a formula. The first sign decides; spreadsheets skip spaces
-/// before it, and some accept its full-width form.
+/// Returns true if a spreadsheet would read the text as a formula. Only the first character matters; spreadsheets skip
+/// spaces before it, and some also accept its full-width form.
 bool BeginsFormula(std::string_view text) {
   constexpr std::array<char32_t, 8> kSigns = {'=', '+', '-', '@', 0xff1d, 0xff0b, 0xff0d, 0xff20};
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));

@@ -9,7 +9,7 @@ namespace etude {
 glm::dmat3 AxisRotation(const glm::dvec3& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle), t = 1 - c;
   const double x = axis.x, y = axis.y, z = axis.z;
-  // Written column by column, as GLM stores it.
+  // GLM's constructor takes the columns one after the other.
   return {t * x * x + c,     t * x * y + s * z, t * x * z - s * y,  //
           t * x * y - s * z, t * y * y + c,     t * y * z + s * x,  //
           t * x * z + s * y, t * y * z - s * x, t * z * z + c};
@@ -35,7 +35,7 @@ glm::dvec3 AnglesXyz(const glm::dmat3& rotation) {
   const double cos_y = std::hypot(rotation[0].x, rotation[1].x);
   const double x = std::atan2(-rotation[2].y, rotation[2].z), y = std::atan2(rotation[2].x, cos_y);
   if (cos_y > kMinCosY) return {x, y, std::atan2(-rotation[1].x, rotation[0].x)};
-  // Take z from the axes after the rotation about x: exact for any x.
+  // Near gimbal lock, undo the rotation about x first, and take z from the axes that result; this is exact for any x.
   const double c = std::cos(x), s = std::sin(x);
   return {x, y, std::atan2(c * rotation[0].y + s * rotation[0].z, c * rotation[1].y + s * rotation[1].z)};
 }

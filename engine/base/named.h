@@ -35,7 +35,7 @@ constexpr auto FindByName(const Rows& rows, std::string_view name, NameOf name_o
   return nullptr;
 }
 
-/// Returns the value with the name `name` in a table of Named rows; nothing if there is none.
+/// Returns the value with the name `name` in a table of Named rows; nullopt if there is none.
 template <typename Rows>
 constexpr auto FindValue(const Rows& rows, std::string_view name) -> std::optional<decltype(std::data(rows)->value)> {
   const auto* row = FindByName(rows, name);

@@ -21,15 +21,15 @@ enum class ErrorKind {
   kMachine,  ///< neither the input nor a method: no process can be started, the disk is full (machine.h)
 };
 
-/// An error of bad input, for people: where it is, what was found, what is allowed.
+/// An error with a message for the user: the position in the input, what was found, what is allowed.
 struct Error {
   Place place;
   std::string message;
   ErrorKind kind = ErrorKind::kInput;
 };
 
-/// Formats "file:line:column: message" without the unknown parts, with "this machine: " before an error of the machine, on
-/// one line and safe to show (Visible).
+/// Formats "file:line:column: message" without the unknown parts. An error of the machine begins with "this machine: ".
+/// The text is one line and safe to show (Visible).
 std::string ToString(const Error& error);
 std::string ToString(const Place& place);
 

@@ -15,9 +15,9 @@ namespace [[gnu::visibility("default")]] etude {
 struct NumberSetting {
   std::string key;
   double fallback = 0;
-  double lowest = 0, largest = 0;  ///< both allowed
+  double lowest = 0, largest = 0;  ///< the allowed range, both ends included
   bool is_whole = false;
-  std::string meaning;  ///< one sentence, for people
+  std::string meaning;  ///< one sentence, for users
 };
 
 /// Declares once which members of a method's options can be set: `Describe` lists them for files and pages, `Apply`
@@ -26,7 +26,7 @@ template <typename Options>
 class SettingTable {
  public:
   struct Row {
-    /// `lowest` and `largest` are both allowed; `meaning` is one sentence, for people.
+    /// The allowed range of values is `lowest` to `largest`, both included; `meaning` is one sentence, for users.
     template <typename Number>
     Row(std::string key, Number Options::*member, double lowest, double largest, std::string meaning)
         : setting{std::move(key),

@@ -31,7 +31,7 @@ std::vector<std::uint16_t> MakeCodes() {
   std::vector<std::uint16_t> codes;
   std::uint16_t word = 0;
   for (int i = 0; i < 1 << 16 && codes.size() < kCodeCount; ++i) {
-    word = static_cast<std::uint16_t>(word * 25173 + 13849);  // a generator of full period
+    word = static_cast<std::uint16_t>(word * 25173 + 13849);  // a linear congruential generator of full period
     const Turns turns = TurnsOf(word);
     const bool is_free = std::all_of(codes.begin(), codes.end(), [&](std::uint16_t other) {
       return std::all_of(turns.begin(), turns.end(),

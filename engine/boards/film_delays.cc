@@ -70,7 +70,7 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
                                     std::span<const double> delay_s) {
   SightingMap map;
   for (const BoardSighting& s : sightings) map[{s.view.camera, s.board, s.look}] = &s;
-  std::map<std::pair<std::size_t, int>, std::size_t> targets;  // by board and look of the first film
+  std::map<std::pair<std::size_t, int>, std::size_t> targets;  // their indices, by board and look of the first film
   std::size_t count = 0;
   const auto target_of = [&](std::size_t board, int look) {
     const auto [at, is_new] = targets.try_emplace({board, look}, count);

@@ -46,7 +46,7 @@ std::optional<Axes> AxesLike(const Saddle& saddle, bool is_bright, const Axes& e
 // line.
 bool IsEdge(const GreyImage& picture, const glm::dvec2& a, const glm::dvec2& b) {
   constexpr double kOffsetPx = 1.5;
-  constexpr double kMinStep = 15;  // counts
+  constexpr double kMinStep = 15;  // minimum difference of brightness, grey levels (of 255)
   const glm::dvec2 along = b - a;
   const glm::dvec2 offset = kOffsetPx / glm::length(along) * glm::dvec2(-along.y, along.x);
   int brighter = 0, darker = 0;
@@ -158,7 +158,7 @@ CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles
 
 constexpr int kMinCodes = 3;         // codes that must agree about a board
 constexpr int kMaxMisread = 1;       // maximum number of misread modules in a code, and in its margin
-constexpr double kMinContrast = 20;  // counts between black and white modules
+constexpr double kMinContrast = 20;  // minimum difference between black and white modules, grey levels
 
 // The position of a point of a grid or board in half squares, so that the centres of squares are whole numbers.
 struct Halves {
@@ -201,11 +201,11 @@ class Reader {
   }
 
  private:
-  // Returns the code in the lower right square of corner `place`; nothing if the square is black, if one of its corners
+  // Returns the code in the lower right square of corner `place`; nullopt if the square is black, if one of its corners
   // is unknown, or if its margin is not white.
   std::optional<std::uint16_t> ReadCode(const CornerGrid& grid, const GridIndex& place) const {
     const auto [i, j] = place;
-    if ((i + j) % 2 != 0) return std::nullopt;  // a black square
+    if ((i + j) % 2 != 0) return std::nullopt;  // a black square has no code
     // Collect the corners of the square.
     std::array<glm::dvec2, 4> corners;
     for (int k = 0; k < 4; ++k) {

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kBorder = 7;                     // pixels at the edges of the picture that are not searched
 constexpr int kNeighbourhood = 3;              // a saddle is the strongest within this distance, pixels
-constexpr double kMinRelativeStrength = 0.02;  // of the strongest saddle
-constexpr double kMinStrength = 60;            // squared counts per pixel²: weaker ones are camera noise
+constexpr double kMinRelativeStrength = 0.02;  // share of the strongest saddle's strength
+constexpr double kMinStrength = 60;            // squared grey levels per pixel²; weaker saddles are camera noise
 constexpr int kRefineReachPx = 5;
 constexpr int kRefineSteps = 8;
 constexpr double kConvergedPx = 0.01;

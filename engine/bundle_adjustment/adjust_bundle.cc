@@ -48,7 +48,7 @@ class TurnManifold final : public ceres::Manifold {
 
 /// All parameter blocks of the problem.
 struct Variables {
-  MeasurableBody body;  // with the lengths of the last evaluation
+  MeasurableBody body;  // the body with the lengths of the last evaluation
   std::vector<double> lengths;
   std::vector<FrameVariables> frames;
 };
@@ -356,7 +356,7 @@ BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& opt
     assert(state.angles.size() == inputs.body.tree.limits.size());
     variables.frames.emplace_back(state);
   }
-  // Without a usable solution, the result is the start.
+  // If Ceres finds no usable solution, return the start poses.
   BundleSolution solution;
   solution.lengths = inputs.body.lengths;
   solution.states.assign(inputs.start.begin(), inputs.start.end());

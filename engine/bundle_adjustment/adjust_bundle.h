@@ -52,8 +52,8 @@ struct BundleOptions {
   double loss_scale = 2;
   /// The smoothness prior; empty if frames are not consecutive.
   std::optional<BundleSmoothness> smoothness;
-  /// The standard deviation of the angle beyond a limit, radians. Limits are soft because they describe average people
-  /// *(ours)*.
+  /// The standard deviation of the amount by which an angle exceeds its limit, radians. Limits are soft because they
+  /// describe average people *(ours)*.
   double limit_deviation = Radians(3);
   bool adjusts_lengths = false;
   /// Maximum number of iterations. A take converges in about ten; later iterations only move along directions that no

@@ -16,7 +16,7 @@ struct BodyPoint {
 
 /// The linear dependence of an offset on a length: the offset grows by `per_metre` for every metre of the length.
 struct LengthShare {
-  int index = 0;   ///< of the joint (offset p_PJ) or of the point (offset p_LQ)
+  int index = 0;   ///< index of the joint (whose offset is p_PJ) or of the point (whose offset is p_LQ)
   int length = 0;  ///< index in `MeasurableBody::lengths`
   glm::dvec3 per_metre{0};
 };
@@ -31,7 +31,7 @@ struct MeasurableBody {
   std::vector<LengthShare> joint_shares, point_shares;
 };
 
-/// Returns the body with other lengths, metres; their number must be the same.
+/// Returns the body with other lengths, metres; there must be as many as in `body.lengths`.
 MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> lengths);
 
 /// The positions of a body's points in one pose, and their Jacobian. Each column holds the derivative of a point's
@@ -39,8 +39,8 @@ MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> l
 /// whole body about the root around the world's x, y, z (radians), each angle (radians), and each length (metres).
 struct PlacedPoints {
   std::vector<glm::dvec3> positions;  ///< p_WQ, metres
-  int columns = 0;                    ///< 6 + angles + lengths
-  std::vector<glm::dvec3> gains;      ///< [point · columns + column]
+  int columns = 0;                    ///< number of columns: 6 + angles + lengths
+  std::vector<glm::dvec3> gains;      ///< the Jacobian: [point · columns + column]
 
   const glm::dvec3* gains_of(int point) const { return gains.data() + static_cast<std::size_t>(point) * columns; }
 };

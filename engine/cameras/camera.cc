@@ -126,7 +126,7 @@ ProjectionMatrix MatrixOf(const Camera& camera) {
   const Intrinsics& in = camera.intrinsics;
   const glm::dmat3 K = glm::transpose(glm::dmat3(in.fx, in.skew, in.cx, 0, in.fy, in.cy, 0, 0, 1));
   const glm::dmat3 M = K * camera.R_CW;
-  const glm::dvec3 last = -(M * camera.p_WC);  // K p_CW
+  const glm::dvec3 last = -(M * camera.p_WC);  // the fourth column of H: K p_CW
   ProjectionMatrix matrix;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) matrix.h[row][column] = M[column][row];

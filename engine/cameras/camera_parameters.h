@@ -19,7 +19,7 @@ struct CameraParameters {
   double delta_u = 1;         ///< width of a pixel, in pixel heights; > 0
   double delta_v = 1;         ///< height of a pixel, in pixel heights
   double principal_u = 320;   ///< pu, pixels
-  double principal_v = 240;   ///< pv
+  double principal_v = 240;   ///< pv, pixels
   double skew = kRightAngle;  ///< θ, angle between the axes of the picture, radians, in (0, π)
   double omega = 0;           ///< rotations about x, y and z, radians; φ in [−π/2, π/2]
   double phi = 0;

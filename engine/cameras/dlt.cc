@@ -16,7 +16,7 @@ constexpr Named<Calibration> kCalibrations[] = {
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
 // A cloud of points counts as flat if its smallest extent is below this share of its largest extent: measurement errors
-// would then exceed the depth on which H's entries depend.
+// would then be larger than the smallest extent, on which entries of H depend.
 constexpr double kFlat = 1e-4;
 // Below this ratio of singular values (of the normalised system), another H fits the pairs equally well.
 constexpr double kUndetermined = 1e-9;
@@ -75,7 +75,8 @@ struct Solution {
   double determined;  // ratio of the second smallest to the largest singular value
 };
 
-// Solves the two equations of each pair (2.4 and 2.5 of the paper, here for the entries of H) for |H| = 1.
+// Solves the two equations of each pair (2.4 and 2.5 of the paper, here for the entries of H) for |H| = 1: H is the
+// right singular vector of the smallest singular value.
 Solution SolveDlt(std::span<const PointPair> pairs, const Normalisation<3>& world, const Normalisation<2>& pixel) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * pairs.size(), 12);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -106,8 +107,8 @@ Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration
   const auto world = NormalisationOf<3>(pairs.size(), [&](std::size_t i) { return ToEigen(pairs[i].world); });
   const auto pixel = NormalisationOf<2>(
       pairs.size(), [&](std::size_t i) { return Eigen::Vector2d(pairs[i].pixel.x, pairs[i].pixel.y); });
-  // The normalised system decides whether the pairs determine a camera, for both methods. The singular values of the
-  // plain system have no meaning, because it mixes metres with squared pixels.
+  // For the plain and for the normalised method, test with the normalised system whether the pairs determine a camera.
+  // The singular values of the plain system have no meaning, because that system mixes metres with squared pixels.
   const Solution normalised = SolveDlt(pairs, world, pixel);
   if (!(normalised.determined > kUndetermined)) {
     return Fail({}, "cannot calibrate a camera: more than one camera fits these point pairs; move some of them");

@@ -33,7 +33,8 @@ double LargestPlaneAngle(std::span<const StrokePlane> planes) {
   return largest;
 }
 
-// Returns the unit vector most nearly perpendicular to all weighted normals; its sign is arbitrary.
+// Returns the unit vector most nearly perpendicular to all weighted normals; its sign is arbitrary. For three or more
+// planes it is the right singular vector of the smallest singular value.
 glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double> weights) {
   if (planes.size() == 2) return glm::normalize(glm::cross(planes[0].normal_W, planes[1].normal_W));
   Eigen::MatrixX3d normals(planes.size(), 3);

@@ -29,8 +29,8 @@ glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel);
 struct StrokePlane {
   glm::dvec3 normal_W{0};  ///< unit, ray(a) × ray(b)
   glm::dvec3 ray_a_W{0};   ///< unit, from the camera through the stroke's start
-  glm::dvec3 ray_b_W{0};   ///< unit, through its end
-  double length_px = 0;    ///< of the stroke
+  glm::dvec3 ray_b_W{0};   ///< unit, from the camera through the stroke's end
+  double length_px = 0;    ///< length of the stroke
 };
 
 /// Returns the plane of a stroke; nullopt if the stroke has no length, that is, less than 0.01 pixel at a focal length
@@ -58,7 +58,7 @@ struct LimbDirection {
 /// / (length of the stroke) is the error of Nᵢ·d caused by an error of one pixel at the stroke's ends; a near camera,
 /// which shows the limb as a long stroke, therefore has more weight. εᵢ is computed with the d of equal weights.
 /// Strokes without length are left out. The direction points from a to b in the pictures (ours; the paper does not
-/// say). If pictures disagree about the sense, the pictures decide in which the limb is less foreshortened.
+/// say). If pictures disagree about the sense of d, those in which the limb is less foreshortened have more weight.
 /// @param min_plane_angle the result is ill-conditioned if no two planes differ by at least this angle, radians
 LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double min_plane_angle = Radians(3));
 

@@ -36,7 +36,7 @@ glm::dmat3 ToGlm(const Matrix3d& m) {
   return out;
 }
 
-/// Returns the rotation nearest to a matrix (Frobenius norm).
+/// Returns the rotation nearest to a matrix in the Frobenius norm, by the singular value decomposition.
 glm::dmat3 NearestRotation(const glm::dmat3& m) {
   Matrix3d e;
   for (int column = 0; column < 3; ++column) {

@@ -14,8 +14,9 @@ namespace {
 struct PixelErrors {
   std::size_t camera = 0;
   glm::dmat3x2 by_position{0};                                      ///< derivative of the pixel by the position, px/m
-  glm::dmat2 noise{0};                                              ///< covariance, px²
-  std::array<glm::dvec2, kCalibrationParameters> by_calibration{};  ///< px for one standard deviation
+  glm::dmat2 noise{0};                                              ///< covariance of the pixel, px²
+  std::array<glm::dvec2, kCalibrationParameters> by_calibration{};  ///< shift of the pixel by one standard deviation,
+                                                                    ///< px
 };
 
 /// Returns the pixel, with lens distortion, if it lies within the picture.
@@ -108,7 +109,7 @@ PointError ExpectedPointError(std::span<const Camera> cameras, const glm::dvec3&
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (!(subset >> i & 1)) continue;
       const PixelErrors& pixel = pixels[i];
-      const glm::dmat2x3 gain = *inverse * glm::transpose(pixel.by_position);  // K
+      const glm::dmat2x3 gain = *inverse * glm::transpose(pixel.by_position);  // K of point_error.h
       const glm::dmat3 noise = share * (gain * pixel.noise * glm::transpose(gain));
       expected.noise += noise;
       expected.covariance += noise;

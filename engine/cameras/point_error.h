@@ -11,9 +11,9 @@ namespace etude {
 
 /// The uncertainty of a rig's calibration: standard deviations, the same for all cameras and independent of each other.
 struct CalibrationDeviation {
-  double place_m = 0;  ///< of a camera's centre, along each axis
-  double turn = 0;     ///< of a camera's direction, about each of its axes, radians
-  double focal = 0;    ///< of a camera's focal length, as a share of the focal length
+  double place_m = 0;  ///< deviation of a camera's centre along each axis, metres
+  double turn = 0;     ///< deviation of a camera's orientation about each of its axes, radians
+  double focal = 0;    ///< relative deviation of a camera's focal length
 
   friend bool operator==(const CalibrationDeviation&, const CalibrationDeviation&) = default;
 };
@@ -34,8 +34,9 @@ constexpr std::size_t kCalibrationParameters = 7;
 /// The expected error of one triangulated point.
 struct PointError {
   int cameras = 0;           ///< number of cameras that have the point in their pictures
-  double lost = 1;           ///< probability that it cannot be triangulated; the members below hold if it can
-  glm::dmat3 covariance{0};  ///< of the position, m²
+  double lost = 1;           ///< probability that it cannot be triangulated; the members below describe the error if it
+                             ///< can be
+  glm::dmat3 covariance{0};  ///< covariance of the position, m²
   glm::dmat3 noise{0};       ///< the part of `covariance` due to the pixels' noise
   /// For each camera, the mean displacement of the position by one standard deviation of each calibration parameter,
   /// metres. A calibration error displaces all points of a take, so the errors of different points are correlated.

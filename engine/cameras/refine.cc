@@ -170,7 +170,7 @@ class Bundle {
  private:
   /// The free parameter of a column of the Jacobian.
   struct Column {
-    std::size_t camera = 0;  ///< or the target, counted after the cameras
+    std::size_t camera = 0;  ///< index of the camera, or number of cameras + index of the target
     int intrinsic = -1;      ///< an Intrinsic; −1 if the parameter belongs to a pose
   };
 
@@ -195,8 +195,8 @@ class Bundle {
     }
   }
 
-  // Eliminate the targets first. Intrinsics and poses are separate groups, because Ceres sorts the blocks of a group by
-  // their addresses: within one array this order is fixed, between arrays it depends on the heap.
+  // Eliminate the targets first (Schur complement). Intrinsics and poses are separate groups, because Ceres sorts the
+  // blocks of a group by their addresses: within one array this order is fixed, between arrays it depends on the heap.
   std::shared_ptr<ceres::ParameterBlockOrdering> TargetsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (PoseBlock& target : targets_) ordering->AddElementToGroup(target.data(), 0);

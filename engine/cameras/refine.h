@@ -28,7 +28,7 @@ struct TargetView {
 enum class LensModel {
   kPinhole,     ///< no distortion
   kRadial2,     ///< k1, k2, p1, p2: sufficient for most lenses
-  kRadial3,     ///< and k3: for wide angles whose pictures have points in the corners
+  kRadial3,     ///< k1, k2, k3, p1, p2: for wide-angle lenses, if there are points in the corners of the pictures
   kAsInCamera,  ///< the distortion of the start, held fixed
 };
 
@@ -39,8 +39,8 @@ struct RefineOptions {
   /// Holds focal lengths, principal points and lenses fixed at their start values: for rigs whose cameras were
   /// calibrated one by one and then set up.
   bool hold_intrinsics = false;
-  /// Holds the cameras fixed and frees the first target instead: this measures how well known cameras explain the
-  /// views.
+  /// Holds the cameras fixed and estimates the poses of all targets, including the first. The residuals then show how
+  /// well known cameras explain the views.
   bool hold_cameras = false;
   int most_iterations = 200;
 };
@@ -64,10 +64,10 @@ struct RefinedRig {
   /// Root mean square distance between pixels and projected points, for each camera and for all.
   std::vector<double> camera_rms_px;
   double rms_px = 0;
-  std::size_t points = 0;  ///< N
+  std::size_t points = 0;  ///< N, the number of point pairs
   /// p, the number of free parameters. If corners have errors of σ per coordinate, rms_px is near σ √(2 − p / N).
   std::size_t parameters = 0;
-  std::vector<IntrinsicsDeviation> deviations;  ///< 0 for cameras held fixed
+  std::vector<IntrinsicsDeviation> deviations;  ///< per camera; 0 if cameras are held fixed
 };
 
 /// Finds the cameras and target poses that minimise the sum of squared reprojection errors, with distortion (method

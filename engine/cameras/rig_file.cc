@@ -299,7 +299,7 @@ Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
 }
 
 Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file) {
-  constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;  // COLMAP's files list points, too
+  constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;  // larger, because COLMAP's files also list points
   if (inside.size() + outside.size() > kMaxPairBytes) {
     return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kMaxPairBytes);
   }

@@ -31,7 +31,7 @@ std::string WriteRig(std::span<const NamedCamera> cameras);
 struct RigFile {
   /// Metres, Y up; a picture of 0 × 0 pixels means that the file does not give its size.
   std::vector<NamedCamera> cameras;
-  std::string format;    ///< name of the format, for people
+  std::string format;    ///< name of the format, for users
   glm::dmat3 R_WF{1};    ///< rotates from the file's axes to the world of `cameras`
   double unit_m = 1;     ///< assumed length of the file's unit, metres
   bool has_unit = true;  ///< false: lengths have no unit (COLMAP)

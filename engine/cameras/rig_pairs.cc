@@ -138,7 +138,7 @@ Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t firs
 /// then the distortion.
 struct ColmapModel {
   std::string_view focal;
-  std::vector<std::size_t> distortion;  ///< indices in OpenCV's list
+  std::vector<std::size_t> distortion;  ///< for each coefficient: its index in OpenCV's list
   bool is_fisheye = false;
 };
 

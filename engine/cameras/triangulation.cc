@@ -33,7 +33,7 @@ double DepthOf(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ) {
   return std::abs(h3[0] * p_WQ.x + h3[1] * p_WQ.y + h3[2] * p_WQ.z + h3[3]) / scale;
 }
 
-// Solves the linear equations, with each sighting's two rows multiplied by its weight.
+// Solves the linear equations by least squares (SVD), with each sighting's two rows multiplied by its weight.
 TriangulatedPoint TriangulateWeighted(std::span<const Sighting> sightings, std::span<const double> weights) {
   TriangulatedPoint point;
   if (sightings.size() < 2) return point;

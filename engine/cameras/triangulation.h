@@ -47,7 +47,7 @@ TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 
 /// Triangulates like `Triangulate`, but also divides every row by the point's depth in its camera *(ours)*, so that
 /// distances in pixels are minimised: a distant camera measures the point less accurately and gets less weight
-/// (iterated linear least squares, Hartley and Sturm 1997, section 4.3; three rounds). For two cameras at equal
+/// (iterated linear least squares, Hartley and Sturm 1997, section 4.3; three iterations). For two cameras at equal
 /// distances the result is that of `Triangulate`.
 TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings);
 
@@ -71,7 +71,7 @@ class EpipolarGeometry {
 class PairGeometry {
  public:
   explicit PairGeometry(std::span<const ProjectionMatrix> cameras);
-  /// Returns nullopt for a camera and itself, and where EpipolarGeometry::Of has no geometry.
+  /// Returns nullopt if both indices are equal, or if EpipolarGeometry::Of returns nullopt.
   const std::optional<EpipolarGeometry>& operator()(std::size_t first, std::size_t second) const {
     return of_[first * cameras_ + second];
   }

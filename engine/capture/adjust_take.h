@@ -17,11 +17,11 @@ namespace etude {
 
 /// Paper B's body in the form that bundle adjustment compares with marks.
 struct TakeBody {
-  CaptureBody body;  ///< `PaperBody`
+  CaptureBody body;  ///< the body that `PaperBody` makes
   /// The same body for `AdjustBundle`: every role that a mark can show is a point; its lengths are the members of
   /// LimbLengths in their order, equal on both sides.
   MeasurableBody measurable;
-  std::array<int, kRoleCount> points{};  ///< of each role: its index in `measurable.points`, −1 if no mark shows it
+  std::array<int, kRoleCount> points{};  ///< for each role: its index in `measurable.points`, −1 if no mark shows it
 };
 
 TakeBody MakeTakeBody(const LimbLengths& lengths);
@@ -45,7 +45,7 @@ struct AdjustTakeOptions {
 struct AdjustedTake {
   bool is_solved = false;
   CaptureBody body;               ///< paper B's body with the lengths of the solution
-  std::vector<TreeState> states;  ///< of `body`, one per frame
+  std::vector<TreeState> states;  ///< one pose of `body` per frame
 };
 
 /// Adjusts a whole take at once (`AdjustBundle`): fits paper B's body in all frames to the marks of all pictures. The
@@ -67,7 +67,7 @@ struct MeasureLengthsOptions {
 /// Measures the limb lengths of the person in the pictures (future work in paper B, section 6.2.2): the lengths with
 /// which paper B's body best explains the marks of a few frames. Each frame has an independent pose (`AdjustBundle`
 /// over lengths and poses). The search starts at the medians of the distances between triangulated joints. Returns
-/// nothing if no frame shows a body or a length of the solution is not positive.
+/// nullopt if no frame shows a body or a length of the solution is not positive.
 /// @param measured the joints of every frame (`MeasureJoints`)
 std::optional<LimbLengths> MeasureLengths(const MeasureInputs& pictures, std::span<const JointMeasurements> measured,
                                           const MeasureLengthsOptions& options = {});

@@ -25,8 +25,8 @@ struct BridgeOptions {
 
 /// Completes every frame from the nearest measured frames before and after, separately for each quantity *(ours)*:
 /// directions along the great circle (slerp), points linearly. Before the first and after the last measurement the
-/// value is held. If the frame itself has a partial measurement, it is combined with the bridged value b *(ours)*:
-/// - An end that one camera sees is at the point of its sight line nearest to b; without b it is lacking.
+/// value is constant. A partial measurement of the frame itself is combined with the bridged value b *(ours)*:
+/// - An end that one camera sees is at the point of its sight line nearest to b; without b, the end is lacking.
 /// - A limb that lies in planes with unit normals Nᵢ has the direction d that minimises
 ///     Σ (Nᵢ·d)²/εᵢ² + |d − b|²/τ²,   εᵢ = max(1°, √2 · `mark_error_px` / length of the stroke · |ray × b|).
 ///   τ is `turn_per_frame` times the number of frames to the nearest measurement; εᵢ is the error of Nᵢ·b that the

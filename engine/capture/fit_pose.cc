@@ -56,7 +56,7 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
   return tree;
 }
 
-constexpr double kGoal = 1e-7;                       // metres
+constexpr double kGoal = 1e-7;                       // a target is met at this distance, metres
 constexpr double kMet = kRoleCount * kGoal * kGoal;  // a residual below means that all targets are met, m²
 // If the residual is below this multiple of the last frame's residual, no other start is tried.
 constexpr double kLikeTheLast = 1.5 * 1.5;
@@ -117,7 +117,7 @@ void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_L
 // same side as at rest; if it is straight at rest, like a back, it bends backwards.
 glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
                                    const glm::dvec3& back_W, int mirrored) const {
-  glm::dvec3 p_LT(0);  // the end of the limb from which the chain leads to the known joint
+  glm::dvec3 p_LT(0);  // the end of the limb, where the rest of the chain begins
   for (int beyond = body_.roles[Index(aim.role)].joint; beyond > 0 && beyond != limb;) {
     p_LT = tree_.joints[beyond].p_PJ;
     beyond = tree_.joints[beyond].parent;
@@ -165,7 +165,8 @@ glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::
     bent.push_back(limb);
     return BendTowards(limb, *main, wanted.places[main->role] - p_WL, R_WL, -Facing(wanted.places), mirrored);
   }
-  // Otherwise turn about the direction so that all known roles fit best.
+  // Otherwise rotate the limb about its direction so that the squared distances of all known roles from their targets
+  // are smallest.
   std::vector<glm::dvec3> now, then;
   for (const Aim& aim : aims) {
     now.push_back(R_WL * aim.p_LQ);
@@ -224,7 +225,7 @@ std::optional<PoseFit> PoseFitter::Fit(const PoseTargets& wanted, const std::opt
   for (const Role role : AllRoles()) {
     if (wanted.weights[Index(role)] > 0 && !IsFinite(wanted.places[role])) return std::nullopt;
   }
-  // Start from the pointed pose; try other starts while the residual is too large.
+  // Start from the pose of the first step (Point); try other starts while the residual is too large.
   const double enough = last ? std::max(kMet, kLikeTheLast * last->squares) : kMet;
   const Pointed pointed = Point(wanted);
   PoseFit best = Settle(wanted, pointed.state);

@@ -38,11 +38,11 @@ class PoseFitter {
   PoseFitter(const PoseFitter&) = delete;
   PoseFitter& operator=(const PoseFitter&) = delete;
 
-  /// Finds angles that minimise Σ weight · |target − role|², at least locally; the root stands at the target of the
-  /// left foot. If targets are not met and the residual is clearly larger than that of `last` (the fit of the frame
-  /// before, if there is one), more starts are tried: the pose of `last`, and, for every joint without a target, the
-  /// pose in which it bends to the other side. The lowest minimum found is returned. Returns nothing if a target with
-  /// weight is not finite or the left foot has no weight.
+  /// Finds angles that minimise Σ weight · |target − role|², at least locally; the root is at the target of the left
+  /// foot. If targets are not met and the residual is clearly larger than that of `last` (the fit of the frame before,
+  /// if there is one), more starts are tried: the pose of `last`, and, for every joint without a target, the pose in
+  /// which it bends to the other side. The lowest minimum found is returned. Returns nullopt if a target with a weight
+  /// above 0 is not finite, or if the left foot has weight 0.
   std::optional<PoseFit> Fit(const PoseTargets& wanted, const std::optional<PoseFit>& last = {}) const;
   /// Finds the local minimum near `state`; the root does not move.
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
@@ -74,7 +74,7 @@ class PoseFitter {
 
   const CaptureBody& body_;
   std::vector<Role> effector_roles_;
-  const KinematicTree tree_;  // with one effector per role that is not fixed to the root
+  const KinematicTree tree_;  // the body's tree with one effector per role that is not fixed to the root
   const GaussNewtonSolver solver_;
   std::vector<std::vector<int>> children_;
 };

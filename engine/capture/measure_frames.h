@@ -24,7 +24,7 @@ namespace etude {
 std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> cameras,
                                               std::span<const std::vector<Marks>> marks, double tolerance_px = 12);
 
-/// One vector per role, empty for roles without one.
+/// One vector per role; nullopt if the role has none.
 using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
 /// The spatial measurements from the marks of one frame.
@@ -50,7 +50,7 @@ struct MeasureInputs {
   /// `marks[camera][frame]`, pixels. All cameras have the same number of frames, taken at the same times; an unmarked
   /// picture has an empty `Marks{}`.
   std::span<const std::vector<Marks>> marks;
-  /// Empty, or one known measurement per frame.
+  /// One known measurement per frame; empty if there are none.
   std::span<const KnownMeasurement> known = {};
 };
 

@@ -45,7 +45,7 @@ std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& er
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     if (marks.effectors[i]) joints.push_back({EffectorMarks()[i].role, *marks.effectors[i], of_disc});
   }
-  // Marks of one joint share its information.
+  // Divide the information among all marks of one joint, because one decision of the annotator places them all.
   std::array<int, kRoleCount> count{};
   for (const MarkedJoint& joint : joints) ++count[Index(joint.role)];
   for (MarkedJoint& joint : joints) joint.information /= static_cast<double>(count[Index(joint.role)]);
@@ -107,8 +107,8 @@ std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const 
   const glm::dvec3 position = NearestOn(*line, near_W);
   const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
-  // The error of the depth of a joint that one picture shows, metres *(ours)*: neighbouring frames do not give it
-  // better.
+  // The standard deviation of the depth of a joint that only one picture shows, metres *(ours)*. It is so large because
+  // interpolation between neighbouring frames is inaccurate.
   constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
   return PointMeasurement{position, sum->information + depth};
@@ -214,7 +214,7 @@ std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyP
   middle(kSpine, kHipCentre, kShoulderCentre, kSpineShare);
   if (std::ranges::none_of(filled, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
 
-  // Attach missing joints to their neighbours as in `like`, turned by the difference of headings.
+  // Attach missing joints to their neighbours as in `like`, rotated by the difference of headings.
   const auto across = AcrossOf(joints);
   const glm::dvec3 like_across = like[kLeftHip] - like[kRightHip];
   const FloorMove turn{.yaw = across ? YawOf(*across) - YawOf(like_across) : 0};

@@ -47,7 +47,7 @@ struct JointMeasurements {
 /// cm *(ours)*. `inputs.known` is ignored.
 std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const MarkErrors& errors = {});
 
-/// Joint positions of one frame, empty for joints without one.
+/// Joint positions of one frame; nullopt for a joint whose position is unknown.
 using OptionalJoints = RoleVectors;
 
 /// Fills the gaps of each joint's track: linearly between measurements, constant before the first and after the last. A
@@ -59,7 +59,7 @@ std::vector<OptionalJoints> BridgeJoints(std::span<const JointMeasurements> meas
 std::vector<OptionalJoints> SmoothJoints(std::span<const JointMeasurements> measured, double rate_hz);
 
 /// Completes a body: hip centre and spine are interpolated between other joints; missing joints are attached to their
-/// neighbours as in `like`, rotated about the vertical to the heading of hips and shoulders. Returns nothing if no
+/// neighbours as in `like`, rotated about the vertical to the heading of hips and shoulders. Returns nullopt if no
 /// joint has a position.
 std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyPose& like);
 

@@ -20,13 +20,13 @@ namespace etude {
 
 struct RecoverInputs {
   CaptureBody body;  ///< the body of the person, from PaperBody or FittedBody
-  /// The observations, one per frame; empty for frames of which too little was seen.
+  /// One observation per frame; nullopt for frames in which too little was seen.
   std::span<const std::optional<LimbObservation>> seen;
-  /// Empty, or one flag per frame: true if the frame itself was marked. In a marked frame the solver starts at the
-  /// angles that the pictures show, in any other frame at the angles of the last frame.
+  /// One flag per frame: true if the frame itself was marked; empty if all were. In a marked frame the solver starts at
+  /// the angles that the pictures show, in any other frame at the angles of the last frame.
   std::vector<bool> marked = {};
-  /// Empty, or one per frame: true start angles or true poses. They replace the result of the start stage or of the
-  /// solver, so that the error of that stage can be measured.
+  /// The true start angles or true poses, one per frame, if known; otherwise empty. They replace the result of the
+  /// start stage or of the solver, so that the error of that stage can be measured.
   std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 
@@ -101,7 +101,7 @@ class LiveRecovery {
   /// `body` must outlive this object.
   LiveRecovery(const CaptureBody& body, const RecoverOptions& recover, const BridgeOptions& bridge);
 
-  /// Takes the next marked frame and returns its skeleton, or nothing while too little has been seen.
+  /// Takes the next marked frame and returns its skeleton; nullopt as long as too little of the body has been seen.
   std::optional<RecoveredFrame> Next(const FrameMeasurement& measured, const KnownAngles& known = {});
 
  private:

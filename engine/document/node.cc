@@ -58,7 +58,7 @@ Result<void> CheckControls(std::string_view text, const Place& place) {
 // Refuses a carriage return without a line feed. yaml-cpp 0.8 ends a line there; older versions treat it as text.
 Result<void> CheckLineEnds(std::string_view text, const std::string& file) {
   int line = 1;
-  std::size_t start = 0;  // of the line
+  std::size_t start = 0;  // start of the current line
   for (std::size_t at = 0; at < text.size(); ++at) {
     if (text[at] == '\n') {
       ++line;

@@ -26,7 +26,7 @@ struct Node {
 
 struct Node::Entry {
   std::string key;
-  Place place;  ///< of the key
+  Place place;  ///< position of the key
   Node value;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxBones = 1000;
 constexpr double kCmuRateHz = 120;
-constexpr double kMaxRadians = 4 * kPi;  // larger numbers are degrees
+constexpr double kMaxRadians = 4 * kPi;  // an angle with a larger number must be in degrees
 
 glm::dquat TurnAbout(int axis, double angle) {
   glm::dvec3 direction(0);
@@ -50,12 +50,12 @@ struct AcclaimBone {
   glm::dvec3 end{0};  ///< vector from the bone's beginning, in the rest pose
   glm::dquat axes{1, 0, 0, 0};
   std::vector<AcclaimSkeleton::Channel> channels = {};
-  glm::dvec3 begin{0};  ///< of the root: its position
+  glm::dvec3 begin{0};  ///< position of the root; 0 for all other bones
 };
 
 class SkeletonReader {
  public:
-  /// With `is_told_degrees`, the file's own unit of angles is not used.
+  /// If `is_told_degrees` is true, all angles are read as degrees, whatever unit the file states.
   SkeletonReader(std::string_view text, const std::string& file, bool is_told_degrees)
       : file_(file), lines_(text, file), is_told_degrees_(is_told_degrees) {}
 
@@ -234,7 +234,7 @@ class SkeletonReader {
       made.channels.emplace_back();
       made.axes.emplace_back(1, 0, 0, 0);
     }
-    // Every bone must have been reached.
+    // Every bone must have been reached from the root.
     if (joint_of.size() == bones_.size()) return made;
     const auto lost =
         std::ranges::find_if(bones_, [&](const AcclaimBone& bone) { return !joint_of.contains(*FindBone(bone.name)); });
@@ -245,7 +245,7 @@ class SkeletonReader {
   std::string file_;
   AcclaimLines lines_;
   bool in_degrees_ = true, is_told_degrees_ = false;
-  double largest_ = 0;  ///< angle in the file's unit
+  double largest_ = 0;  ///< largest angle read so far, in the file's unit
   std::vector<AcclaimBone> bones_ = {AcclaimBone{.name = "root"}};
   std::map<std::size_t, std::size_t> parent_of_;
 };
@@ -301,7 +301,7 @@ struct AcclaimFrames {
   double largest = 0;
 };
 
-/// Reads the frames; with `is_told_degrees`, the stated unit of angles is not used.
+/// Reads the frames. If `is_told_degrees` is true, all angles are read as degrees, whatever unit the file states.
 Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
                                  bool is_told_degrees) {
   // Look up bones by their names.
@@ -345,7 +345,7 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
                                std::vector<std::string>* remarks) {
   ASSIGN_OR_RETURN(auto read, ReadFrames(text, skeleton, file, false));
   std::string remark;
-  constexpr double kMinDegrees = 0.5;  // smaller ones are those of a rest pose
+  constexpr double kMinDegrees = 0.5;  // a recording whose angles are all smaller shows only the rest pose
   if (!read.in_degrees && read.largest > kMaxRadians) {
     remark = fmt::format("its angles are taken as degrees: as radians, which are stated, they would reach {:.4g}",
                          read.largest);

@@ -12,15 +12,16 @@
 namespace etude {
 
 /// A skeleton from Acclaim's ASF format, which CMU's recordings use. Each bone becomes a joint at the bone's beginning;
-/// bones without children get an end site. In the rest pose all joints have the world's axes.
+/// bones without children get an end site. In the rest pose, the axes of all joints are parallel to the world's.
 struct AcclaimSkeleton {
-  /// A value of a bone in each frame of a motion: a translation along or a rotation about X, Y or Z.
+  /// One number per frame of a motion: a bone's translation along X, Y or Z, or its rotation about X, Y or Z.
   struct Channel {
     bool turns = true;
     int axis = 0;
   };
   Skeleton skeleton;                           ///< "root" comes first; lengths are in the file's unit
-  std::vector<std::vector<Channel>> channels;  ///< per joint, in the order of the values in a motion
+  std::vector<std::vector<Channel>> channels;  ///< per joint: its channels, in the order of their values in a motion
+                                               ///< file
   std::vector<glm::dquat> axes;                ///< per joint: the axes of its rotations
   bool in_degrees = true;
   std::string remark = "";  ///< about angles that are impossible in the stated unit; "" if there are none
@@ -29,15 +30,16 @@ struct AcclaimSkeleton {
 /// Returns true if a text begins like a motion (AMC): after comments, with a line ":FULLY-SPECIFIED" or ":DEGREES".
 bool IsAcclaimMotion(std::string_view text);
 
-/// Reads an ASF file. Angles beyond 4π are degrees, whatever the file states. Returns an error with file:line:column if
-/// the text is not Acclaim's, has bone lengths as channels, bones that are defined twice or not connected, numbers
-/// beyond ±10⁹, or more than 1,000 bones.
+/// Reads an ASF file. Angles beyond 4π are read as degrees, whatever unit the file states. Returns an error with
+/// file:line:column if the text is not Acclaim's, has bone lengths as channels, bones that are defined twice or not
+/// connected, numbers beyond ±10⁹, or more than 1,000 bones.
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file);
 
 /// Reads an AMC file for a skeleton of ReadAcclaimSkeleton. The file has no frame rate; 120 Hz is assumed, the rate of
 /// CMU's recordings. Angles have the unit that the file states, otherwise the skeleton's unit. Angles beyond 4π radians
-/// are read as degrees. This, and degrees that may be radians, are appended to `remarks` (may be null). Returns an error for bones that the skeleton lacks, a wrong number of values, frames
-/// that are not numbered consecutively, or no frames.
+/// are read as degrees. `remarks` (may be null) receives a sentence if this happens, and if angles that are read as
+/// degrees may be radians. Returns an error for bones that the skeleton lacks, a wrong number of values, frames that
+/// are not numbered consecutively, or no frames.
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
                                std::vector<std::string>* remarks = nullptr);
 

@@ -31,7 +31,7 @@ struct BvhChannel {
 /// The HIERARCHY section of a BVH file.
 struct BvhHierarchy {
   Skeleton skeleton;
-  std::vector<BvhChannel> channels;  ///< in the order of the numbers in a frame
+  std::vector<BvhChannel> channels;  ///< in the order of their numbers in a frame
 };
 
 constexpr int kMaxNesting = 128;
@@ -217,7 +217,7 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
   if (count < 1 || count != std::floor(count)) {
     return Fail(scanner.At(count_token), "found {} frames; allowed: a whole number from 1", Quote(count_token.text));
   }
-  // Check the announced size before any frame is stored, so that no memory is allocated for it.
+  // Check the announced size before any frame is stored, so that a false size cannot exhaust the memory.
   const double bytes = count * static_cast<double>(joints * sizeof(LocalTransform));
   if (bytes > kMaxFrameBytes) {
     return Fail(scanner.At(count_token), "{} frames of {} joints take {:.0f} MB; allowed: {:.0f} MB", count_token.text,
@@ -328,7 +328,7 @@ void AddOffsets(const std::vector<BvhChannel>& channels, Clip& clip) {
 /// Returns the largest rotation of a joint relative to its parent, degrees, in about a hundred of the frames.
 double LargestRotation(const std::vector<LocalPose>& frames) {
   constexpr std::size_t kSamples = 100;
-  double sine = 0;  // the sine of half that rotation
+  double sine = 0;  // sine of half the largest rotation so far
   for (std::size_t f = 0; f < frames.size(); f += 1 + frames.size() / kSamples) {
     for (const LocalTransform& local : frames[f]) {
       sine = std::max(sine, glm::length(glm::dvec3(local.rotation.x, local.rotation.y, local.rotation.z)));
@@ -389,7 +389,7 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
     AddOffsets(hierarchy.channels, clip);
     remark("the joints' positions are relative to their OFFSETs, which were added");
   }
-  // Angles in radians hardly move the body if they are read as degrees.
+  // If all angles are small numbers, they may be radians that were read as degrees.
   constexpr double kMaxRadians = 6.2832, kMoves = 1.2;
   if (const double largest = LargestRotation(clip.frames); largest > kMoves && largest < kMaxRadians) {
     remark(fmt::format("no joint rotates by more than {:.2g} degrees: if the file's angles are radians, convert them to "

@@ -51,7 +51,7 @@ std::map<std::string, double> BodySizes(const C3dParameters& parameters) {
   return sizes;
 }
 
-/// Returns a frame number that TRIAL states in two words.
+/// Returns the frame number of a parameter in the group TRIAL, which is stored as two 16-bit words, the lower first.
 std::optional<double> TrialField(const C3dParameters& parameters, const char* name) {
   const auto low = parameters.Number(name, 0), high = parameters.Number(name, 1);
   return low && high ? std::optional(*low + 65536 * *high) : std::nullopt;
@@ -63,8 +63,8 @@ std::size_t CountFrames(const C3dBytes& bytes, const C3dParameters& parameters) 
   double frames = last - first + 1;
   const auto begin = TrialField(parameters, kStartField), end = TrialField(parameters, "TRIAL:ACTUAL_END_FIELD");
   if (begin && end && *end >= *begin) frames = *end - *begin + 1;
-  // If the number of frames does not fit into the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES as a
-  // float.
+  // A number of frames that does not fit into the header's 16-bit words is in POINT:LONG_FRAMES, or in POINT:FRAMES as
+  // a float.
   if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
   if (const auto told = parameters.Number("POINT:LONG_FRAMES"); told && *told > frames) frames = *told;
   return frames >= 1 && frames <= kMaxC3dFrames ? static_cast<std::size_t>(frames) : 0;

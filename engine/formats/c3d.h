@@ -14,8 +14,8 @@ struct C3d {
   MarkerMotion markers;  ///< metres; names are the file's labels, or, without a label, for example "point 7"
   std::string unit;      ///< the file's unit, for example "mm"; "" if the file gives none, which means millimetres
   char up = 0;           ///< 'X', 'Y' or 'Z' if POINT:Y_SCREEN gives it, else 0
-  bool is_up_negative = false;  ///< that axis points down
-  double step_m = 0;     ///< resolution of a file with whole numbers; 0 for floats
+  bool is_up_negative = false;  ///< true if the axis `up` points down
+  double step_m = 0;     ///< smallest difference of two coordinates if they are stored as whole numbers; 0 for floats
 };
 
 /// Returns true if bytes begin like a C3D file: a block number and the key 0x50.
@@ -23,16 +23,16 @@ bool IsC3d(std::string_view bytes);
 
 /// Reads the points of a C3D file (c3d.org's format). It accepts files of Intel, DEC and MIPS machines, whole numbers
 /// and floats, parameters at any block, more than 255 points (LABELS2 …) and more than 65,535 frames (TRIAL's fields,
-/// LONG_FRAMES). The remark mentions data after the last frame. A point with a negative residual or without finite
-/// coordinates counts as not seen. Analogue channels, rotations and events are ignored. Widths of joints
+/// LONG_FRAMES). The markers' `remark` states if data follow the last frame. A point with a negative residual or
+/// without finite coordinates counts as not seen. Analogue channels, rotations and events are ignored. Widths of joints
 /// (PROCESSING:LKNEEWIDTH and so on, as Vicon writes them, millimetres) become the markers' `sizes_m`. Returns an error
 /// if the file is not C3D or is truncated, has no points or no rate, has a unit other than m, cm, mm, in, ft, or more
 /// than 10,000 points or 10⁷ frames.
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file);
 
-/// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres with Y up on the screen. A marker
-/// that was not seen is written with the residual −1. Names longer than 127 bytes are cut. There may be at most 65,535
-/// markers.
+/// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres; POINT:Y_SCREEN states that Y points
+/// up. A marker that was not seen is written with the residual −1. Names longer than 127 bytes are cut. There may be at
+/// most 65,535 markers.
 std::string WriteC3d(const MarkerMotion& motion);
 /// Writes a body's joints as a C3D file with one marker per role.
 std::string WriteC3d(const BodyMotion& motion);

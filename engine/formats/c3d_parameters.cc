@@ -13,7 +13,8 @@ int C3dBytes::Integer(std::size_t at) const { return static_cast<std::int16_t>(W
 double C3dBytes::Float(std::size_t at) const {
   std::uint32_t bits = Word(at + 2) << 16 | Word(at);
   if (machine_ != C3dMachine::kIntel) bits = Word(at) << 16 | Word(at + 2);
-  // The exponent of a DEC float has a bias larger by one, and its mantissa lies in [½, 1): together a factor of 4.
+  // Compared with an IEEE float, a DEC float has an exponent bias larger by one and a mantissa in [½, 1). Read as an
+  // IEEE float, its bits therefore give 4 times its value.
   return machine_ == C3dMachine::kDec ? std::bit_cast<float>(bits) / 4 : std::bit_cast<float>(bits);
 }
 
@@ -36,7 +37,8 @@ C3dParameters::C3dParameters(const C3dBytes& bytes, std::size_t at) : bytes_(byt
   std::map<int, std::string> group_names;
   std::vector<std::pair<int, std::pair<std::string, Parameter>>> found;
   const std::size_t end = std::min(bytes.size(), at + kC3dBlock * std::max(1u, bytes.Byte(at + 2)));
-  // The number of blocks is wrong in some files, so follow the chain to its own end, as long as there are bytes.
+  // Some files state a wrong number of blocks, so follow the chain of records to its last record or to the end of the
+  // file.
   for (std::size_t record = at + 4; record + 4 < std::max(end, bytes.size());) {
     const auto length = static_cast<std::int8_t>(bytes.Byte(record));
     const auto id = static_cast<std::int8_t>(bytes.Byte(record + 1));
@@ -58,7 +60,7 @@ C3dParameters::C3dParameters(const C3dBytes& bytes, std::size_t at) : bytes_(byt
     if (offset == 0) break;
     record = offset_at + offset;
   }
-  // A group may follow its parameters, so join the names at the end.
+  // A group's record may follow the records of its parameters, so combine the names after all records are read.
   for (auto& [group, named] : found) all_[group_names[group] + ":" + named.first] = named.second;
 }
 

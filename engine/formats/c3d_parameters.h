@@ -11,7 +11,7 @@ namespace etude {
 
 constexpr std::size_t kC3dBlock = 512;  ///< bytes
 
-/// The kinds of machine whose numbers a C3D file holds, as its header numbers them.
+/// The types of processor whose number formats a C3D file may use, with their codes in the file.
 enum class C3dMachine { kIntel = 84, kDec = 85, kMips = 86 };
 
 /// Reads numbers in the representation of one kind of machine; bytes beyond the end count as zero.
@@ -36,7 +36,7 @@ class C3dBytes {
 /// The parameters of a C3D file, with names such as "POINT:USED".
 class C3dParameters {
  public:
-  /// Follows the chain of records that begins at `at`.
+  /// Reads the parameter section that begins at byte `at`.
   C3dParameters(const C3dBytes& bytes, std::size_t at);
 
   std::optional<double> Number(const std::string& name, std::size_t index = 0) const;

@@ -82,10 +82,10 @@ Result<Numbers> ReadNumbers(const Json& frame, std::size_t index, const std::str
   return numbers;
 }
 
-/// Makes a pose from a frame's numbers; returns nothing if a quaternion has length 0.
+/// Makes a pose from a frame's numbers; returns nullopt if a quaternion has length 0.
 std::optional<LocalPose> PoseOf(const Numbers& numbers) {
   LocalPose pose;
-  std::size_t next = 1;  // skips the duration
+  std::size_t next = 1;  // index 0 is the duration
   const glm::dvec3 root(numbers[1], numbers[2], numbers[3]);
   next += 3;
   for (const HumanoidJoint& joint : kHumanoid) {

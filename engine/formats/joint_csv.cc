@@ -16,7 +16,8 @@ namespace {
 
 std::string HeadingOf(Role role, int axis) { return fmt::format("{}_{}_m", RoleName(role), "xyz"[axis]); }
 
-/// Returns the rate from the median time step above 0: rows may share a time that is printed with few decimals.
+/// Returns the rate from the median of the positive time steps; steps of 0 occur if times are printed with few
+/// decimals.
 std::optional<double> RateOf(const std::vector<double>& times_s) {
   std::vector<double> steps;
   for (std::size_t t = 1; t < times_s.size(); ++t) {
@@ -47,7 +48,8 @@ Result<void> CheckColumns(std::size_t headings, std::size_t columns, const std::
                   : "");
 }
 
-/// Assigns the columns; `left_out` gets the headings of texts that are none of ours.
+/// Assigns the columns to joints and coordinates by their headings; `left_out` receives the unknown headings of text
+/// columns.
 Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& file,
                                     std::vector<std::string>& left_out) {
   // Check the number of headings, and list the known ones.
@@ -128,7 +130,7 @@ std::string WriteJointCsv(const BodyMotion& motion) {
 }
 
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
-  constexpr double kMaxTime = 1e19;  // nanoseconds since 1970
+  constexpr double kMaxTime = 1e19;  // large enough for nanoseconds since 1970
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTime, true));
   JointCsv csv;
   std::vector<std::string> left_out;
@@ -142,7 +144,7 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
     if (csv.columns.number) csv.numbers.push_back(table.Row(t)[*csv.columns.number]);
     csv.frames.push_back(row.places);
   }
-  // Bring the times to seconds, and say what was concluded.
+  // Convert the times to seconds, and state assumptions and ignored columns in the remark.
   csv.scale = FindTimeScale(csv.times_s, {});
   for (double& time : csv.times_s) time = csv.scale.SecondsOf(time);
   csv.rate_hz = RateOf(csv.times_s);

@@ -22,20 +22,20 @@ std::string WriteJointCsv(const BodyMotion& motion);
 struct JointCsvColumns {
   std::size_t count = 0;
   std::optional<std::size_t> time = {}, number = {};
-  /// The columns of x, y and z for each joint; empty if the file lacks the joint.
+  /// The columns of x, y and z for each joint; nullopt if the file lacks the joint.
   std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount> joints = {};
 };
 
 /// The contents of a joint CSV file. It may lack joints, and a joint may be missing in some frames.
 struct JointCsv {
   JointCsvColumns columns;
-  std::optional<double> rate_hz;  ///< from the median step of `time_s` above 0; empty without such a step
-  TimeScale scale;                ///< of the column `time_s`
-  std::vector<double> times_s;    ///< per frame, by that scale; NaN if unknown
-  std::vector<double> numbers;    ///< per frame: the column `frame`; empty without it
+  std::optional<double> rate_hz;  ///< from the median of the positive time steps; nullopt if there is none
+  TimeScale scale;                ///< unit and origin of the column `time_s`
+  std::vector<double> times_s;    ///< per frame, in seconds, converted by `scale`; NaN if unknown
+  std::vector<double> numbers;    ///< per frame: its value in the column `frame`; empty if the file lacks this column
   std::vector<int> lines;         ///< per frame: its line in the text, from 1
   std::vector<std::array<std::optional<glm::dvec3>, kRoleCount>> frames;
-  std::string remark;  ///< what was concluded or left out, for people
+  std::string remark;  ///< message for the user about assumptions and ignored columns
 };
 /// Reads a file of `WriteJointCsv`, or any file with some of its columns in any order. Returns an error with the line
 /// for anything that `ReadNumberRows` refuses, unknown headings over numbers, a joint without all three coordinates,
@@ -44,7 +44,7 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file);
 
 /// One row of a joint CSV file.
 struct JointCsvRow {
-  double time_s = 0;  ///< as the file counts it; NaN if unknown
+  double time_s = 0;  ///< in the file's own unit and origin; NaN if unknown
   std::array<std::optional<glm::dvec3>, kRoleCount> places = {};
 };
 /// Reads one more row of a file with known columns. Returns an error for anything that `ReadNumberRows` refuses, or if

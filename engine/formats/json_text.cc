@@ -9,7 +9,7 @@ namespace {
 /// Returns the position of byte `index`, which may be the end of the text.
 Place PlaceOf(std::string_view text, std::size_t index, const std::string& file) {
   const std::string_view before = text.substr(0, index);
-  const std::size_t start = before.rfind('\n') + 1;  // 0 if there is none
+  const std::size_t start = before.rfind('\n') + 1;  // 0 on the first line, where rfind returns npos
   return {file, static_cast<int>(1 + std::ranges::count(before, '\n')), static_cast<int>(before.size() - start + 1)};
 }
 

@@ -71,7 +71,7 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
     return glm::dvec3(v[0], v[1], v[2]);
   };
   const auto matrix = [&](std::size_t frame, std::size_t joint) {
-    const double* v = &matrices.values[9 * (frame * joints + joint)];  // row by row
+    const double* v = &matrices.values[9 * (frame * joints + joint)];  // nine numbers, row by row
     return glm::dmat3(v[0], v[3], v[6], v[1], v[4], v[7], v[2], v[5], v[8]);
   };
   constexpr double kRounding = 1e-3, kMaxPlace_m = 1e6;

@@ -41,7 +41,7 @@ struct BidsChannels {
 
 Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file) {
   BidsChannels channels;
-  std::array<std::size_t, 4> at{};  // component, type, tracked_point, units
+  std::array<std::size_t, 4> at{};  // indices of the columns component, type, tracked_point, units
   constexpr std::array kHeads = {"component", "type", "tracked_point", "units"};
   std::map<std::string, int, std::less<>> points;
   std::vector<std::array<bool, 3>> has;
@@ -155,7 +155,8 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
                   .rate_name = "SamplingFrequency",
                   .time_name = "the channel LATENCY"};
   MarkerMotion& motion = laid.markers;
-  // Replace missing values in the file's own writing by "nan"; numbers that stand for them are compared below.
+  // Replace the file's own text for a missing value by "nan". If that text is a number, values are compared with it
+  // below.
   const auto missing = ParseFinite(facts.missing);
   std::string rows;
   for (std::string_view rest = motion_tsv; !missing && !rest.empty(); rows += '\n') {
@@ -176,7 +177,8 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
       const BidsChannels::Column& column = channels.columns[i];
       if (column.point >= 0) places[static_cast<std::size_t>(column.point)][column.axis] = column.metres * row[i];
     }
-    // A point is missing if a value is; 0 is a value of many points, unless all three are 0.
+    // A point is missing if one of its values is missing. But if 0 means missing, all three must be 0, because a single
+    // coordinate may really be 0.
     std::vector<int> gaps(places.size());
     for (std::size_t i = 0; missing && i < row.size(); ++i) {
       const int point = channels.columns[i].point;

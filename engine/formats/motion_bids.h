@@ -23,17 +23,17 @@ using BidsFiles = std::vector<std::pair<std::string, std::string>>;
 /// `_motion.json`, `dataset_description.json` and `README`. The letters and digits of `name` become the task's label.
 BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::string_view version);
 
-/// What `_motion.json` states.
+/// The properties that `_motion.json` states.
 struct BidsFacts {
-  double rate_hz = 0;            ///< SamplingFrequency
+  double rate_hz = 0;            ///< the value of SamplingFrequency
   std::string missing = "n/a";  ///< MissingValues: how the recording writes a missing value
 };
 
-/// Reads the POS channels of a recording: tracked points with the components x, y, z in m, cm or mm; a point with a
-/// missing value is not seen in that frame, and if 0 stands for one, a point at 0, 0, 0. A channel of the type LATENCY
-/// holds the times of the frames (LayOnClock). Channels of other types are left out, and the remark says so. Fails,
-/// with the line, for channels without the required columns, points that lack a component, other units, and if the
-/// numbers of channels and columns differ; also fails as GridOfRows.
+/// Reads the POS channels of a recording: tracked points with the components x, y, z in m, cm or mm; a point is not
+/// seen in a frame if one of its values is missing or, in files that write 0 for missing values, if all three are 0. A
+/// channel of the type LATENCY holds the times of the frames (LayOnClock). Channels of other types are left out, and
+/// the remark says so. Fails, with the line, for channels without the required columns, points that lack a component,
+/// other units, and if the numbers of channels and columns differ; also returns the errors of GridOfRows.
 /// @param files the names of the two files, for complaints
 Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_view channels_tsv, const BidsFacts& facts,
                                     const std::array<std::string, 2>& files);

@@ -11,12 +11,12 @@ namespace etude {
 /// Returns true if a text begins like a take exported by OptiTrack's Motive: with "Format Version,".
 bool IsMotiveCsv(std::string_view text);
 
-/// Reads a take exported by Motive (versions 1.2x): the positions of its bones with their names there ("Ann:LUArm"), or
-/// of its markers if it has no bones. Positions are in metres, Y up; a position that was not seen is empty. The rows
-/// are placed on frames (`LayOnClock`) by the times in the column Time, else in Frame. Returns an error with the line
-/// if coordinates are not global, the unit is not metres, centimetres or millimetres, there is no table, a cell is not
-/// a number, there are more than 1,000 bones or markers, or the text exceeds 64 MiB; also returns the errors of
-/// GridOfRows.
+/// Reads a take exported by Motive (versions 1.2x): the positions of its bones with their names in the file
+/// ("Ann:LUArm"), or of its markers if it has no bones. Positions are in metres, Y up; a position that was not seen is
+/// empty. The rows are placed on frames (`LayOnClock`) by the times in the column Time or, if it is empty, by the
+/// numbers in the column Frame. Returns an error with the line if coordinates are not global, the unit is not metres,
+/// centimetres or millimetres, there is no table, a cell is not a number, there are more than 1,000 bones or markers,
+/// or the text exceeds 64 MiB; also returns the errors of GridOfRows.
 Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& file);
 
 }  // namespace etude

@@ -131,7 +131,7 @@ std::vector<std::string> TextsOf(const NpyParts& parts) {
   return texts;
 }
 
-/// Reads the numbers of an .npy file; returns nothing if its values are not plain numbers.
+/// Reads the numbers of an .npy file; returns nullopt if its values are not plain numbers.
 Result<std::optional<NumberArray>> NumbersIn(const NpyParts& parts, const std::string& file) {
   const Place place{file};
   const auto [header, data] = parts;
@@ -275,7 +275,8 @@ std::string NpyOfTexts(const std::vector<std::string>& texts) {
   return bytes;
 }
 
-/// Returns a result of the ZIP library, which must not be null: writing into memory can only fail for lack of memory.
+/// Returns `made`, a result of the ZIP library. Throws std::bad_alloc if it is null, because writing into memory can
+/// only fail for lack of memory.
 template <typename Made>
 Made Needed(Made made) {
   if (!made) throw std::bad_alloc();
@@ -299,7 +300,7 @@ std::string WriteNpz(const std::map<std::string, NumberArray>& numbers,
   for (const auto& [name, bytes] : members) {
     zip_source_t* const member = Needed(zip_source_buffer(archive.get(), bytes.data(), bytes.size(), 0));
     const zip_int64_t at = zip_file_add(archive.get(), name.c_str(), member, ZIP_FL_ENC_UTF_8);
-    constexpr zip_uint16_t kFirstDay = 0x21;  // 1 January 1980: the clock is not read
+    constexpr zip_uint16_t kFirstDay = 0x21;  // 1 January 1980, so that the bytes do not depend on the date
     const auto index = static_cast<zip_uint64_t>(at);
     Needed(at >= 0 && zip_set_file_compression(archive.get(), index, ZIP_CM_STORE, 0) == 0 &&
            zip_file_set_dostime(archive.get(), index, 0, kFirstDay, 0) == 0);

@@ -26,7 +26,7 @@ struct Npz {
   const NumberArray* Find(const std::string& name) const;
 };
 
-/// Returns the shape for people: "3 × 20 × 3".
+/// Returns the shape as text for messages: "3 × 20 × 3".
 std::string ShapeText(const NumberArray& array);
 
 /// Returns true if bytes begin like a ZIP file.

@@ -18,14 +18,15 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 bool IsRowBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool IsComma(char c) { return c == ',' || c == ';'; }
 
-/// Returns what separates the cells below a heading: ';' or a tab if the heading has no comma; 0: any separator.
+/// Returns the separator of the cells below a heading: ';' or a tab if the heading contains it but no comma. Returns 0
+/// for any other heading: any separator is then allowed.
 char SeparatorOf(std::string_view heading) {
   if (heading.find(',') != std::string_view::npos) return 0;
   if (heading.find(';') != std::string_view::npos) return ';';
   return heading.find('\t') != std::string_view::npos ? '\t' : '\0';
 }
 
-/// Returns the words of one line; between commas, and between separators that the heading decides, they may be empty.
+/// Returns the words of one line. Words between commas, semicolons or the heading's `separator` may be empty.
 std::vector<std::string_view> WordsOf(std::string_view line, char separator) {
   std::vector<std::string_view> words;
   const bool is_told = separator != 0 && line.find(separator) != std::string_view::npos;
@@ -39,7 +40,7 @@ std::vector<std::string_view> WordsOf(std::string_view line, char separator) {
     if (by_comma || !word.empty()) words.push_back(word);
     start = i + 1;
   }
-  if (by_comma && !words.empty() && words.back().empty()) words.pop_back();  // "1,2,3,"
+  if (by_comma && !words.empty() && words.back().empty()) words.pop_back();  // a comma at the end: "1,2,3,"
   return words;
 }
 
@@ -106,7 +107,8 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
       const auto is_here = [i](const auto& column) { return column.first == i; };
       if (std::ranges::any_of(table.texts, is_here)) value = kMissing;
       if (!value || std::abs(*value) > largest) {
-        // A table whose columns may be texts is one of positions, beside a column of times.
+        // In a table with text columns, the larger limit applies only to the column of times, so the message states the
+        // limit for positions.
         const int column = static_cast<int>(words[i].data() - line_start) + 1;
         return Fail({file, line_number, column},
                     "value {}: {}; allowed: a number within ±{:g}, or nan for a missing one", i + 1, Quote(words[i]),

@@ -13,12 +13,12 @@ namespace etude {
 
 /// A table of numbers as text, with one line per row and values separated by spaces, tabs, commas or semicolons.
 struct NumberRows {
-  std::string heading;  ///< the first line that is not empty or a comment, if it is not a row of numbers
+  std::string heading;  ///< the first line that is neither empty nor a comment, unless it is a row of numbers
   std::size_t columns = 0;
   std::vector<double> values;  ///< row by row; NaN for a missing value
   std::vector<int> lines;      ///< per row: its line in the text, from 1
   bool has_decimal_commas = false;
-  /// The columns of texts, all of whose values are NaN, and their first text.
+  /// The columns that contain texts, each with its first text; all their values are NaN.
   std::vector<std::pair<std::size_t, std::string>> texts = {};
 
   std::size_t RowCount() const { return columns == 0 ? 0 : values.size() / columns; }
@@ -30,11 +30,11 @@ struct NumberRows {
 constexpr std::size_t kMaxNumberTextBytes = std::size_t{64} << 20;
 
 /// Reads a table of numbers. Empty lines and lines that begin with '#' or "//" are skipped. "nan", "na", "n/a" and
-/// "null" in any case, or nothing between two commas, is a missing value. A heading separated by semicolons, or by
-/// tabs, decides what separates the rows, too; a comma within their numbers is then a decimal comma. Quotes around a
-/// value are ignored. Returns an error with line and column for rows of different lengths, words, infinity, numbers
-/// beyond ±`largest` (times may need a larger limit than positions), no rows, or more than `kMaxNumberTextBytes` bytes.
-/// If `allows_texts`, a column whose first value is a word is one of texts.
+/// "null" in any case, or nothing between two commas, is a missing value. If the heading is separated by semicolons or
+/// tabs, the rows must be, too, and a comma within a number is a decimal comma. Quotes around a value are ignored.
+/// Returns an error with line and column for rows of different lengths, words, infinity, numbers beyond ±`largest`
+/// (times may need a larger limit than positions), no rows, or more than `kMaxNumberTextBytes` bytes. If
+/// `allows_texts`, a column whose first value is a word is a column of texts.
 Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest = 1e9,
                                   bool allows_texts = false);
 

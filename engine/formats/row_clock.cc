@@ -15,7 +15,9 @@ namespace {
 
 constexpr double kMaxStep_s = 600, kMaxBridged_s = 1, kMinSpan_s = 0.5;
 constexpr double kBriefTolerance = 0.05;
-constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;  // in frames
+// The distance, in frames, within which a row coincides with a frame is the rounding of the times, but at least kEven
+// (kExact for a whole rate) and at most kMaxEven.
+constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;
 constexpr double kMaxAddedValues = 1e7;
 
 /// Returns the power of ten, at most 0.1, of which all times are multiples: the last decimal to which they were
@@ -29,8 +31,9 @@ double PrintedStep(std::span<const double> times) {
   return 0;
 }
 
-/// Returns the rate that best fits steps of one to three frames, starting from the rate of the median step. Steps about
-/// half-way between whole numbers of frames are unclear and left out; they occur beside a row at a wrong time.
+/// Returns the rate that best fits steps of one to three frames, starting from the rate of the median step. If
+/// `only_clear_steps`, steps about half-way between whole numbers of frames are left out; they occur beside a row at a
+/// wrong time.
 double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
   constexpr double kUnclear = 0.4;  // a step farther than this from a whole number of frames is unclear
   constexpr int kRounds = 4;
@@ -50,8 +53,8 @@ double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
   return rate;
 }
 
-/// Returns the indices of the rows that are used. Of rows with equal times only the last is used. Fails if the times do
-/// not form a clock.
+/// Returns the indices of the rows that are used: of rows with equal times only the last. Fails if a time is missing,
+/// times decrease, or a step is too long.
 Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std::span<const int> lines,
                                               const std::string& file) {
   std::vector<std::size_t> rows;
@@ -106,7 +109,7 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
 /// preferred, then a whole number, then a rate of television (n · 1000 / 1001).
 std::optional<RowGrid> GridOfCoarseTimes(std::span<const double> times, std::optional<double> told_hz) {
   constexpr std::size_t kMinRows = 8;
-  constexpr double kMinPerStep = 1.05;  // rows per printed step; fewer are rows that were written twice
+  constexpr double kMinPerStep = 1.05;  // minimum of rows per printed step; fewer are duplicates
   const double step = PrintedStep(times), span = times.back() - times.front();
   if (times.size() < kMinRows || step == 0 || !(span > 0) || std::ranges::adjacent_find(times) == times.end()) {
     return std::nullopt;
@@ -145,14 +148,14 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   ASSIGN_OR_RETURN(const auto rows, CountingRows(times_s, lines, file));
   if (rows.size() < 2) return std::nullopt;
 
-  // Fit the rate to the steps.
+  // Fit the rate to the time steps between rows.
   std::vector<double> steps;
   for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(times_s[rows[i]] - times_s[rows[i - 1]]);
   const double start = times_s[rows.front()], span = times_s[rows.back()] - start;
   const double printed = 1.05 * PrintedStep(times_s), fitted = FittedRate(steps, false);
   const auto tolerance = [&](double rate) { return std::clamp(printed * rate, kEven, kMaxEven); };
   const auto fits = [&](double rate, double slack) {
-    constexpr double kMost = 0.9;  // share of the rows
+    constexpr double kMost = 0.9;  // minimum share of rows that coincide with frames
     const auto lies_on_frame = [&](std::size_t row) {
       const double place = (times_s[row] - start) * rate;
       return std::abs(place - std::round(place)) <= slack;
@@ -188,7 +191,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
                 "{} rows in {:.6g} s, mostly {:.3g} s apart; allowed: gaps of {:g} values in total, {} per frame",
                 rows.size(), span, 1 / grid.rate_hz, kMaxAddedValues, width);
   }
-  // Every frame is on a row, between two rows, or in a hole.
+  // Place every frame on a row, between two rows, or in a hole.
   std::size_t at = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const auto frame = static_cast<double>(k);
@@ -197,7 +200,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
     const std::size_t next = std::min(at + 1, rows.size() - 1);
     GridFrame& made = grid.frames.emplace_back(GridFrame{rows[at], rows[at]});
     if (next == at || std::abs(frame - place_of(at)) <= slack) continue;
-    constexpr double kMissing = 1.5;  // frames from row to row
+    constexpr double kMissing = 1.5;  // frames between neighbouring rows if a row is missing
     const double step = place_of(next) - place_of(at);
     made = {rows[at], rows[next], (frame - place_of(at)) / step, step >= kMissing};
   }

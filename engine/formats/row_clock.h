@@ -14,29 +14,31 @@
 
 namespace etude {
 
-/// A frame of an even grid: `part` (0 to 1) of the way from `row` to `next`.
+/// One frame of an even grid, interpolated between two rows: `part` is 0 at `row` and 1 at `next`.
 struct GridFrame {
   std::size_t row = 0, next = 0;
   double part = 0;
-  bool is_hole = false;  ///< by the clock, a row is missing here
+  bool is_hole = false;  ///< true if a row is missing at this time
 };
 
 /// The even grid of frames on which a file's rows are placed by their times.
 struct RowGrid {
   double rate_hz = 0;
   std::vector<GridFrame> frames;
-  bool is_even = true;  ///< every frame is exactly one row
-  std::string remark;   ///< a text for people about holes, uneven steps and equal times; "" if there are none
+  bool is_even = true;  ///< true if every frame is exactly one row
+  std::string remark;   ///< a text for users about holes, uneven steps and equal times; "" if there are none
 };
 
 /// Places rows on an even grid of frames by their times, which may be rounded to some decimals. The rate fits the steps
 /// between neighbouring rows; a whole rate, or `told_hz` (from the file's header, if any), is preferred if it is within
-/// their rounding. Rows are evenly spaced if times are printed so coarsely that neighbours share one. Rows that span less than half a second get the rate `told_hz`, or have no clock if their steps
-/// differ from it by more than 5 %. A frame takes the row whose time is within a tenth of a frame of the frame's time
-/// (or within the rounding of times). Without such a row, the frame is interpolated between two rows, or it is a hole
-/// if a row is missing. Of rows with equal times only the last is used. Returns nullopt if there is no clock: fewer
-/// than two rows, no time, or equal times. Fails, naming the row's line (`lines` may be empty), for a missing time,
-/// falling times, steps over ten minutes, and holes of more than ten million values in total, `width` values per frame.
+/// their rounding. Rows are evenly spaced if times are printed so coarsely that neighbours share one. Rows that span
+/// less than half a second get the rate `told_hz`, or count as having no clock if their steps differ from it by more
+/// than 5 %. A frame takes the row whose time is within a tenth of a frame of the frame's time (or within the rounding
+/// of times). Without such a row, the frame is interpolated between two rows, or it is a hole if a row is missing. Of
+/// rows with equal times only the last is used. Returns nullopt if there is no clock: there are fewer than two rows, no
+/// row has a time, or all times are equal. Fails, naming the row's line (`lines` may be empty), for a missing time,
+/// decreasing times, steps over ten minutes, and holes of more than ten million values in total, `width` values per
+/// frame.
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 
@@ -49,12 +51,12 @@ struct MarkerRows {
   MarkerMotion markers;
   std::vector<double> times_s;  ///< one per row; NaN if the row gives none
   std::vector<int> lines;       ///< line of each row, from 1
-  bool has_clock = true;        ///< false: the times were made from frame numbers
+  bool has_clock = true;        ///< false if the times were made from frame numbers
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
   std::string time_name = "the column Time";  ///< what holds the times
 };
-/// Places markers on frames by their times (FindTimeScale); in a hole, no marker was seen. The remark says what was changed. Fails like
-/// GridOfRows.
+/// Places markers on frames by their times, whose unit FindTimeScale finds; in a hole, no marker was seen. The remark
+/// says what was changed. Fails like GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 
 /// Places the joints of a CSV on frames by their times; without times, by their frame numbers at kJudgedRateHz.

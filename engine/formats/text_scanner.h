@@ -8,7 +8,8 @@
 
 namespace etude {
 
-/// A word of a text with its line and column, both counted from 1 (columns in bytes). It is empty at the end.
+/// A word of a text with its line and column, both counted from 1 (columns in bytes). `text` is empty for the end of
+/// the scanned text.
 struct Token {
   std::string_view text;
   int line = 1;
@@ -28,8 +29,8 @@ class TextScanner {
   Token NextInLine();
   /// Returns the rest of this line before any `{`, without blanks around it, because a name may contain blanks.
   Token NameInLine();
-  /// Returns the next word on this line if it is a number that `Number` accepts; else returns nothing and keeps the
-  /// word.
+  /// Returns the next word on this line if it is a number that `Number` accepts; otherwise returns nullopt, and the
+  /// next call returns this word.
   std::optional<double> TakeNumberInLine();
   /// Skips blanks and line ends; returns false at the end of the text.
   bool SkipToText();

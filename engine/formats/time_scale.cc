@@ -12,7 +12,7 @@ namespace etude {
 
 double TimeScale::SecondsOf(double count) const {
   if (first == 0) return count * seconds;
-  constexpr double kPerSecond = 1e6;  // a count since 1970 has no more digits
+  constexpr double kPerSecond = 1e6;  // round to microseconds: a double has no finer times since 1970
   return std::round((count - first) * seconds * kPerSecond) / kPerSecond;
 }
 
@@ -22,7 +22,7 @@ TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told) {
   constexpr std::pair<double, const char*> kUnits[] = {
       {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-9, "nanoseconds"}};
   TimeScale scale;
-  // Compare the median step with the stated rate, or with a second.
+  // Choose the unit in which the median step agrees with the stated rate or, without a rate, is at most a second.
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (const double step = times[i] - times[i - 1]; !std::isnan(step)) steps.push_back(step);
@@ -43,7 +43,7 @@ TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told) {
                             unit->second);
     }
   }
-  // Times since 1970 count from the first.
+  // Subtract the first time if it is very large, as in times since 1970.
   const auto first = std::ranges::find_if(times, [](double time) { return !std::isnan(time); });
   if (first == times.end() || std::abs(*first * scale.seconds) <= kMaxStart_s) return scale;
   scale.first = *first;

@@ -7,26 +7,26 @@
 
 namespace etude {
 
-/// How a file counts time.
+/// The origin and the unit of a file's times.
 struct TimeScale {
-  double first = 0;         ///< the count that becomes 0 s
-  double seconds = 1;       ///< seconds per count
-  std::string remark = "";  ///< what was concluded, for people; "" if the file counts seconds from near 0
+  double first = 0;         ///< the time in the file that becomes 0 s
+  double seconds = 1;       ///< seconds per unit of the file's times
+  std::string remark = "";  ///< what was concluded, for users; "" if the file counts seconds from near 0
 
-  /// Returns a count in seconds; where `first` is not 0, to the microsecond.
+  /// Converts a time of the file to seconds since `first`. If `first` is not 0, the result is rounded to microseconds.
   double SecondsOf(double count) const;
 };
 
-/// The rate that a header states, if any, the header's name, and the name of the times that it is compared with.
+/// A rate that a header may state, and, for messages, the names of this header and of the times.
 struct ToldRate {
   std::optional<double> rate_hz = {};
   std::string header = "";
   std::string times = "the column Time";
 };
 
-/// Finds the scale of a file's times (NaN: none). They are milli-, micro- or nanoseconds, not seconds, if this agrees
-/// with the stated rate, or if rows would be more than a second apart without a stated rate. Times that begin beyond
-/// 11 days, such as those since 1970, count from the first.
+/// Finds the origin and unit of a file's times (NaN: missing). The unit is the milli-, micro- or nanosecond instead of
+/// the second if it agrees with the stated rate or, without a stated rate, if rows would otherwise be more than a
+/// second apart. If times begin beyond 11 days, such as those since 1970, the first time becomes 0 s.
 TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told);
 
 }  // namespace etude

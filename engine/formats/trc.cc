@@ -70,7 +70,7 @@ std::optional<double> NumberIn(std::string_view cell) {
 struct TrcHeader {
   double rate_hz = 0;
   std::size_t frames = 0, markers = 0;
-  double metres = 0;  ///< per unit
+  double metres = 0;  ///< metres per unit of the file
 };
 
 Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, const Place& place) {
@@ -148,7 +148,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxFileBytes);
   // Read the header and the markers' names.
   int line = 0;
-  TakeLine(text, line);  // PathFileType
+  TakeLine(text, line);  // skip the line PathFileType
   const std::string_view keys = TakeLine(text, line), values = TakeLine(text, line);
   ASSIGN_OR_RETURN(const TrcHeader header, ReadHeader(keys, values, {file, line, 0}));
   MarkerRows rows{.markers = {.rate_hz = header.rate_hz, .names = {}, .frames = {}, .metres_per_unit = header.metres},
@@ -163,7 +163,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
       return Fail({file, line, 0}, "{} markers announced, {} named", header.markers, marker);
     motion.names.emplace_back(names[at]);
   }
-  TakeLine(text, line);  // X1 Y1 Z1 …
+  TakeLine(text, line);  // skip the line X1 Y1 Z1 …
   if (text.find(',') != std::string_view::npos) motion.remark = "its numbers have decimal commas";
   // Read the frames, their numbers and their times.
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

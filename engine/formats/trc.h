@@ -21,7 +21,7 @@ std::string WriteTrc(const BodyMotion& motion, std::string name);
 struct MarkerMotion {
   double rate_hz = 30;
   std::vector<std::string> names;
-  /// The markers' positions in each frame, in metres; empty if a marker was not seen.
+  /// The markers' positions in each frame, in metres; nullopt if a marker was not seen.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
   std::string remark = "";     ///< a message of the reader for the user
   double metres_per_unit = 1;  ///< metres per unit of the file; the positions here are in metres
@@ -35,10 +35,10 @@ std::string WriteTrc(const MarkerMotion& motion, std::string name);
 struct MarkerRows;
 
 /// Reads a TRC file in m, cm, mm, in or ft (`Units`), without changing its axes. A marker counts as not seen if a cell
-/// is empty, "nan" or beyond ±10⁶ m. The rows are placed on frames (`LayOnClock`) by the times in the column Time, else
-/// in Frame#, as in OpenSim; the remark says what was changed. Returns an error with the line if there is no header,
-/// the number of frames or columns is wrong, a cell is not a number, or there are more than 1,000 markers or 64 MiB;
-/// also returns the errors of GridOfRows.
+/// is empty, "nan" or beyond ±10⁶ m. The rows are placed on frames (`LayOnClock`) by the times in the column Time or,
+/// if it is empty, by the numbers in Frame#, as in OpenSim; the remark says what was changed. Returns an error with the
+/// line if there is no header, the number of frames or columns is wrong, a cell is not a number, or there are more than
+/// 1,000 markers or 64 MiB; also returns the errors of GridOfRows.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
 /// Reads a TRC file like ReadTrc, but keeps the rows as they are in the file, without placing them on frames.
 Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file);

@@ -109,7 +109,7 @@ FloorMove ToOrigin(const BodyPose& pose);
 FloorMove AlignOnFloor(const BodyPose& pose, const BodyPose& onto);
 
 /// Returns the largest distance between the same joints of two poses, metres, after `AlignOnFloor`. Heading and
-/// position on the floor therefore do not count.
+/// position on the floor therefore have no effect.
 double PoseGap(const BodyPose& a, const BodyPose& b);
 
 }  // namespace etude

@@ -22,19 +22,19 @@ struct Material {
 struct SkinnedMesh {
   /// A joint that vertices may follow.
   struct Binding {
-    int joint = 0;               ///< of the character's skeleton
+    int joint = 0;               ///< index of a joint in the character's skeleton
     glm::dmat4 inverse_bind{1};  ///< from the mesh's frame to the joint's, in the bind pose
   };
   struct Vertex {
     glm::dvec3 position{0};
-    glm::dvec3 normal{0};                       ///< unit
+    glm::dvec3 normal{0};                       ///< unit vector
     std::array<int, 4> bindings{};              ///< indices into the mesh's bindings
     std::array<double, 4> weights{1, 0, 0, 0};  ///< sum to 1
     glm::dvec2 on_texture{0};                   ///< texture coordinates
   };
 
   std::string name;
-  int material = 0;  ///< of the character
+  int material = 0;  ///< index into the character's materials
   std::vector<Binding> bindings;
   std::vector<Vertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
@@ -51,7 +51,7 @@ struct Character {
 /// A mesh's vertices in the world, in one pose of its skeleton.
 struct DeformedMesh {
   std::vector<glm::dvec3> positions;
-  std::vector<glm::dvec3> normals;  ///< unit
+  std::vector<glm::dvec3> normals;  ///< unit vectors
 };
 
 /// Deforms a mesh by linear blend skinning: v ↦ Σ wᵢ · globalᵢ · inverse_bindᵢ · v. `globals` is the output of

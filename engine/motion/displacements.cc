@@ -46,8 +46,8 @@ glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
   return median;
 }
 
-/// Returns the length of `median` if enough joints' vectors are near it, among them the vector of an ankle; otherwise
-/// 0. Fast arms and legs may deviate.
+/// Returns the length of `median` if the vectors of enough joints, among them an ankle, are near it; otherwise 0. The
+/// vectors of fast arms and legs may deviate.
 double AgreedLength(const PoseSteps& vectors, const glm::dvec3& median, double relative, double absolute) {
   const double length = glm::length(median), tolerance = relative * length + absolute;
   const auto agrees = [&](const glm::dvec3& v) { return glm::distance(v, median) < tolerance; };
@@ -71,7 +71,7 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 }
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
-  constexpr double kNeverAsStill = 0.003;  // metres per second
+  constexpr double kNeverAsStill = 0.003;  // a mean speed of the joints, metres per second
   constexpr double kGentle = 0.6;          // speed of the last step before rest, as a share of the step before
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
@@ -227,7 +227,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
 /// inverse of its squared excesses in the frames around, so a standing foot weighs most.
 glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
   constexpr int kNear = 2, kFar = 6;   // a velocity step also changes the excesses of the neighbouring frames
-  constexpr double kSmallest = 1e-10;  // square metres
+  constexpr double kSmallest = 1e-10;  // avoids a division by zero; square metres
   glm::dvec3 sum{0};
   double weights = 0;
   for (std::size_t j = 0; j < kRoleCount; ++j) {

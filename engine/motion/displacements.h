@@ -30,7 +30,7 @@ struct Displacement {
 struct Pop {
   FrameRange frames;
   Role joint = Role::kHipCentre;
-  double size = 0;  ///< metres
+  double size = 0;  ///< distance, metres
 };
 
 /// A sudden change of the velocity along the floor, from one frame to the next, that all joints share.
@@ -43,8 +43,8 @@ struct VelocityStep {
 struct Displacements {
   std::vector<FrameRange> frozen;    ///< frames that repeat the pose of the first one, for 0.9 s or more
   std::vector<Displacement> common;  ///< never at the ends of frozen stretches
-  std::vector<Pop> pops;             ///< never there either
-  std::vector<VelocityStep> steps;   ///< never there either
+  std::vector<Pop> pops;             ///< never at the ends of frozen stretches
+  std::vector<VelocityStep> steps;   ///< never at the ends of frozen stretches
 };
 
 /// Finds displacements by third differences; FaultRules states the rules. The motion must have at least eight frames.

@@ -75,7 +75,7 @@ std::string OtherSide(std::string_view name) {
     }
     const std::size_t end = EndOfWord(name, at);
     const std::string_view word = name.substr(at, end - at);
-    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // "L5"
+    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // a vertebra such as "L5"
     for (const SideWord& turn : kSideWords) {
       if (word == turn.from && !is_numbered) return Replaced(name, at, turn);
     }
@@ -157,7 +157,7 @@ class ScaleRemover {
  private:
   const Skeleton& skeleton_;
   std::vector<GlobalTransform> globals_;
-  std::vector<glm::dquat> rotations_;  ///< in the world
+  std::vector<glm::dquat> rotations_;  ///< rotations of the joints in the world
 };
 
 void SetRest(Skeleton& skeleton, const LocalPose& rest) {
@@ -176,7 +176,7 @@ Clip Resample(const Clip& clip, double rate_hz) {
   if (rate_hz == clip.rate_hz) return clip;
   Clip resampled{.name = clip.name, .skeleton = clip.skeleton, .rate_hz = rate_hz, .frames = {}};
   const double frames_per_sample = clip.rate_hz / rate_hz;
-  constexpr double kRounding = 1e-6;  // of a sample; keeps the last sample if one rate is a multiple of the other
+  constexpr double kRounding = 1e-6;  // in samples; keeps the last sample if one rate is a multiple of the other
   const auto count = static_cast<std::size_t>(clip.DurationSeconds() * rate_hz + kRounding) + 1;
   resampled.frames.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -230,7 +230,7 @@ Clip WithoutScales(Clip clip) {
 Clip WithWorldAxesAtRest(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::all_of(joints, [](const Joint& joint) { return joint.rest.rotation == kNoTurn; })) return clip;
-  // The new frame of a joint is its old frame rotated by R₀⁻¹, where R₀ are the joint's axes at rest in the world.
+  // A joint's new coordinate frame is its old one rotated by R₀⁻¹, where R₀ are the joint's axes at rest in the world.
   std::vector<glm::dquat> at_rest(joints.size());
   const auto above = [&](std::size_t joint) {
     return joints[joint].parent < 0 ? kNoTurn : at_rest[joints[joint].parent];
@@ -252,7 +252,7 @@ Clip WithWorldAxesAtRest(Clip clip) {
 Clip WithOneRoot(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::count(joints, -1, &Joint::parent) == 1) return clip;
-  // Every index increases by one, so the parent −1 becomes the new root.
+  // The new root gets index 0, so every index increases by one, and the parent −1 becomes the new root.
   for (Joint& joint : joints) ++joint.parent;
   joints.insert(joints.begin(), {.name = UnusedName(clip.skeleton, "root"), .parent = -1, .rest = {}});
   for (LocalPose& pose : clip.frames) pose.insert(pose.begin(), LocalTransform{});

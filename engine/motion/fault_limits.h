@@ -13,7 +13,7 @@ inline constexpr double kStand_m = 0.15;  ///< feet that rest higher than this a
 /// A body floats if its lowest joint stays above `height_m` for more than `longest_s`.
 struct Hovering {
   double height_m, longest_s;
-  bool is_upright;  ///< counts only frames in which the body is upright
+  bool is_upright;  ///< true if only frames in which the body is upright count
 };
 inline constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.09, 2, true}};
 
@@ -21,7 +21,7 @@ inline constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.0
 inline constexpr double kStep_m_s = 0.12, kMinCarried_s = 0.25, kMaxCarried_s = 20;
 inline constexpr double kGlide_m_s = 0.14, kGlide_s = 0.5;
 inline constexpr double kFootSkate_m_s = 0.14, kFootSkate_s = 0.4,
-                        kEvenFootSkate_s = 0.25;  ///< one foot; at one velocity
+                        kEvenFootSkate_s = 0.25;  ///< minimum duration for one foot whose velocity is constant
 
 // Jumps and pops.
 inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;

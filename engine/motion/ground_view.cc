@@ -64,7 +64,7 @@ GroundView::GroundView(const BodyMotion& motion, const Displacements& displaceme
   toe_rest_ = Mode(toes);
   ankle_rest_ = Mode(ankles);
   if (ankle_rest_ > toe_rest_ + kMaxAnkle) ankle_rest_ = toe_rest_ + kUsualAnkle;
-  // Choose the height of the floor.
+  // Use the given floor. Without it, the floor is at height 0, unless the lowest joint is usually far from 0.
   constexpr double kFar = 0.6, kLow = 0.05, kBelowJoint = 0.02;
   const double low = Quantile(lowest_, kLow);
   is_floor_found_ = !floor && std::abs(low) > kFar;

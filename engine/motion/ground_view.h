@@ -14,7 +14,7 @@ namespace etude {
 /// The joints of the feet.
 inline constexpr std::array kFootJoints = {Role::kLeftFoot, Role::kRightFoot, Role::kLeftAnkle, Role::kRightAnkle};
 
-/// Shows a motion without the displacements of its whole body, and its floor.
+/// A motion from which the displacements of the whole body are removed, with its floor.
 class GroundView {
  public:
   /// `motion` and `displacements` must outlive this object. FindMotionFaults says how the floor is found.

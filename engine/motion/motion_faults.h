@@ -21,8 +21,8 @@ enum class FaultKind {
   kFreezes,    ///< no joint moves while the body was in motion; size: seconds
   kStretches,  ///< a limb changes its length; size: share of its median length
   kBends,      ///< a knee bends backwards; size: degrees
-  kTorn,       ///< a joint is not where its neighbours have it, or (without a joint) left and right are exchanged;
-               ///< size: how far off, metres
+  kTorn,       ///< a joint is at a wrong distance from its neighbours, or (without a joint) left and right are
+               ///< exchanged; size: error of the position, metres
   kGaps,       ///< some frames lack joints that other frames show; size: seconds
   kPasses,     ///< a forearm or a hand passes through trunk or head; size: its distance from the spine's line, metres
   kRate,       ///< in flight the body falls with another acceleration than gravity's; size: metres per second²
@@ -33,7 +33,7 @@ enum class FaultKind {
 struct FaultRule {
   std::string_view
       name;  ///< "floats", "sinks", "skates", "jumps", "pops", "freezes", "stretches", "bends", "passes", …
-  std::string_view unit;  ///< of the fault's size: "m", "m/s", "s", "share", "deg" or "m/s2"
+  std::string_view unit;  ///< unit of the fault's size: "m", "m/s", "s", "share", "deg" or "m/s2"
   std::string rule;       ///< the rule in words, with the thresholds (fault_limits.h)
 };
 const std::vector<FaultRule>& FaultRules();
@@ -45,14 +45,14 @@ struct MotionFault {
   FaultKind kind = FaultKind::kFloats;
   double from_s = 0, to_s = 0;     ///< times of its first and last frame
   std::optional<Role> joint = {};  ///< the joint at fault; a limb is named by its far end; absent: the whole body
-  double size = 0;                 ///< unit: FaultKind
-  std::string text = {};           ///< a sentence for people: "floats 6 cm from 1.20 to 3.20 s"
+  double size = 0;                 ///< FaultKind states its meaning and unit
+  std::string text = {};           ///< a sentence for users: "floats 6 cm from 1.20 to 3.20 s"
 };
 
 struct MotionFaults {
   double floor_m = 0;           ///< the height of the floor that the motion is judged by
   bool is_floor_found = false;  ///< true if the motion is far from height 0 and its floor is where its feet rest
-  std::vector<MotionFault> faults = {};  ///< by kind, then by time
+  std::vector<MotionFault> faults = {};  ///< sorted by kind, then by time
 };
 
 /// Options of FindMotionFaults.
@@ -71,13 +71,13 @@ constexpr std::size_t kMinFramesForFaults = 8;
 
 /// Finds the faults of a motion without knowing its true motion; the method is our own. FaultRules states the rules.
 /// The motion is in metres, Y up, with finite positions, and at its own rate, because resampling hides displaced or
-/// repeated frames. The floor is at `floor_m`, or at height 0 without `floor_m`. But without `floor_m`, if the 5th
-/// percentile of the lowest joint's height is more than 60 cm from 0, the floor is found from the height at which the
-/// feet rest. A motion of fewer than kMinFramesForFaults frames returns no faults.
+/// repeated frames. If `floor_m` is absent, the floor is at height 0; but if the 5th percentile of the lowest joint's
+/// height is then more than 60 cm from 0, the floor is found from the height at which the feet rest. A motion of fewer
+/// than kMinFramesForFaults frames returns no faults.
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options = {});
 
-/// Returns the sentences of the three largest faults of each kind. One more sentence counts the faults left out, if
-/// any.
+/// Returns the sentences of the three largest faults of each kind. If faults are left out, one more sentence states
+/// their number.
 std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults);
 
 }  // namespace etude

@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-constexpr double kSameFrame = 1e-6;  // of a frame; tolerates rounding where both rates are equal
+constexpr double kSameFrame = 1e-6;  // in frames; a tolerance for rounding errors if both rates are equal
 
 bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };

@@ -22,10 +22,10 @@ struct RawMotion {
   std::string name;  ///< the name under which the file was requested
   double rate_hz = 30;
   std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
-  std::vector<std::string> joints;  ///< names
+  std::vector<std::string> joints;  ///< names of the joints
   /// Indices of joints that the file does not name: BVH's End Sites, and the hip centre that its reader adds.
   std::vector<int> added;
-  std::vector<int> parents;         ///< of the joints; −1: a root; empty: the file has points, not a skeleton
+  std::vector<int> parents;         ///< parent of each joint; −1: a root; empty: the file has points, not a skeleton
   std::array<int, kRoleCount> roles = NoRoles();  ///< the joint that plays each role, by Index(role); −1: none
   std::vector<glm::dvec3> positions;              ///< frames × joints; NaN: not seen
   std::vector<glm::dquat> rotations;  ///< global rotations, frames × joints; empty: the file has points, not rotations

@@ -41,7 +41,7 @@ struct Glide {
 
 /// The rule for a glide: the length of the window, and limits for shares of the velocities in it.
 struct GlideRule {
-  double half_s = 0;     ///< half of the window
+  double half_s = 0;     ///< half the length of the window, seconds
   double min_share = 0;  ///< minimum share of velocities that are alike
   double max_rest = 0;   ///< maximum share of velocities near 0
 };

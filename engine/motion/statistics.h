@@ -17,8 +17,8 @@ double LowestHeight(const BodyPose& pose);
 
 /// The horizontal speeds of feet in stance, metres per second; nullopt if no foot ever stands.
 struct FootSlide {
-  std::optional<double> mean;                    ///< over all frames and feet in stance
-  std::array<std::optional<double>, 2> of_foot;  ///< by side, in the order of Side
+  std::optional<double> mean;                    ///< mean over all frames and feet in stance
+  std::array<std::optional<double>, 2> of_foot;  ///< one mean per foot, in the order of Side
   std::array<double, 2> stance_share{};          ///< share of the frames in which the foot stands
 };
 
@@ -38,7 +38,7 @@ struct MotionStatistics {
   double speed_p95_m_s = 0;
   double speed_peak_m_s = 0;
   Role fastest = Role::kHead;  ///< the joint with the highest speed
-  FootSlide foot_slide;        ///< MeasureFootSlide
+  FootSlide foot_slide;        ///< the result of MeasureFootSlide
   double lowest_foot_m = 0;    ///< lowest height of an ankle or toe over the clip; near 0 for a clip on the floor
 };
 

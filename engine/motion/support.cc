@@ -188,8 +188,8 @@ class SupportFinder::ClipSupport {
   int LastFrame() const { return static_cast<int>(clip_.poses.size()) - 1; }
   double Height(int frame, std::size_t j) const { return clip_.poses[frame].joints[j].y; }
 
-  // Returns true if the joint moves like the clip's joint, while that one bears the clip in this frame or a
-  // neighbouring one.
+  // Returns true if the joint moves like the same joint of the clip, and if the clip's joint bears the body in this
+  // frame or a neighbouring one.
   bool Follows(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
     const int now = frame - clip_.begin;
     for (int f = std::max(now - 1, 0); f <= std::min(now + 1, LastFrame()); ++f) {
@@ -233,7 +233,7 @@ class SupportFinder::ClipSupport {
 
   SupportingClip clip_;
   SupportRules rules_;
-  int window_ = 0;  // frames
+  int window_ = 0;  // SupportRules::window_s in frames
   std::vector<BodyPose> velocities_;
   std::vector<Bearing> bearing_;
   JointSet ever_bear_, ever_rest_;           // a joint that rests is in both sets

@@ -37,8 +37,8 @@ struct SupportRules {
 struct Bearing {
   JointSet rests;  ///< lowest joints that are at rest; none while the mass centre falls (SupportRules::min_fall)
   /// Equals `rests` unless `rests` is empty (a jump, walking on the spot, a skating foot). Then it contains all of the
-  /// lowest joints, because the clip itself shows them as support, without gliding joints. A joint glides if it moves
-  /// over the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the hips.
+  /// lowest joints except gliding ones, because the clip itself shows them as support. A joint glides if it moves over
+  /// the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the hips.
   JointSet bears;
 };
 

@@ -25,7 +25,7 @@ constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 struct Link {
   Role inner, outer;
   double max_change;
-  double usual, max_length;  ///< limits for the median
+  double usual, max_length;  ///< the expected median and the largest allowed median
 };
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr std::array kLinks = {Link{kHipCentre, kSpine, 0.10, 0.17, 0.35},
@@ -176,7 +176,8 @@ class TornFinder {
     while (!wrong_.empty()) {
       std::array<int, kRoleCount> count{};
       for (const Wrong& wrong : wrong_) {
-        // If two joints have equally many, the outer one is torn.
+        // The outer joint of a distance gets a little more weight, so that of two joints with equally many wrong
+        // distances the outer one counts as torn.
         count[Index(wrong.inner)] += 4;
         count[Index(wrong.outer)] += 5;
       }
@@ -189,7 +190,7 @@ class TornFinder {
     }
   }
 
-  /// Finds distances that are too long in the median frame, and a head that lies on the neck.
+  /// Finds distances that are too long in the median frame, and a head joint that coincides with the base of the neck.
   void FindLengths() {
     for (const Link& link : kLinks) {
       const auto median = MedianOf(Distances(link.inner, link.outer));

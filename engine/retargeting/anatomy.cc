@@ -88,7 +88,7 @@ class AnatomyFinder {
         if (proposal.confidence > best.confidence) best = proposal;
       }
     }
-    // An equally likely other body in the skeleton halves the confidence.
+    // Reduce the confidence by the score of the second best pair; an equally likely one halves it.
     if (best.confidence > 0) best.confidence *= 1 - 0.5 * second / best.confidence;
     return best;
   }
@@ -189,7 +189,7 @@ class AnatomyFinder {
   AnatomyProposal Judge(const ChainPair& leg_pair, const ChainPair& arm_pair) const {
     AnatomyProposal proposal{.joints = {}, .confidence = 0};
     proposal.joints.fill(-1);
-    // Find the joints of both limbs, and compare trunk, legs and arms.
+    // Find the joints of legs and arms, and compare the lengths of trunk, legs and arms.
     const Limbs legs = FindLimbs(leg_pair, kLegProportions), arms = FindLimbs(arm_pair, kArmProportions);
     if (legs.score == 0 || arms.score == 0) return proposal;
     const glm::dvec3 hips = Middle(legs, 0), shoulders = Middle(arms, 0);
@@ -217,7 +217,7 @@ class AnatomyFinder {
     proposal.confidence *= RangeScore(std::abs(glm::dot(across, arms_across)), kAligned, 1.1);
     proposal.confidence *= RangeScore(1.1 - std::abs(glm::dot(across, up)), kAligned, 1.2);
 
-    // Determine left from the toes.
+    // Determine left and right from the direction of the toes.
     const glm::dvec3 forward = toes - up * glm::dot(toes, up) - across * glm::dot(toes, across);
     constexpr double kForward = 0.7, kNoToes = 0.6;
     const bool has_toes = glm::length(forward) > kForward;
@@ -234,7 +234,7 @@ class AnatomyFinder {
   }
 
   const SkeletonTree& tree_;
-  std::vector<Chain> below_;  ///< for each joint
+  std::vector<Chain> below_;  ///< for each joint: its longest chain
 };
 
 }  // namespace

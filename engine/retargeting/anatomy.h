@@ -20,11 +20,11 @@ struct AnatomyProposal {
 constexpr double kMinAnatomyConfidence = 0.9;
 
 /// Proposes the limbs from the topology of the tree and the rest pose (ours). Legs and arms are two pairs of siblings,
-/// each with equally long chains of bones below it. The trunk leads from the legs to the arms, and the legs point the
-/// opposite way. In each chain, the three joints are chosen so that the bones between them have human proportions. Left
-/// is the direction up × forward, where forward is the direction of the toes. Without toes, the body is assumed to face
-/// +Z, with a lower confidence. The confidence is the product of one score per criterion; a score is 1 within the range
-/// of adults and decreases outside.
+/// each with equally long chains of bones below it. The trunk leads from the legs to the arms, and the legs point away
+/// from the trunk. In each chain, the three joints are chosen so that the bones between them have human proportions.
+/// Left is the direction up × forward, where forward is the direction of the toes. Without toes, the body is assumed to
+/// face +Z, with a lower confidence. The confidence is the product of one score per criterion; a score is 1 within the
+/// range of adults and decreases outside.
 AnatomyProposal ProposeByAnatomy(const SkeletonTree& tree);
 
 /// A joint map under construction, with the positions of its roles in the rest pose. `tree` must outlive this object.

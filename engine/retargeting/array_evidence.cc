@@ -14,7 +14,7 @@ namespace {
 /// stays at nearly the same height. The body is `length` long; `columns` are those of the wrists.
 bool StandsOnHands(std::span<const glm::dvec3> positions, std::size_t joints, const std::array<std::size_t, 2>& columns,
                    double length) {
-  constexpr double kStillFloor = 0.1, kNear = 0.3, kMost = 0.5;  // in lengths; hands reach below wrists
+  constexpr double kStillFloor = 0.1, kNear = 0.3, kMost = 0.5;  // first two in body lengths, kMost a share of frames
   std::vector<double> lowest;
   double low = 0;
   for (std::size_t begin = 0; begin < positions.size(); begin += joints) {
@@ -36,7 +36,7 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints) {
   constexpr double kTimesUsual = 4;
   std::vector<double> spreads;
   for (std::size_t begin = 0; begin < positions.size(); begin += joints) {
-    // The median point, and the usual distance from it.
+    // Compute the median point and the median distance from it.
     std::array<std::vector<double>, 3> coordinates;
     std::vector<double> distances;
     for (const glm::dvec3& place : positions.subspan(begin, joints)) {
@@ -49,7 +49,7 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints) {
       if (IsSeen(place)) distances.push_back(glm::distance(place, middle));
     }
     const double limit = kTimesUsual * Median(std::move(distances));
-    // The extent of the points that count.
+    // Measure the extent of the points that are not too far from the median point.
     glm::dvec3 low(1e300), high(-1e300);
     for (const glm::dvec3& place : positions.subspan(begin, joints)) {
       if (!IsSeen(place) || glm::distance(place, middle) > limit) continue;
@@ -75,7 +75,7 @@ Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<st
   const std::array<std::size_t, 4> columns = {column_of(Role::kLeftShoulder), column_of(Role::kRightShoulder),
                                               column_of(Role::kLeftKnee), column_of(Role::kRightKnee)};
   if (std::ranges::count(columns, names.size()) > 0) return Standing::kNotTold;
-  constexpr double kUpright = 0.8;  // cosine
+  constexpr double kUpright = 0.8;  // cosine of the angle between the body and the axis
   int seen = 0, upside_down = 0, along_z = 0;
   std::vector<double> lengths;
   for (std::size_t begin = 0; begin < positions.size(); begin += names.size()) {

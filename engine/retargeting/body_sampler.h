@@ -24,8 +24,8 @@ class BodySampler {
 
   const Clip& clip_;
   std::vector<int> joints_;  ///< indices in the clip: the joints with a role, and their ancestors
-  Skeleton skeleton_;        ///< consists of these joints only
-  JointMap map_;             ///< on that skeleton
+  Skeleton skeleton_;        ///< a skeleton of `joints_` only
+  JointMap map_;             ///< the roles as joints of `skeleton_`
   LocalPose local_;
   std::vector<GlobalTransform> globals_;
 };

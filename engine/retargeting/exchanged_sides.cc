@@ -31,7 +31,7 @@ struct Spread {
 /// How the limbs between two pairs of joints fit, as they are and with one pair exchanged.
 struct Crossing {
   bool is_certain = false;
-  bool may_be = false;  ///< shorter if exchanged, in nearly all frames
+  bool may_be = false;  ///< true if exchanging one pair makes the limbs shorter in nearly all frames
 };
 
 Crossing CrossingOf(std::span<const JointPositions> frames, Role near, Role far) {
@@ -58,7 +58,7 @@ Crossing CrossingOf(std::span<const JointPositions> frames, Role near, Role far)
   return {.is_certain = is_constant || is_impossible, .may_be = may_be};
 }
 
-/// Returns true if the hips point to the other side than the shoulders in nearly all frames.
+/// Returns true if the line of the hips points opposite to the line of the shoulders in nearly all frames.
 bool IsTrunkTwisted(std::span<const JointPositions> frames) {
   constexpr double kNearlyAll = 0.9;
   double seen = 0, opposite = 0;
@@ -77,7 +77,7 @@ bool IsTrunkTwisted(std::span<const JointPositions> frames) {
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
   std::vector<Role> exchanged, others;
   for (const auto& chain : kChains) {
-    // A limb that may cross counts if the next one may, too.
+    // A limb that may cross counts as crossing if the next limb along the chain may cross, too.
     std::array<Crossing, 3> limbs;
     for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = CrossingOf(frames, chain[i], chain[i + 1]);
     if (limbs[0].may_be && limbs[1].may_be) limbs[0].is_certain = limbs[1].is_certain = true;

@@ -10,12 +10,14 @@
 
 namespace etude {
 
-/// Returns the left joints that look exchanged with the right ones (ours). A limb crosses where the joints of its two
-/// ends fit better if one pair is exchanged: the limbs are then shorter, and their lengths far more constant; or upper
-/// arms are much shorter; or thighs, or both limbs of an elbow, are shorter in nearly all frames. Of the two ways to
-/// undo all crossings, the one with fewer joints is returned. `frames` have any unit; unseen joints do not count.
+/// Returns the left joints that look exchanged with the right ones (ours). A left and a right limb cross if exchanging
+/// the joints at one of their ends makes both limbs shorter and their lengths far more constant. Upper arms also cross
+/// if the exchange makes them much shorter; thighs, or both limbs of an elbow, also if it makes them shorter in nearly
+/// all frames. Of the two ways to undo all crossings, the one with fewer joints is returned. `frames` have any unit;
+/// unseen joints do not count.
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames);
-/// Says, for people, that these left joints look exchanged with the right ones, which `name_of` names; "" for none.
+/// Returns a message for the user that these left joints look exchanged with the right ones, or "" if the list is
+/// empty. `name_of` returns the name of a joint for the message.
 std::string DescribeExchangedJoints(std::span<const Role> left, const std::function<std::string(Role)>& name_of);
 std::string DescribeExchangedJoints(const BodyMotion& motion);
 

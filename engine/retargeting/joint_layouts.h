@@ -20,7 +20,7 @@ const std::vector<JointLayout>& JointLayouts();
 std::vector<std::string> JointLayoutNames();
 
 /// Returns the names of a layout's joints in its order; a joint that plays a role has the role's name. `joints` selects
-/// among layouts of the same name. Empty if there is no such layout.
+/// among layouts of the same name. Returns an empty list if there is no such layout.
 std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joints);
 
 }  // namespace etude

@@ -19,7 +19,7 @@ struct RolePoint {
 
 /// The points of a clip's own skeleton that play the twenty roles.
 struct JointMap {
-  std::array<RolePoint, kRoleCount> points;  ///< by Index(role)
+  std::array<RolePoint, kRoleCount> points;  ///< one per role, by Index(role)
   /// The roles that no joint or end site of the skeleton plays. Their points are fixed to a neighbouring joint.
   std::vector<Role> composed;
   /// The roles that were found by the skeleton's shape (ProposeByAnatomy) instead of by name, and the confidence in
@@ -59,7 +59,7 @@ Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file,
 /// The roles found in a skeleton, even if some are missing.
 struct PartialRoles {
   std::array<int, kRoleCount> found;     ///< joints found by name, by Index(role); −1: none
-  std::array<int, kRoleCount> proposed;  ///< by shape, for limbs without names; −1: none
+  std::array<int, kRoleCount> proposed;  ///< joints found by shape, for limbs without names, by Index(role); −1: none
   double confidence = 0;                 ///< the confidence of `proposed`
 };
 PartialRoles FindPartialRoles(const Skeleton& skeleton);

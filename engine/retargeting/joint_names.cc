@@ -208,7 +208,7 @@ std::vector<bool> EndSites(const Skeleton& skeleton) {
     ends[i] = joint.is_end_site;
     if (joint.parent < 0 || has_children[i] || !joint.name.starts_with(skeleton.joints[joint.parent].name)) continue;
     std::string_view ending = std::string_view(joint.name).substr(skeleton.joints[joint.parent].name.size());
-    ending = ending.substr(0, ending.find('#'));  // the number of a second one
+    ending = ending.substr(0, ending.find('#'));  // without the "#2" that numbers duplicate names
     ends[i] = ends[i] || std::ranges::find(kEndings, ending) != kEndings.end();
   }
   return ends;

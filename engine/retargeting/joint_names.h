@@ -38,8 +38,8 @@ enum class Finger { kMiddle, kIndex, kRing, kLittle, kNotNamed, kThumb };
 Finger FingerOf(std::string_view name);
 
 /// Returns true for each end site: BVH's own; in formats without end sites, each joint without children that is named
-/// after its parent, such as "Head_End", "Head_end" or "HeadNub" below "Head". A skeleton is therefore read alike from
-/// both kinds of formats.
+/// after its parent, such as "Head_End", "Head_end" or "HeadNub" below "Head". The same skeleton therefore gives the
+/// same result in both kinds of formats.
 std::vector<bool> EndSites(const Skeleton& skeleton);
 
 /// A joint that was found by its name.

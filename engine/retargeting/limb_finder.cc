@@ -13,7 +13,7 @@ SkeletonTree::SkeletonTree(const Skeleton& skeleton, const LocalPose& rest)
 
 bool SkeletonTree::DescendsFrom(int joint, int ancestor) const {
   if (joint == ancestor) return false;
-  while (joint > ancestor) joint = ParentOf(joint);  // parents come first
+  while (joint > ancestor) joint = ParentOf(joint);  // a parent has a smaller index than its children
   return joint == ancestor;
 }
 

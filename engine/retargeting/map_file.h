@@ -15,7 +15,7 @@ namespace etude {
 /// A joint as a joint-map file names it.
 struct JointOverride {
   std::string name;  ///< as in the clip; "LeftHand_End" for BVH's End Sites
-  Place place;       ///< for error messages
+  Place place;       ///< position in the file, for error messages
 };
 
 /// The content of a joint-map file: the joints that play roles, and properties that clip files lack. Roles that it

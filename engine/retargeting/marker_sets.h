@@ -23,7 +23,8 @@ struct MarkerSet {
   std::string name;
   std::string key;  ///< its name for --marker-set
   std::vector<MarkerRule> rules;
-  std::array<std::string, 4> pelvis = {};  ///< left and right front, left and right back; the hips follow from them
+  std::array<std::string, 4> pelvis = {};  ///< markers of the pelvis: left and right front, left and right back; the
+                                           ///< hips follow from them
   std::string sacrum = "";                 ///< the marker that may replace the two markers on the back of the pelvis
   /// Knees, ankles and elbows have one marker each, on the skin; further markers on thighs and shanks (wands) show the
   /// planes in which the limbs bend.

@@ -38,7 +38,7 @@ std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
     const std::string& name = markers.names[i];
     const std::size_t colon = name.rfind(':');
     const std::string prefix = colon == std::string::npos ? "" : name.substr(0, colon);
-    people[prefix].emplace(LowerCase(name.substr(colon == std::string::npos ? 0 : colon + 1)), i);  // the first counts
+    people[prefix].emplace(LowerCase(name.substr(colon == std::string::npos ? 0 : colon + 1)), i);  // keeps the first
   }
   return people;
 }
@@ -104,13 +104,13 @@ JointPositions PositionsOf(const MarkerSet& set, const MarkerColumns& columns, c
     }
     if (is_seen) PlaceHips(pelvis, places);
   }
-  for (MarkerPosition& place : places) {  // coinciding markers have no direction
+  for (MarkerPosition& place : places) {  // a position is not finite if markers of the pelvis coincide
     if (place && !std::isfinite(place->x + place->y + place->z)) place.reset();
   }
   return places;
 }
 
-/// Returns the file's names of the markers that show a joint, else the joint's.
+/// Returns the names in the file of the markers that determine a joint, or the joint's name if no markers do.
 std::string NamesOf(Role role, const MarkerSet& set, const MarkerColumns& columns, const MarkerMotion& markers) {
   for (const MarkerRule& rule : set.rules) {
     if (rule.role != role || !HasAll(columns, rule.markers)) continue;

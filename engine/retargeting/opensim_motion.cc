@@ -143,8 +143,8 @@ std::array<glm::dmat3, kRoleCount> PartTurns(const BodyPose& pose, const BodyPos
   std::array<glm::dmat3, kRoleCount> turns;
   turns[Index(kHipCentre)] = joints[Index(kHipCentre)].axes;
   for (const Bone& bone : AllBones()) {
-    // The joint in which a limb begins carries the limb. If limbs share a joint, each takes the shortest rotation from
-    // there to its direction.
+    // The joint in which a limb begins carries the limb. If several limbs begin in one joint, each takes the shortest
+    // rotation from the joint's orientation to its own direction.
     const glm::dmat3& axes = joints[Index(bone.parent)].axes;
     const glm::dvec3 carried = axes * (rest[bone.child] - rest[bone.parent]);
     turns[Index(bone.child)] = glm::mat3_cast(ShortestTurn(carried, pose[bone.child] - pose[bone.parent])) * axes;
@@ -189,7 +189,7 @@ std::string HeaderOf(const BodyMotion& motion, const std::vector<WrittenPart>& p
 struct ReadPart {
   Role end;
   std::optional<Role> after;  ///< nullopt: the ground
-  glm::dvec3 bone;            ///< in OpenSim's axes, metres
+  glm::dvec3 bone;            ///< vector from the part's beginning to its end, in OpenSim's axes, metres
   std::array<std::string, 3> names;
   std::array<glm::dvec3, 3> axes;  ///< the signed axes of the three rotations
   std::array<std::size_t, 3> columns = {};
@@ -307,7 +307,7 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
   return table;
 }
 
-/// Fails if the times cannot be a recording's clock.
+/// Fails unless the mean rate of the rows is 0.1 to 10,000 Hz.
 Result<void> CheckTimes(const std::vector<double>& times, const std::string& file) {
   if (times.size() < 2) return {};
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;

@@ -18,9 +18,9 @@ namespace etude {
 ///     limit hip_flexion_r -30 120
 /// A part begins at the end of the part named after `after`, is rotated relative to that part by R = Rz Rx Ry with the
 /// given signs, and ends at R · bone. Flexion, adduction, inversion and internal rotation are positive on both sides,
-/// and so is extension of the trunk and the neck. An angle that OpenSim's models have gets their name. Limits come from
-/// LimitSet::kAdult; an angle without a limit line has no limits. Angles are continuous from frame to frame, without
-/// jumps of full turns.
+/// and so is extension of the trunk and the neck. An angle that also exists in OpenSim's models has the name that it
+/// has there. Limits come from LimitSet::kAdult; an angle without a limit line has no limits. Angles are continuous
+/// from frame to frame, without jumps of full turns.
 ///
 /// All rotations are the identity in `rest`. The limbs have the directions of the motion's limbs but the lengths of
 /// `rest`. `name` is written to the header with control characters replaced by '_'.

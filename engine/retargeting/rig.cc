@@ -73,8 +73,8 @@ glm::dquat HipsOf(const BodyPose& pose) {
 }
 
 glm::dquat ChestOf(const BodyPose& pose) {
-  // The chest's Y axis follows the trunk exactly, and the shoulders only as far as possible, because shoulders rise
-  // with the arms. Hips do not tilt so, and their X axis is exact.
+  // The chest's Y axis follows the trunk exactly; its X axis follows the shoulders as far as it can stay perpendicular,
+  // because shoulders rise with the arms. Hips do not rise with the legs, so their X axis is exact.
   const glm::dquat up_first =
       Orientation(VectorBetween(pose, kSpine, kShoulderCentre), VectorBetween(pose, kLeftShoulder, kRightShoulder));
   return up_first * glm::angleAxis(-kPi / 2, glm::dvec3(0, 0, 1));

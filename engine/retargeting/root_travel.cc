@@ -13,7 +13,8 @@
 namespace etude {
 namespace {
 
-/// Returns the joint that moves the body: the nearest one to the hips, upwards, with positions that change; −1: none.
+/// Returns the joint that moves the body: the first one with changing positions on the path from the hips to the root;
+/// −1 if there is none.
 int MovedJoint(const Clip& clip, const JointMap& map) {
   for (int joint = map[Role::kHipCentre].joint; joint >= 0; joint = clip.skeleton.joints[joint].parent) {
     const glm::dvec3 first = clip.frames.front()[joint].translation;
@@ -50,7 +51,8 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
     steps.push_back({later[Role::kLeftAnkle] - pose[Role::kLeftAnkle],
                      later[Role::kRightAnkle] - pose[Role::kRightAnkle], place_at(f + apart) - place_at(f)});
   }
-  // How far the ankle that moves less goes in the median step, in statures a second, with the root's steps multiplied.
+  // Returns the median speed of the slower ankle, in statures per second, if the root's steps are multiplied by
+  // `factor`.
   const double stature = Median(std::move(statures));
   const auto slide = [&](double factor) {
     std::vector<double> slides;
@@ -73,8 +75,9 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
     }
   }
   if (!(least < kMuchLess * as_it_is)) return "";
-  // A smaller factor also stops feet that slide for another reason, so only an impossible speed tells.
-  constexpr double kAsWell = 1.5, kImpossible = 3;  // statures a second
+  // A smaller factor also stops feet that slide for another reason, so it is reported only if the speed in the file is
+  // impossible.
+  constexpr double kAsWell = 1.5, kImpossible = 3;  // kAsWell is a ratio, kImpossible in statures per second
   if (best < 1 && as_it_is < kImpossible) return "";
   if (slide(0) > kAsWell * least) {
     return fmt::format("its feet slide unless the root's positions are {:.3g} times as large: they look as if in "

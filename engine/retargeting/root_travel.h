@@ -7,10 +7,10 @@
 
 namespace etude {
 
-/// Says, for people, that a clip's root travels as its limbs do only if its positions are multiplied by a factor, such
-/// as 100 for metres above limbs in centimetres; "" if no factor fits better. By the right factor, one ankle hardly
-/// moves in the median frame, because a foot stands: by far less than as the file is (ours). A factor below 1 is said
-/// only of a speed that is impossible.
+/// Returns a message for the user if the root's positions seem to have another unit than the limbs, such as metres
+/// above limbs in centimetres (factor 100); "" if no factor fits better than 1. With the right factor, one ankle hardly
+/// moves in the median frame, because one foot stands; it must be far slower than with factor 1 (ours). A factor below
+/// 1 is reported only if the speed in the file is impossible.
 std::string DescribeRootTravel(const Clip& clip, const JointMap& map);
 
 }  // namespace etude

@@ -21,7 +21,7 @@ struct SkinJoint {
   Role left, before;       ///< a joint of the left side, and the joint at the other end of its limb
   std::string_view size;   ///< the name of the joint's width in files, without the side
   double share;            ///< distance from marker to centre over the length between the limb's markers
-  std::string_view where;  ///< text for people: "knees {:.1f} cm inside"
+  std::string_view where;  ///< text for users: "knees {:.1f} cm inside"
 };
 constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWIDTH", 0.12, "knees"},
                                                    {kLeftAnkle, kLeftKnee, "ANKLEWIDTH", 0.085, "ankles"},
@@ -72,7 +72,7 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
 /// more reliable the stronger the bend is. A marker that is `depth` beside a straight limb makes it seem bent; this
 /// apparent bend is subtracted.
 glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
-  constexpr double kCertain = 1.2, kRange = 0.25;  // of sines
+  constexpr double kCertain = 1.2, kRange = 0.25;  // a multiple of the apparent bend; a difference of sines
   const double a = std::max(glm::length(upper), 1e-9), b = std::max(glm::length(lower), 1e-9);
   const glm::dvec3 normal = sign * glm::cross(upper, lower);
   const double seeming = kCertain * depth * (1 / a + 1 / b);
@@ -181,7 +181,7 @@ void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, cons
   const glm::dvec3 in = thigh && used.thigh[index] ? ByWand(*thigh, hip, skin) : KneeInward(side, depths);
   const glm::dvec3 knee = Chord(hip, skin, in, depths.metres[Index(side.On(kLeftKnee))]);
   side[kLeftKnee] = knee;
-  // Ankle: its axis is parallel to the knee's, unless its wand shows another.
+  // Ankle: its axis is parallel to the knee's, unless its wand shows another axis.
   const glm::dvec3 at_ankle = shank && used.shank[index] ? ByWand(*shank, knee, ankle) : knee - skin;
   side[kLeftAnkle] = Chord(knee, ankle, at_ankle, depths.metres[Index(side.On(kLeftAnkle))]);
 }
@@ -189,12 +189,12 @@ void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, cons
 /// Returns the elbow's centre if the marker is on the outside of the elbow.
 glm::dvec3 BesideElbow(const SideOf& side, const SkinDepths& depths) {
   const double depth = depths.metres[Index(side.On(kLeftElbow))];
-  // If the file has Plug-in Gait's widths, apply its rule, which hardly corrects the plane of the markers.
+  // If the file has Plug-in Gait's widths, subtract only a part of the apparent bend, as Plug-in Gait does.
   const double seeming = depths.has_elbow_widths ? 0.3 * depth : depth;
   const glm::dvec3 shoulder = *side[kLeftShoulder], skin = *side[kLeftElbow], wrist = *side[kLeftWrist];
   glm::dvec3 rough = *side[kRightShoulder] - shoulder;
   if (side.Has({kLeftHip}) && glm::length(Across(rough, skin - shoulder)) < 0.5 * glm::length(rough)) {
-    rough = *side[kLeftHip] - shoulder;  // an arm held out
+    rough = *side[kLeftHip] - shoulder;  // for an arm that is held out sideways
   }
   return Chord(shoulder, skin, Inward(rough, skin - shoulder, wrist - skin, side.is_left() ? 1 : -1, seeming), depth);
 }

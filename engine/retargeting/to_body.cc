@@ -137,7 +137,7 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
 
 double MedianStature(const std::vector<BodyPose>& poses) { return LowerPercentile(OverFrames(poses, Stature), 0.5); }
 
-/// Returns the unit in which `stature` is human, or null.
+/// Returns the unit in which `stature` is that of a human, or null if there is none.
 const Unit* UnitOf(double stature) {
   const auto is_human = [&](const Unit& unit) {
     return stature * unit.metres >= unit.min_stature && stature * unit.metres <= kMaxStature;
@@ -150,8 +150,8 @@ constexpr double kMaxRatio = 1.25;
 bool AreAlike(double ratio) { return ratio > 1 / kMaxRatio && ratio < kMaxRatio; }
 
 /// Finds the unit by the stature of the rest pose, which all clips of a file share. If the stature of the frames
-/// differs, that one is used: some files store all offsets only in the frames, others scale the hips there; `remarks`
-/// states this. If the given unit is implausible, fails, naming `file` and the likely unit.
+/// differs, the stature of the frames is used instead: some files store all offsets only in the frames, others scale
+/// the hips there; `remarks` states this. If the given unit is implausible, fails, naming `file` and the likely unit.
 Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const BodyOptions& options,
                       const std::string& file, BodyConversion& done, std::vector<std::string>& remarks) {
   const std::optional<double>& given = options.metres_per_unit;
@@ -214,7 +214,7 @@ double LeftLegLength(const BodyPose& pose) {
   return glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
 }
 
-/// Returns `told` if it is within a leg's length of the floor found, otherwise that floor.
+/// Returns `told` if it is within a leg's length of the floor that FindFloor finds, otherwise the floor of FindFloor.
 double FloorOf(const std::vector<BodyPose>& poses, const std::optional<double>& told) {
   const double own = FindFloor(poses);
   return told && std::abs(own - *told) <= LeftLegLength(poses.front()) ? *told : own;
@@ -237,7 +237,7 @@ std::string LiesAlong(std::span<const BodyPose> poses) {
   return "";
 }
 
-/// Lists the findings and changes as texts for people.
+/// Lists the findings and changes as texts for users.
 std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& map, const Clip& clip,
                                    const std::string& lies) {
   // Describe unit, axis and frames.

@@ -15,12 +15,12 @@
 
 namespace etude {
 
-/// Properties of a file that are known. The others are estimated.
+/// The known properties of a file; all others are estimated.
 struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;
   std::optional<UpAxis> up = std::nullopt;           ///< given by the user; overrules everything else
-  std::optional<UpRule> up_rule = std::nullopt;      ///< of the file or its format
+  std::optional<UpRule> up_rule = std::nullopt;      ///< rule of the file or its format
   std::optional<UpFinding> found_up = std::nullopt;  ///< the result of FindGround, if the file has several clips
   bool keep_floor = false;                           ///< do not move the file's floor to 0
   std::optional<double> floor = std::nullopt;    ///< the floor's height along the up axis, in the file's unit
@@ -36,7 +36,7 @@ struct BodyConversion {
   UpFinding found_up = {};         ///< the axis of the file that points up, and its evidence
   double floor = 0;                ///< height of the floor in the file's unit, along its up axis
   std::size_t dropped_frames = 0;  ///< length of a leading T-pose that was dropped, frames
-  /// A text for people about each finding and each correction of the file's data: "1 unit = 5.64 cm (CMU)", "dropped a
+  /// A text for users about each finding and each correction of the file's data: "1 unit = 5.64 cm (CMU)", "dropped a
   /// leading T-pose".
   std::vector<std::string> changes = {};
   std::vector<std::string> doubts = {};  ///< those of `changes` that say what looks wrong in the file
@@ -81,7 +81,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
 /// The up axis of a file, the height of its floor, and the stature of its body.
 struct Ground {
   UpAxis up = UpAxis::kY;
-  double floor = 0;    ///< along that axis, in the file's unit
+  double floor = 0;    ///< height of the floor along the up axis, in the file's unit
   double stature = 0;  ///< median over the frames, in the file's unit
   UpFinding found_up = {};
 };
@@ -102,10 +102,11 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 /// meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
 
-/// Describes a change of the rate for people; "" if both rates read alike.
+/// Describes a change of the rate for users; "" if both rates are printed alike.
 std::string DescribeResampling(double from_hz, double to_hz);
 
-/// Says, for people, that no person is as tall as this body in its median frame (under 0.5 m, over 2.75 m); else "".
+/// Returns a message for the user if no person is as tall as this body in its median frame (under 0.5 m or over 2.75
+/// m), otherwise "".
 std::string DescribeImpossibleHeight(std::span<const BodyPose> poses);
 
 /// Returns true if the body stands with straight legs and both arms stretched out sideways.

@@ -52,7 +52,7 @@ bool IsBalanced(const BodyPose& pose, const glm::dvec3& up, double stature) {
   const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
   const glm::dvec3 feet = flat(0.5 * (pose[kLeftFoot] + pose[kRightFoot]) - MeanAnkle(pose));
   const double length = glm::length(feet);
-  const glm::dvec3 some(up.y, up.z, up.x);  // another axis
+  const glm::dvec3 some(up.y, up.z, up.x);  // an axis that is not parallel to `up`
   const glm::dvec3 ahead = length > kMinFoot * stature ? feet / length : some, aside = glm::cross(up, ahead);
   const double margin = (length > kMinFoot * stature ? kHeel : kFootless) * stature;
   const glm::dvec3 weight = 0.5 * pose[kHipCentre] + 0.35 * pose[kShoulderCentre] + 0.15 * pose[kHead];
@@ -88,7 +88,7 @@ double Lowest(const BodyPose& pose, const glm::dvec3& up) {
 struct Frames {
   std::span<const BodyPose> poses;
   std::size_t stride = 1, later = 1;
-  double seconds = 1;  ///< between a frame and the later one
+  double seconds = 1;  ///< time between a frame and its later pose
   double stature = 1;
 };
 

@@ -23,7 +23,7 @@ struct UpRule {
   std::string source = "the usual axis";
   /// True if the body at rest stands along `axis`; a still stance along another axis is then no evidence.
   bool is_of_rest = false;
-  bool is_y_or_z = false;             ///< no other axis is considered
+  bool is_y_or_z = false;             ///< true if only Y and Z can be the up axis
 };
 
 /// The up axis of a file, and its evidence.
@@ -31,14 +31,14 @@ struct UpFinding {
   glm::dvec3 axis{0, 1, 0};
   UpEvidence evidence = UpEvidence::kPosture;
   std::string source = "";
-  /// A sentence for people if the posture contradicts the axis or shows nothing; otherwise empty.
+  /// A sentence for users if the posture contradicts the axis or shows nothing; otherwise empty.
   std::string doubt = "";
 };
 
 /// Finds the axis that points up (ours). The result is the rule's axis, unless the rule's evidence is kPosture and the
 /// whole motion is evidence for another axis. An axis has evidence if the body is upright along it and hardly ever
 /// along the usual axis, and
-/// - the lowest joint stays at one height along this axis, but not along the usual axis (this also holds for people who
+/// - the lowest joint stays at one height along this axis, but not along the usual axis (this also holds for users who
 ///   lie, crawl or stand on their hands), or
 /// - the body walks: it travels across this axis while one foot stands, or
 /// - the file or its format states the usual axis, and along the usual axis the body stands on its head, but not on its
@@ -54,13 +54,13 @@ UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& 
 /// upright, or Y if it stands along neither.
 UpFinding FindUp(const BodyPose& rest, std::span<const BodyPose> poses, double rate_hz);
 
-/// The rules of formats. TRC, C3D without Y_SCREEN, and joint arrays have only a usual axis.
+/// The rules of formats. For TRC, C3D without Y_SCREEN and joint arrays there is no rule, only a usual axis.
 UpRule TrcUp();
 /// `axis` is 'X', 'Y' or 'Z' as in the file's entry Y_SCREEN, or 0 without that entry. Without it, Z is the usual axis,
 /// by the convention of biomechanics.
 UpRule C3dUp(char axis, bool is_negative);
 UpRule ArrayUp();
-UpRule RawArraysUp();  ///< of ReadRawNpz, which has turned them
+UpRule RawArraysUp();  ///< for arrays that ReadRawNpz has already rotated
 UpRule JointCsvUp();
 UpRule MotiveUp();
 UpRule AmassUp();
@@ -71,7 +71,7 @@ UpRule DeepMimicUp();
 std::string AxisName(const glm::dvec3& axis);
 /// Returns the unit vector of the axis.
 glm::dvec3 AxisOf(UpAxis up);
-/// Describes a rotation for people: "turned upright from Z up (the rule of AMASS)"; "" for Y.
+/// Describes a rotation for users: "turned upright from Z up (the rule of AMASS)"; "" for Y.
 std::string DescribeTurn(const UpFinding& up);
 
 /// Rotates a point so that `up`, an axis of the file, becomes Y. If `up` is Z, a body that faced −Y faces +Z.

@@ -29,7 +29,7 @@ struct JointError {
 
 JointError JointErrorOf(const SeenJoint& seen, const SilhouetteBody& body, const TreeFrames& frames,
                         const PixelScale& camera, const SilhouetteCostOptions& options) {
-  constexpr double kNearest = 0.05;  // metres in front of the camera
+  constexpr double kNearest = 0.05;  // minimum distance in front of the camera, metres
   const glm::dvec3 p_WQ = PlaceOf(body.roles[Index(seen.role)], frames);
   if (camera.DepthOf(p_WQ) < kNearest) return {};
   JointError error{.off = camera.PixelOf(p_WQ) - seen.pixel};

@@ -11,9 +11,9 @@ namespace etude {
 /// A normal prior of a pose: its mean `near` and standard deviations.
 struct PosePrior {
   TreeState near;
-  double place_m = 0.1;    ///< of the root's position, along each axis
-  double turn_rad = 0.2;   ///< of the root's rotation, about each axis
-  double angle_rad = 0.2;  ///< of each angle
+  double place_m = 0.1;    ///< standard deviation of the root's position along each axis, metres
+  double turn_rad = 0.2;   ///< standard deviation of the root's rotation about each axis
+  double angle_rad = 0.2;  ///< standard deviation of each angle
 };
 
 struct FitOptions {
@@ -34,8 +34,8 @@ struct SilhouetteFit {
 /// Memory that later fits use again.
 struct FitWorkspace {
   TreeFrames frames;
-  std::vector<SeenFlesh> flesh;  ///< by view, of the pose whose cost was computed last
-  std::vector<SeenFlesh> kept;   ///< by view, of the pose at which the last fit ended
+  std::vector<SeenFlesh> flesh;  ///< per view: the flesh in the pose whose cost was computed last
+  std::vector<SeenFlesh> kept;   ///< per view: the flesh in the pose at which the last fit ended
   std::vector<SilhouetteResidual> residuals;
 };
 

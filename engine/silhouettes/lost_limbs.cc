@@ -67,12 +67,12 @@ class LimbCost {
   }
 
  private:
-  static constexpr double kFar = 1e4;  // pixels
+  static constexpr double kFar = 1e4;  // larger than any distance in a picture, pixels
 
   const std::span<const SilhouetteView> views_;
   const SilhouetteCostOptions& options_;
-  SilhouetteBody limb_;                       // its flesh is only the limb's
-  std::vector<std::vector<double>> to_rest_;  // [view][outline column]: distance to the nearest flesh of the rest
+  SilhouetteBody limb_;                       // the body with only this limb's flesh
+  std::vector<std::vector<double>> to_rest_;  // [view][outline column]: distance to the rest of the body's flesh
   TreeFrames frames_;
   std::vector<ProjectedCapsule> flesh_;
   std::vector<double> distances_;

@@ -54,7 +54,7 @@ SilhouetteBody ThicknessEstimate::Apply() const {
 namespace {
 
 // A search uses losses with a wider reach than the final fit, and fewer iterations.
-constexpr double kWideReach = 3;  // multiple of the reach in the options
+constexpr double kWideReach = 3;  // multiple of the reach that the options state
 constexpr int kCoarseSteps = 8, kFineSteps = 12;
 constexpr double kSpeedKept = 0.6;  // share of the last change that is extrapolated to the next frame
 

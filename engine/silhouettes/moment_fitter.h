@@ -26,7 +26,7 @@ class ThicknessEstimate {
 
  private:
   const SilhouetteBody& body_;
-  std::vector<double> products_, squares_;  // of each part: Σ w r e, Σ w r²
+  std::vector<double> products_, squares_;  // sums per part: Σ w r e, Σ w r²
 };
 
 /// Options for finding and following a body. `TrackSilhouettes` uses them for a whole take, `SilhouetteFollower`

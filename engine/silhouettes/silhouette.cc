@@ -12,7 +12,8 @@
 namespace etude {
 namespace {
 
-// The lower envelope of up to `size` parabolas (x − q)² + heights[q] (the paper's DT1D).
+// The lower envelope of up to `size` parabolas (x − q)² + heights[q] (DT1D in the paper of Felzenszwalb and
+// Huttenlocher).
 class Envelope {
  public:
   explicit Envelope(int size) : apex_(size), begins_(size + 1) {}

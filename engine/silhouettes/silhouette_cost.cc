@@ -15,7 +15,7 @@ constexpr double kNearest = 0.05;  // metres in front of the camera; a capsule w
 
 struct ConePoint {
   double along = 0;     // 0 at a, 1 at b
-  double distance = 0;  // from the pixel to the point of the axis there
+  double distance = 0;  // from the pixel to this point of the axis
   double signed_distance = 0;
 };
 

@@ -99,7 +99,7 @@ struct ProjectedCapsule {
 /// e + Σ slopesᵢ δᵢ, where δ are changes of (a.u, a.v, radius_a, b.u, b.v, radius_b).
 struct SilhouetteResidual {
   double value = 0;  ///< e, pixels
-  int capsule = -1;  ///< -1: none
+  int capsule = -1;  ///< index of the capsule; -1 if there is none
   std::array<double, 6> slopes{};
   bool is_inside = false;  ///< true: a sample of the flesh (containment); false: a point of the outline (coverage)
 };

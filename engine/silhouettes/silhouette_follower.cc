@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-constexpr int kSearchEvery = 5;           // moments; a search for limbs costs as much as dozens of moments
+constexpr int kSearchEvery = 5;           // moments between searches, which cost as much as dozens of moments
 constexpr std::size_t kRemembered = 100;  // moments from which the usual cost is estimated
 constexpr int kThicknessMoments = 20;     // moments for one thickness estimate
 

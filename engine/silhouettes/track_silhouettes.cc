@@ -331,7 +331,7 @@ class Tracker {
   const SilhouetteTake& take_;
   const TrackOptions& options_;
   const std::size_t frame_count_;
-  std::vector<MomentViews> views_;  // of each frame
+  std::vector<MomentViews> views_;  // one per frame
   MomentFitter fitter_{body_, options_};
 };
 

@@ -32,7 +32,7 @@ struct PointMotion {
 struct SmoothedTrack {
   std::vector<glm::dvec3> positions;    ///< metres, means given the measurements of all frames
   std::vector<glm::dvec3> velocities;   ///< m/s
-  std::vector<glm::dmat3> covariances;  ///< of the positions, m²
+  std::vector<glm::dmat3> covariances;  ///< covariances of the positions, m²
   double log_likelihood = 0;            ///< natural logarithm of the likelihood of the measurements under this motion
 };
 

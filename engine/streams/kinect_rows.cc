@@ -163,7 +163,8 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
 
 Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& file, const StreamRecording& recording,
                                     std::size_t index) {
-  // ReadNumberRows takes a first line with words for a heading. Adding a heading keeps it from dropping the row.
+  // Put a heading before the row: otherwise ReadNumberRows would take a row that contains words for the heading and
+  // drop it.
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);
   if (layout == nullptr || (layout->first == 0 && recording.records_times)) {

@@ -46,10 +46,10 @@ class LiveStream {
   int rows_ = 0;
   std::size_t frames_ = 0;
   double last_s_ = 0;
-  std::optional<StreamRecording> meaning_;  // without frames
+  std::optional<StreamRecording> meaning_;  // the recording's properties, without frames
   StreamLevel level_;
   std::optional<StreamMaker> maker_;
-  std::optional<JointCsvColumns> columns_;  // of CSV, from its first row after the start
+  std::optional<JointCsvColumns> columns_;  // columns of a CSV file, found in its first row after the start
 };
 
 }  // namespace etude

@@ -138,7 +138,7 @@ std::optional<StreamFormat> DetectStreamFormat(std::string_view text) {
   if (first.starts_with("PathFileType")) return StreamFormat::kTrc;
   if (first.find("_x_m") != std::string_view::npos) return StreamFormat::kEtudeCsv;
   if (IsWholeNumber(first) && IsWholeNumber(second)) return StreamFormat::kNtu;
-  // Recognise rows of numbers by their count.
+  // Recognise rows of numbers by the number of their columns.
   const std::size_t columns = FirstRowColumns(text);
   for (const StreamFormat format : {StreamFormat::kKinectV2, StreamFormat::kKinectV1}) {
     if (HasColumnsOf(format, columns)) return format;
@@ -165,7 +165,7 @@ Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, c
 }
 
 Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
-  constexpr double kMinTrunk_m = 0.15, kMaxTrunk_m = 0.95;  // a toddler's, a tall adult's
+  constexpr double kMinTrunk_m = 0.15, kMaxTrunk_m = 0.95;  // trunk lengths of a toddler and of a tall adult
   const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
   const struct {
     double metres;

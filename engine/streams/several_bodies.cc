@@ -25,7 +25,7 @@ class Bodies {
 
   /// Copies one body into the recording's frames. Takes the requested body, counted by first appearance; without a
   /// request, the body in most frames. If several are in equally many frames, takes the one that moves most, because in
-  /// crowded rooms sensors sometimes take furniture for a person. JoinContinued runs first.
+  /// crowded rooms sensors sometimes take furniture for a person. Calls JoinContinued before it chooses.
   Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
 
  private:
@@ -95,7 +95,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
   const auto begin_of = [](const Body& body) { return body.frames.front().frame; };
   for (std::size_t a = 0; a < bodies_.size(); ++a) {
     const Seen& end = bodies_[a].frames.back();
-    const auto first = std::ranges::upper_bound(bodies_, end.frame, {}, begin_of);  // by first appearance
+    const auto first = std::ranges::upper_bound(bodies_, end.frame, {}, begin_of);  // sorted by first appearance
     for (auto b = static_cast<std::size_t>(first - bodies_.begin()); b < bodies_.size(); ++b) {
       const Seen& begin = bodies_[b].frames.front();
       if (recording.frames[begin.frame].time_s - recording.frames[end.frame].time_s > kMaxBreak_s) break;
@@ -338,7 +338,7 @@ class NtuReader {
     const double state = values[11];
     Joint joint;
     if (is_missing || p == glm::dvec3(0) || state == 0) return joint;
-    joint.place = glm::dvec3(-p.x, p.y, -p.z);  // as in ReadKinectRows
+    joint.place = glm::dvec3(-p.x, p.y, -p.z);  // converted as in kinect_rows.cc (FromSensor)
     if (state == 1) joint.state = TrackingState::kInferred;
     return joint;
   }

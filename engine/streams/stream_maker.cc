@@ -70,7 +70,7 @@ std::optional<glm::dvec3> UpOfFeet(const std::vector<glm::dvec3>& points) {
   // The points must extend in both horizontal directions.
   const double smaller = 0.5 * (xx + zz) - std::sqrt(0.25 * (xx - zz) * (xx - zz) + xz * xz);
   if (smaller < kSpread * kSpread) return std::nullopt;
-  // Solve for the plane, and test the distance of the points from it.
+  // Solve for the plane by least squares, and test the distance of the points from it.
   const double determinant = xx * zz - xz * xz;
   const double a = (xy * zz - zy * xz) / determinant, b = (zy * xx - xy * xz) / determinant;
   double off = 0;
@@ -156,7 +156,7 @@ StreamLevel LevelOf(std::span<const RecordedFrame> frames, double rate_hz) {
 }  // namespace
 
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz) {
-  // Turn back a sensor in portrait or upside down.
+  // If the sensor was mounted in portrait or upside down, rotate the frames upright first.
   if (const int quarters = QuartersOfSensor(frames); quarters != 0) {
     const glm::dmat3 R_TF = QuarterTurns(quarters);
     std::vector<RecordedFrame> turned(frames.begin(), frames.end());
@@ -242,8 +242,8 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
                 "time {:.6g} s after {:.6g} s; allowed: a clock that increases, by at most {} s per row", frame.time_s,
                 before_->time_s, kMaxLoss_s);
   }
-  // Make the stream's frames up to the time of this frame: each is the nearest recorded frame, an interpolation, or
-  // without a body.
+  // Make the stream's frames up to the time of this frame. Each is a recorded frame, an interpolation between two, or a
+  // frame without a body.
   for (;; ++next_) {
     const double time = start_s_ + static_cast<double>(next_) / options_.rate_hz;
     if (time > frame.time_s + kSameTime) break;

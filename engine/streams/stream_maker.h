@@ -39,7 +39,7 @@ struct StreamLevel {
 /// height. `rate_hz` > 0 is the frames' rate.
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz);
 
-/// Describes a level for people: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor". Also mentions a sensor
+/// Describes a level for users: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor". Also mentions a sensor
 /// that was turned back, and a trunk that is far from the file's up.
 std::string Describe(const StreamLevel& level);
 

@@ -20,7 +20,7 @@ struct NamedStream {
   std::string person;  ///< the person in the file's name, for known data sets (PersonInName); otherwise empty
   SkeletonStream stream;
   double start_s = 0;                     ///< time of the first frame by the file's own clock
-  std::string description;                ///< one line for people: format, length, states, level, remarks
+  std::string description;                ///< one line for users: format, length, states, level, remarks
   std::optional<BodyMotion> motion = {};  ///< the true motion; known for clips only
 };
 
@@ -30,7 +30,7 @@ std::string PersonInName(std::string_view name);
 
 /// A performance within its recording.
 struct LabelledPart {
-  std::size_t stream = 0;  ///< index
+  std::size_t stream = 0;  ///< index of the recording
   std::string move, fault, person;
   int begin = 0, end = 0;        ///< frames [begin, end)
   bool is_action_point = false;  ///< `begin` is the frame of the action point; `end` is one more
@@ -55,7 +55,7 @@ SkeletonStream PartOf(const SkeletonStream& stream, int begin, int end);
 /// A person of a data set, with all recordings of this person.
 struct RecordedPerson {
   std::string name;
-  std::vector<std::size_t> streams;  ///< indices
+  std::vector<std::size_t> streams;  ///< indices of this person's recordings
 };
 
 /// Recordings, the people in them, and the moves performed.
@@ -63,7 +63,7 @@ struct LabelledStreams {
   std::string file;  ///< the labels' file, for error messages; the first recording's without labels
   std::vector<NamedStream> streams;
   std::vector<LabelledPart> parts;     ///< sorted by stream, then by time
-  std::vector<RecordedPerson> people;  ///< by name
+  std::vector<RecordedPerson> people;  ///< sorted by name
   std::vector<std::string> moves;      ///< all moves that labels name, sorted
   std::string nobody;                  ///< a recording whose person is not known; "" if there is none
 };

@@ -9,10 +9,11 @@
 namespace etude {
 
 /// Teaches every move that occurs in these parts, by name: right performances become examples, wrong ones
-/// counter-examples. An action point is only a moment; its performance is taken to begin half-way after the preceding
-/// action point, at most two seconds before its own, and to end at most one second after it (ours). Parts for which
-/// `takes` returns false are left out. Fails for the errors of TeachMove. Without `is_strict`, performances that cannot
-/// be used are left out instead, and so are moves without a usable right performance.
+/// counter-examples. An action point is only a moment; the performance is taken to begin at most two seconds before and
+/// to end at most one second after the action point, but not beyond the middle between it and the neighbouring action
+/// point (ours). Parts for which `takes` returns false are left out. Fails for the errors of TeachMove. Without
+/// `is_strict`, performances that cannot be used are left out instead, and so are moves without a usable right
+/// performance.
 Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& streams,
                                            const std::vector<LabelledPart>& parts,
                                            const std::function<bool(const LabelledPart&)>& takes, bool is_strict);

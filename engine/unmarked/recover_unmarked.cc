@@ -113,7 +113,7 @@ class Recovery {
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
     const Frames some = EvenlySpaced(all.size(), options_.samples);
     rooms_.assign(take_.rooms.begin(), take_.rooms.end());
-    const bool knows_rooms = !rooms_.empty() || !take_.masks.empty();  // nothing to estimate
+    const bool knows_rooms = !rooms_.empty() || !take_.masks.empty();  // rooms need no estimate
     if (!knows_rooms) EstimateRooms(some, {});
     for (int round = 1; round < options_.rounds; ++round) {
       if (knows_rooms && (KnownStature(take_) || round > 1)) break;
@@ -136,7 +136,7 @@ class Recovery {
   /// Estimates the rooms from pixels with little motion. If a body has been tracked in these frames, only pixels away
   /// from the body are used.
   void EstimateRooms(const Frames& frames, const SilhouetteTrack& track) {
-    constexpr double kMotionLag = 0.1;  // seconds
+    constexpr double kMotionLag = 0.1;  // time between compared pictures, seconds
     // Convert the lag of motion detection from seconds to sampled frames.
     const double between = static_cast<double>(take_.pictures[0].size()) / (take_.rate_hz * frames.size());
     const MotionOptions motion{.lag = std::max<std::size_t>(1, std::lround(kMotionLag / between))};
@@ -306,7 +306,7 @@ class Recovery {
   std::vector<ProjectionMatrix> matrices_;
   std::vector<ColourImage> rooms_;
   std::vector<std::vector<Mask>> masks_;
-  std::vector<std::vector<Silhouette>> silhouettes_;  ///< of the frames tracked last
+  std::vector<std::vector<Silhouette>> silhouettes_;  ///< silhouettes of the frames tracked last
   std::vector<ProjectedCapsule> flesh_;
 };
 

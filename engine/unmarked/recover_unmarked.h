@@ -47,7 +47,7 @@ struct UnmarkedTake {
   std::span<const Camera> cameras;
   /// `pictures[camera][frame]`, taken at the same times by all cameras.
   std::span<const std::vector<ColourImage>> pictures;
-  /// The empty room in each camera's picture; if empty, rooms are estimated from the pictures.
+  /// The empty room in each camera's picture; if there are none, rooms are estimated from the pictures.
   std::span<const ColourImage> rooms;
   /// `masks[camera][frame]`: the person in each picture, at the cameras' picture sizes, from any segmenter. With masks,
   /// `pictures` and `rooms` are not used and may be empty. Without masks, the person is found in `pictures`.
@@ -90,14 +90,14 @@ struct UnmarkedOptions {
 
 /// The recovered motion.
 struct UnmarkedMotion {
-  Clip clip;          ///< with the person's own skeleton, metres
+  Clip clip;          ///< the motion on the person's own skeleton, metres
   BodyMotion motion;  ///< the same motion as twenty joints
   double stature_m = 0;
   std::size_t held = 0;  ///< number of frames in which fewer than two pictures show a person; they repeat the last pose
   /// The mean of `SilhouetteFit::picture_cost` over cameras and tracked frames.
   double cost = 0;
-  std::vector<ColourImage> rooms;              ///< one per camera
-  std::vector<std::vector<Mask>> silhouettes;  ///< per camera and frame
+  std::vector<ColourImage> rooms;              ///< the empty room of each camera
+  std::vector<std::vector<Mask>> silhouettes;  ///< the person, per camera and frame
   /// For each camera and frame, 1 − intersection over union of the projected body and the silhouette; nullopt if either
   /// is empty.
   std::vector<std::vector<std::optional<double>>> apart;

@@ -18,7 +18,7 @@ Hsi ToHsi(Rgb8 colour) {
   if (sum > 0) hsi.saturation = 1 - 3 * std::min({r, g, b}) / sum;
 
   const double spread = std::sqrt((r - g) * (r - g) + (r - b) * (g - b));
-  if (spread == 0) return hsi;  // grey
+  if (spread == 0) return hsi;  // grey has no hue
   const double theta = std::acos(std::clamp(((r - g) + (r - b)) / 2 / spread, -1.0, 1.0));
   hsi.hue = b <= g ? theta : 2 * kPi - theta;
   return hsi;

@@ -14,7 +14,7 @@ using Run = Components::Run;
 
 struct RunsOfMask {
   std::vector<Run> runs;
-  std::vector<bool> set;  // of each run
+  std::vector<bool> set;  // for each run: true if its pixels are 1
 };
 
 // Returns the end of the run that begins at x. Compares eight pixels at a time, because runs are long.

@@ -25,8 +25,8 @@ struct LimbColourOptions {
   /// a suit's.
   double reach = 0.1;
   int darkest = 45;  ///< if R + G + B is lower, noise determines the chromaticity
-  /// A limb that other limbs cross has several components. The smallest one that counts has this share of the largest
-  /// one's pixels.
+  /// A limb that other limbs cross has several components. A component is ignored if its pixels are a smaller share of
+  /// the largest component's pixels.
   double piece_share = 0.2;
   int min_piece_px = 20;  ///< pixels; a hand four metres away has about 80 in a picture of 640 × 480
   /// Every component must contain a square with this side, pixels: two colours mix along edges and resemble a third.

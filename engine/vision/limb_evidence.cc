@@ -41,7 +41,7 @@ constexpr Body kDressed =
 constexpr const Body& BodyOf(FigureKind kind) { return kind == FigureKind::kDressed ? kDressed : kCapsules; }
 constexpr std::size_t kHeadStroke = kStrokeCount - 1;
 constexpr std::size_t kMinPixels = 6;   // smaller regions are noise
-constexpr std::size_t kMinBorder = 3;   // pixel sides
+constexpr std::size_t kMinBorder = 3;   // minimum length of a border in pixel sides
 constexpr double kMinSeenShare = 0.25;  // minimum visible share of a limb of which one end was not found
 
 /// The common border of a limb and its parent part in the picture.
@@ -63,7 +63,7 @@ Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& li
   glm::dvec2 to_limb(-along.y, along.x);
   if (glm::dot(limb_middle - border.middle, to_limb) < 0) to_limb = -to_limb;
   const double mean_square = scatter.AlongAxis() / static_cast<double>(points.size());
-  // Sum up the bend: how much farther on the limb's side the points at the ends lie than those in the middle.
+  // Sum up the bend: how much farther the border's end points lie on the limb's side than its middle points.
   double bend = 0, low = 0, high = 0;
   for (const glm::dvec2& p : points) {
     const glm::dvec2 d = p - border.middle;

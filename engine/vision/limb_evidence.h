@@ -15,7 +15,7 @@ namespace etude {
 struct LimbEvidence {
   PixelSegment line;      ///< from the inner to the outer end, pixels; a hidden end is where the visible part ends
   double seen_share = 1;  ///< visible share of the whole limb's pixels, seen from the side, in (0, 1]
-  double contrast = 0;    ///< `Region::contrast`
+  double contrast = 0;    ///< as `Region::contrast`
   double half_width = 0;  ///< pixels
 };
 

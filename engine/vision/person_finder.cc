@@ -14,12 +14,12 @@ namespace {
 // Colours are counted in cells with a side of 8 levels. A likelihood is the logarithm of a cell's share.
 constexpr int kCells = 32, kLevels = 256 / kCells;
 constexpr double kAnyColour = 0.05;     // share of the person's pixels that have a new colour
-constexpr float kDecay = 0.98f;         // per picture
+constexpr float kDecay = 0.98f;         // factor of the learnt colour counts per picture
 constexpr double kMinWornPixels = 400;  // pixels needed to learn the person's colours
 
 // Log-likelihoods of a pixel that shows the room: unchanged, in another light, or changed.
 constexpr float kAsItIs = -1, kInOtherLight = -6, kChanged = -13;
-constexpr float kNoise = 4, kTint = 6;               // levels
+constexpr float kNoise = 4, kTint = 6;               // standard deviations in unchanged and in other light, levels
 constexpr float kUnexplained = -10;                  // with a lower value, the room does not explain the pixel
 constexpr float kMinLight = 0.2f, kMaxLight = 1.3f;  // shares of the background's intensity
 constexpr int kSameLight = 24;                       // levels; largest change of a surface by drift of the lamp

@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 class CappedReader {
  public:
   Result<std::string> Read(const fs::path& path) {
-    std::error_code not_there;  // on an error here; ReadWholeFile reports a missing file better
+    std::error_code not_there;  // ignored: ReadWholeFile reports a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
       return Fail({path.string(), 0, 0}, "{} MB; allowed: clips of at most {} MB", (size + 999'999) / 1'000'000,

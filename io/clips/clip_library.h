@@ -14,7 +14,7 @@
 
 namespace etude {
 
-class RecordedFigure;  // sim/character
+class RecordedFigure;  // defined in sim/character
 
 /// A motion from which worlds can be made, at 30 Hz, in metres, with Y up and the feet on the floor.
 struct LibraryClip {

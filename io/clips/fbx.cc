@@ -66,7 +66,7 @@ void Limit(int resource, rlim_t maximum) {
   ::setrlimit(resource, &limit);
 }
 
-/// Allows this process `seconds` more of processor time.
+/// Raises this process's limit of processor time to `seconds` more than it has used.
 void AllowProcessorTime(rlim_t seconds) {
   rlimit limit{};
   ::getrlimit(RLIMIT_CPU, &limit);

@@ -32,7 +32,7 @@ std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::s
   return std::ranges::count_if(clips, ends_so) == 1 ? std::ranges::find_if(clips, ends_so) : clips.end();
 }
 
-/// Keeps only the animation that was asked for, or all.
+/// Keeps only the requested animation, or all if none is requested.
 Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, std::vector<Clip>& clips) {
   if (clips.empty()) {
     return Fail({wanted.path, 0, 0}, "holds no animation, only a figure (joints: {}, meshes: {})",
@@ -115,7 +115,7 @@ std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
   }
   const int top = static_cast<int>(std::ranges::find(below | std::views::reverse, wanted).base() - below.begin()) - 1;
   if (top < 0) return "";
-  // Collect the joints outside its subtree, with the file's own names: readers number equal names ("Hips#2").
+  // Collect the joints outside the subtree of `top`, with the file's own names: readers number equal names ("Hips#2").
   constexpr std::size_t kMinJoints = 12;
   Skeleton others;
   std::vector<int> place(skeleton.joints.size(), -1);

@@ -27,7 +27,7 @@ struct SourceClip {
   std::optional<MadeBody> made = {};  ///< set if the clip is a body already: it is in metres, with Y up
   /// Repairs made while reading the file; UnderstandClip appends them to the body's note.
   std::vector<std::string> remarks = {};
-  std::optional<JointMapOverrides> roles = {};     ///< ClipFile::roles; the roles in OpenOptions have priority
+  std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; those in OpenOptions have priority
   std::shared_ptr<const MarkerMotion> shown = {};  ///< this clip's entry of ClipFile::shown; null if there is none
 };
 

@@ -19,8 +19,8 @@
 namespace etude {
 namespace {
 
-// Consecutive frames that one process draws. Long enough that frames which share a picture are drawn by one process,
-// short enough that all processes end at about the same time.
+// The number of consecutive frames that one process draws: large enough that frames which share a picture are drawn by
+// one process, and small enough that all processes end at about the same time.
 constexpr int kChunk = 8;
 
 bool SendByte(int socket) { return SendAll(socket, "."); }
@@ -141,7 +141,7 @@ class SoundFile {
         WriteFileAtomically(sound.path_, WriteWav(ClickTrack(beats, seconds, kSoundRate), kSoundRate), OnDisk::kLater));
     return sound;
   }
-  const std::filesystem::path& path() const { return path_; }  ///< empty for a silent film
+  const std::filesystem::path& path() const { return path_; }  ///< path of the file; empty for a silent film
 
  private:
   SoundFile() = default;

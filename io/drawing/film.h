@@ -26,9 +26,9 @@ struct FrameFeed {
   std::function<Result<void>(int frame, std::span<std::uint8_t> into)> fill = {};
 };
 
-/// Draws the frames of a film in several processes, which start as copies of this one, and returns them in order. Each
-/// process draws chunks of consecutive frames. Drawing a frame may cache data for the next frame, but no picture may
-/// depend on the cache; then the film is the same for any number of processes.
+/// Draws the frames of a film in several processes, which start as copies of this process, and returns them in order.
+/// Each process draws chunks of consecutive frames. Drawing a frame may cache data for the next frame, but no picture
+/// may depend on the cache; then the film is the same for any number of processes.
 class FilmWorkers {
  public:
   /// Draws a frame, 0 … `frames` − 1, from its data; all canvases have one size with even sides.

@@ -12,7 +12,7 @@ inline constexpr std::string_view kNoValue = "—";
 
 /// Writes a number: "12.3", "1,284", "0.0021", "3.1e-06"; kNoValue when not finite.
 std::string FormatNumber(double value);
-/// Writes the shortest text from which the same number is read; "" without a value.
+/// Writes the shortest text from which the same number is read; "" for nullopt.
 std::string ExactText(std::optional<double> value);
 /// Writes a number with a fixed number of decimals, for figures in a column.
 std::string FormatFixed(double value, int decimals);

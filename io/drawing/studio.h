@@ -59,7 +59,7 @@ class Studio {
   std::optional<FloorMove> painted_;    ///< the placement for which lit_ and shaded_ were painted
   Image<std::uint32_t> lit_, shaded_;   ///< the empty studio in light and in shadow
   Overlay figures_;                     ///< the figures of the last picture
-  bool has_ghost_ = false;              ///< whether the last picture showed a ghost
+  bool has_ghost_ = false;              ///< true if the last picture showed a ghost
   Image<std::uint32_t> large_, small_;  ///< the last picture, enlarged and shrunk
   Shrinker shrinker_;
 };

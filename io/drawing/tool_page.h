@@ -9,7 +9,7 @@ namespace etude {
 struct ToolPage {
   std::string_view kind;  ///< the command: "capture"
   std::string title;
-  std::string verdict;  ///< one or two sentences
+  std::string verdict;  ///< the result in one or two sentences
   std::string version;
   std::string command;          ///< "" = not shown
   std::string_view script = {};  ///< runs when the page is open; "" = the page allows no scripts

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr mode_t kFolderMode = 0777;  // before the umask
+constexpr mode_t kFolderMode = 0777;  // permissions before the umask is applied
 
 bool IsLink(int folder, const std::string& name) {
   struct stat status {};

@@ -65,7 +65,8 @@ class FileSpot {
 /// FileSpot::Find does, on anything but a regular file (opening a pipe could block), and with the system's reason.
 Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode = 0666);
 
-/// Returns true if something has this path. A link below an `Inside` folder counts, although OpenFile refuses it.
+/// Returns true if a file, a folder or a link has this path. A link below an `Inside` folder counts, although OpenFile
+/// refuses it.
 bool Exists(const FilePath& path);
 
 /// Creates a folder and all missing folders above it. Fails as FileSpot::Find does.

@@ -243,7 +243,7 @@ void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleO
   film.frames = std::move(frames);
 }
 
-constexpr std::size_t kMaxSpread = 10;  // frames per entry
+constexpr std::size_t kMaxSpread = 10;  // maximum number of frames per entry
 
 /// Returns the time of a frame, in the file's unit.
 std::optional<double> TimeOf(const Json& frame) {
@@ -373,7 +373,7 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
     if (!numbers.empty()) steps.push_back(static_cast<double>(*number - numbers.back()));
     numbers.push_back(*number);
   }
-  // Numbers may rise by more than 1 per frame, and may count from 0, from 1 or from any first number.
+  // Numbers may increase by more than 1 per frame, and may count from 0, from 1 or from any first number.
   const auto usual = static_cast<long>(LowerPercentile(std::move(steps), 0.5));
   const auto frames = static_cast<long>(of.frames);
   const long last = numbers.back();

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-constexpr std::size_t kMaxPeople = 64;  ///< people in one frame
+constexpr std::size_t kMaxPeople = 64;  ///< maximum number of people in one frame
 
 /// Returns the member with this name, or null if there is none.
 const Json* Member(const Json& json, const char* name);

@@ -114,7 +114,7 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
 /// right hip.
 void CountMidHips(const Json& json, const Place& place, int& between, int& elsewhere) {
   constexpr std::size_t kCount = 25, kMidHip = 8, kRightHip = 9, kLeftHip = 12;
-  constexpr double kMaxShare = 0.03;  // of the person's height
+  constexpr double kMaxShare = 0.03;  // share of the person's height
   const Json* people = json.is_object() ? Member(json, "people") : nullptr;
   if (people == nullptr || !people->is_array()) return;
   for (const Json& person : *people) {

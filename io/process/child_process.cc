@@ -43,7 +43,7 @@ std::vector<char*> Pointers(std::vector<std::string>& texts) {
   return pointers;
 }
 
-constexpr int kNotContained = -1;  // reported instead of an errno
+constexpr int kNotContained = -1;  // reported instead of an errno if the namespaces cannot be set up
 
 struct Pipe {
   Descriptor read, write;

@@ -30,7 +30,7 @@ struct ProgramLimits {
   static constexpr std::size_t kProcesses = 256;
   static constexpr std::size_t kThreads = 4096;
   static constexpr std::size_t kDescriptors = 4096;
-  static constexpr std::size_t kSockets = 1024;  ///< only in a fence
+  static constexpr std::size_t kSockets = 1024;  ///< counted only in a fence
   static constexpr std::size_t kFileLocks = 16384;
 
   // Kernel limits per user are divided among `programs`, the programs that run at the same time: half of the 128

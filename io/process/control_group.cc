@@ -106,7 +106,7 @@ double HeldMbIn(const std::string& memory_stat, const std::string& swapped) {
       NumberOf(stat, "anon") + NumberOf(stat, "shmem") + NumberOf(stat, "sock") + std::strtod(swapped.c_str(), nullptr);
   if (const double kernel = NumberOf(stat, "kernel"); kernel > 0) {
     bytes += kernel - NumberOf(stat, "slab_reclaimable");
-  } else {  // before Linux 5.18
+  } else {  // Linux before 5.18 states only the parts
     for (const char* part : {"kernel_stack", "pagetables", "percpu", "slab_unreclaimable"})
       bytes += NumberOf(stat, part);
   }

@@ -318,7 +318,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
   }
   words.insert(words.end(), masks.begin(), masks.end());
   Add(words, {"--chdir", start.empty() ? kScratch[0] : start.string()});
-  // Add the filter. Then all arguments become the text of descriptor 3.
+  // Add the filter; then pass all arguments as a text on descriptor 3.
   std::string filter = SystemCallFilter();
   if (!filter.empty()) Add(words, {"--seccomp", pass_text(std::move(filter))});
   for (const char* folder : {"/dev", "/proc", "/"}) Add(words, {"--remount-ro", folder});

@@ -14,8 +14,8 @@ namespace etude {
 /// can read its command line, which must not contain the names of our folders.
 struct FencedCommand {
   std::vector<std::string> words;                 ///< a path and arguments
-  std::vector<std::string> inherited_texts = {};  ///< ChildOptions::inherited_texts
-  std::vector<std::string> environment = {};      ///< ChildOptions::environment, of bubblewrap and of the program
+  std::vector<std::string> inherited_texts = {};  ///< for ChildOptions::inherited_texts
+  std::vector<std::string> environment = {};      ///< for ChildOptions::environment, of bubblewrap and of the program
 };
 
 /// The memory of temporary files in scratch folders (tmpfs).

@@ -38,7 +38,7 @@ constexpr std::size_t kMaxLockBytes = 4 << 20;
 constexpr std::size_t kEnoughLocks = 17'000;  // more than a program may have (ProgramLimits::kFileLocks)
 constexpr int kMaxSamplesUnseen = 3;
 
-/// Returns the time since this thread started, and since the epoch of Clock.
+/// Returns the processor time of this thread and the wall time since the epoch of Clock.
 ElapsedTime Now() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -65,7 +65,7 @@ std::size_t CountDescriptors(pid_t process, std::string_view status) {
   const std::string folder = fmt::format("/proc/{}/fd", process);
   struct stat told {};
   if (::stat(folder.c_str(), &told) == 0 && told.st_size > 0) return static_cast<std::size_t>(told.st_size);
-  DIR* files = ::opendir(folder.c_str());  // before Linux 6.2
+  DIR* files = ::opendir(folder.c_str());  // Linux before 6.2 does not state the number
   if (files == nullptr) return static_cast<std::size_t>(FieldOf(status, "\nFDSize:"));
   std::size_t count = 0;
   while (const dirent* file = ::readdir(files)) count += file->d_name[0] != '.' ? 1 : 0;
@@ -272,7 +272,7 @@ double TreeMeter::HeldMb(double scratch_mb, double precise_from_mb) {
 }
 
 void TreeMeter::ClaimTime() {
-  // The tree's time is read only if we have waited for long.
+  // Measure the tree's processor time only if this process has waited for most of a long measurement.
   const ElapsedTime now = Now();
   const ElapsedTime measuring{now.cpu_s - started_.cpu_s, now.wall_s - started_.wall_s};
   static const double cores = std::thread::hardware_concurrency();

@@ -102,7 +102,7 @@ class TreeMeter {
   /// SampleMappings.
   double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
   std::size_t mappings_ = 0;                      ///< number of mappings that were read
-  std::map<std::uint64_t, SharedMemory> shared_;  ///< by inode
+  std::map<std::uint64_t, SharedMemory> shared_;  ///< all shared mappings, by inode
   std::map<pid_t, std::uint64_t> faults_;         ///< page faults of each process in the last sample
   std::uint64_t touched_pages_ = 0;               ///< page faults of all processes since the start
 

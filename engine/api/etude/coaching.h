@@ -24,10 +24,10 @@ struct CoachOptions {
   std::string recogniser = "whole-body";    ///< or "dtw", "nearest"
   bool smooths = false;                     ///< filters the stream by Kinect's own smoothing filter before recognition
   bool mirrors = false;                     ///< players dance as in a mirror: the coach's left side is their right side
-  bool dances_at_once = false;              ///< starts with the dance instead of waiting for a clap
+  bool dances_at_once = false;              ///< starts with the dance, without waiting for a clap
   /// A performance is right if its evidence is at least this, in (0, 1]; nullopt: the recogniser's own threshold.
   std::optional<double> right_from = {};
-  /// The place of the sensor, metres; players are asked to stand 1.5 to 3.6 m from it.
+  /// The position of the sensor in the world, metres; players are asked to stand 1.5 to 3.6 m from it.
   glm::dvec3 sensor_m{0, 1, 2.75};
 };
 

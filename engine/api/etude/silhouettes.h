@@ -12,7 +12,7 @@
 namespace etude::engine {
 
 struct FollowOptions {
-  double stature_m = 1.74;  ///< height of the person, who has an average adult's limbs for that height; 0.5 to 2.5
+  double stature_m = 1.74;  ///< height of the person, 0.5 to 2.5; the limbs have an adult's average proportions
   /// Poses of this person from which limb lengths are measured; `stature_m` is then ignored.
   std::vector<BodyPose> measured = {};
   double rate_hz = 30;  ///< frames per second, 1 to 1000; it limits how far a person can move between two pictures
@@ -24,7 +24,8 @@ struct FollowOptions {
 /// @param cameras two or more fixed cameras without lens distortion: undistort the pictures first
 /// @param masks one mask per camera and frame; all cameras take a frame at the same moment. A mask has the size of its
 /// camera's picture, or is smaller by the same whole factor in both directions. Pixels other than 0 show the person.
-/// Throws BadInput for cameras and masks that do not fit each other, for lenses, and for limbs of length zero.
+/// Throws BadInput if cameras and masks do not fit each other, if a camera has lens distortion, or if a limb has length
+/// zero.
 ETUDE_API std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamera> cameras,
                                                                 std::span<const std::vector<Mask>> masks,
                                                                 const FollowOptions& options = {});

@@ -58,7 +58,7 @@ constexpr double kMinRotationLength = 1e-9;
 
 glm::dquat Quaternion(const double* xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
 
-/// Returns the tolerance of a time, because times in files are floats.
+/// Returns the tolerance for comparing a time with `time`, because files store times as floats.
 double GltfTimeRounding(double time) { return 2e-7 * std::max(1.0, std::abs(time)); }
 
 Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, std::size_t width) {
@@ -150,7 +150,7 @@ GltfCurve::Value GltfCurve::At(double time) const {
 
 GltfCurve::Value GltfCurve::Finished(Value value, std::size_t fallback_key) const {
   if (values_.width != 4) return value;
-  // A spline between opposite quaternions may pass through zero; then use the key's value.
+  // A spline between opposite quaternions may pass through zero; then use the value of the key before it.
   const glm::dquat found = Quaternion(value.data());
   if (glm::dot(found, found) < kMinRotationLength * kMinRotationLength) {
     std::copy_n(Key(fallback_key), values_.width, value.begin());
@@ -180,7 +180,7 @@ GltfCurve::Value GltfCurve::Spline(std::size_t key, double t, double seconds) co
   return value;
 }
 
-constexpr double kMaxFrameBytes = 200e6;  // limit for all clips together
+constexpr double kMaxFrameBytes = 200e6;  // limit for all clips together, bytes
 constexpr double kMinRateHz = 0.1;
 constexpr double kMaxRateHz = 10'000;
 constexpr double kDefaultRateHz = 60;
@@ -198,7 +198,7 @@ struct Channel {
 struct Timing {
   double start = 0;
   double rate_hz = kDefaultRateHz;
-  double frames = 1;  ///< a whole number, but possibly far too large
+  double frames = 1;  ///< a whole number; it may exceed the allowed number of frames
 };
 
 void Apply(const Channel& channel, double time, LocalPose& pose) {
@@ -225,7 +225,7 @@ double RoundedRate(double rate) {
 }
 
 bool LiesOnGrid(const std::vector<double>& times, double start, double rate_hz) {
-  constexpr double kSlack = 0.02;  // share of a frame
+  constexpr double kSlack = 0.02;  // tolerance, as a share of a frame
   return std::ranges::all_of(times, [&](double time) {
     const double frame = (time - start) * rate_hz;
     return std::abs(frame - std::round(frame)) <= kSlack + rate_hz * GltfTimeRounding(time);
@@ -263,7 +263,7 @@ Timing TimingOf(const std::vector<Channel>& channels) {
     end = std::max(end, channel.curve.times().back());
   }
   const double rate = RateOf(channels, start);
-  constexpr double kSlack = 0.02;  // share of a frame, as in LiesOnGrid
+  constexpr double kSlack = 0.02;  // tolerance, as a share of a frame, as in LiesOnGrid
   return {start, rate, std::floor((end - start) * rate + kSlack) + 1};
 }
 
@@ -348,8 +348,8 @@ class ClipReader {
     return {};
   }
 
-  /// Returns the animation's name as in the file; an unnamed animation is named by its index, and duplicate names get a
-  /// number.
+  /// Returns the animation's name as in the file. An unnamed animation is named by its index, and a number is appended
+  /// to duplicate names.
   std::string UniqueName(int index) {
     const std::string& given = At(index).name;
     const std::string base = given.empty() ? fmt::format("animation_{}", index) : given;

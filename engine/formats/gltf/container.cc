@@ -15,7 +15,7 @@ constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
 constexpr int kMaxNesting = 64;
 constexpr std::size_t kMaxValues = 1'000'000;
 
-/// Reads a little-endian number, on any machine.
+/// Reads a little-endian 32-bit number, whatever the byte order of the machine.
 std::uint32_t Number(std::string_view bytes, std::size_t at) {
   std::uint32_t number = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -107,7 +107,7 @@ class JsonShape {
   int depth_ = 0;
   std::size_t values_ = 0;
   std::size_t buffers_ = 0;
-  std::string_view key_;  ///< the last string at the top level
+  std::string_view key_;  ///< the last string at the top level: a key or a value
 };
 
 }  // namespace
@@ -124,7 +124,7 @@ Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::strin
     container = *glb;
   }
   ASSIGN_OR_RETURN(const auto buffers, JsonShape().CountBuffers(container.json, place));
-  // Every buffer without a URI gets a copy of the binary part.
+  // Every buffer without a URI gets a copy of the binary part, so limit the size of all copies together.
   if (static_cast<double>(buffers) * static_cast<double>(container.binary.size()) > kMaxGltfBytes) {
     return Fail(place, "{} buffers beside {} bytes of binary data; allowed: {:.0f} MB together", buffers,
                 container.binary.size(), kMaxGltfBytes / 1e6);

@@ -14,8 +14,8 @@ struct GltfContainer {
   std::string_view binary;  ///< the binary part of a GLB file; may be empty
 };
 
-/// The maximal number of bytes of a file, of its binary part times the number of buffers that copy it, and of all files
-/// it refers to.
+/// A limit in bytes for each of: a file, its binary part times the number of buffers that copy it, and all files that
+/// it refers to together.
 inline constexpr double kMaxGltfBytes = 256e6;
 
 /// Finds the parts of a .gltf or .glb file. Refuses files that would make a JSON parser use excessive memory:

@@ -63,7 +63,7 @@ const char* Name(GltfComponents allowed) {
   return "";
 }
 
-/// Returns the numbers per element; 0 for types that are not read here.
+/// Returns the numbers per element; 0 for unsupported types.
 std::size_t Width(int type) {
   switch (type) {
     case TINYGLTF_TYPE_SCALAR:
@@ -231,7 +231,7 @@ Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents 
   if (accessor.sparse.isSparse) {
     RETURN_IF_ERROR(ReadSparse(*this, accessor, numbers, name + ".sparse"));
   }
-  const bool is_index = allowed == GltfComponents::kUnsigned;  // indices are limited separately
+  const bool is_index = allowed == GltfComponents::kUnsigned;  // callers check the range of indices
   for (std::size_t i = 0; !is_index && i < numbers.values.size(); ++i) {
     if (!(std::abs(numbers.values[i]) <= kMaxGltfNumber)) {
       return Refuse(name, "found {} in element {}; allowed: numbers within ±{:g}", numbers.values[i], i / width,

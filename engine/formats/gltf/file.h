@@ -34,7 +34,7 @@ enum class GltfComponents {
   kFloat,
   kFloatOrNormalized,  ///< integers only if they are normalised to −1…1
   kAny,                ///< also integers with their own values (KHR_mesh_quantization)
-  kUnsigned,           ///< indices
+  kUnsigned,           ///< unsigned integers, for indices
 };
 
 /// A parsed but untrusted file: every index and size is checked here.
@@ -51,16 +51,16 @@ class GltfFile {
     return Fail({name_}, "{}: {}", where, fmt::format(format, std::forward<Args>(args)...));
   }
 
-  /// Returns an error unless `index` is one of `count` indices from 0.
+  /// Returns an error unless 0 ≤ `index` < `count`.
   Result<void> CheckIndex(int index, std::size_t count, const std::string& where) const;
 
   /// Returns the bytes of a buffer view, or an error if it extends beyond its buffer.
   Result<std::string_view> ReadView(int view, const std::string& where) const;
 
   /// Reads an accessor with elements of `width` numbers (1 to 4, or 16 for a matrix) as doubles. Normalised integers
-  /// become −1…1 or 0…1, sparse elements replace others, and an accessor without a buffer view holds zeros. Returns an
-  /// error for another shape or component type, no elements, data outside the buffer view or buffer, numbers that are
-  /// not finite or beyond ±10⁹, and more than 20 million numbers read from one file.
+  /// become −1…1 or 0…1, sparse values replace the elements at their indices, and an accessor without a buffer view
+  /// holds zeros. Returns an error for another shape or component type, no elements, data outside the buffer view or
+  /// buffer, numbers that are not finite or beyond ±10⁹, and more than 20 million numbers read from one file.
   Result<GltfNumbers> Read(int accessor, std::size_t width, GltfComponents allowed, const std::string& where);
 
  private:

@@ -33,7 +33,7 @@ class GltfTextures {
 
   const GltfFile& file_;
   const DecodePicture& decode_;
-  std::map<int, SharedTexture> plain_;  ///< by index, before multiplication by a colour
+  std::map<int, SharedTexture> plain_;  ///< decoded pictures by texture index, not yet multiplied by a colour
   std::size_t pixels_left_ = 64'000'000;
 };
 
@@ -70,7 +70,7 @@ Result<SharedTexture> GltfTextures::Read(const tinygltf::Material& material, con
 }
 
 Result<SharedTexture> GltfTextures::ReadPlain(int index, const std::string& where) {
-  // A texture that was decoded before is shared.
+  // Reuse a texture that was decoded before.
   const tinygltf::Model& model = file_.model();
   RETURN_IF_ERROR(file_.CheckIndex(index, model.textures.size(), where));
   if (const auto known = plain_.find(index); known != plain_.end()) return known->second;
@@ -211,7 +211,7 @@ class MeshReader {
     if (mesh.primitives.empty()) {
       return file_.Refuse(fmt::format("meshes[{}].primitives", index), "found none; at least one is needed");
     }
-    bindings_ += bindings.size() * mesh.primitives.size();  // every surface gets a copy
+    bindings_ += bindings.size() * mesh.primitives.size();  // every surface gets a copy of the bindings
     if (bindings_ > kMaxBindings) {
       return file_.Refuse(where, "with it, surfaces depend on {} joints; allowed: {}", bindings_, kMaxBindings);
     }
@@ -293,8 +293,8 @@ class MeshReader {
     return {};
   }
 
-  /// Reads the texture coordinates that the material refers to. Without them all vertices have the coordinates of the
-  /// picture's corner.
+  /// Reads the texture coordinates that the material refers to. If the mesh has none, all vertices keep the coordinates
+  /// (0, 0) of the picture's corner.
   Result<void> ReadTextureCoordinates(const tinygltf::Primitive& primitive, const std::string& where,
                                       SkinnedMesh& mesh) {
     const auto material = static_cast<std::size_t>(primitive.material);

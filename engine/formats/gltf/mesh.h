@@ -21,7 +21,7 @@ Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, const Decode
 /// Returns true if a joint's axes at rest are a mirror image, which reverses the orientation of triangles.
 bool IsMirrored(const Skeleton& skeleton, int joint);
 
-/// Reverses the orientation of all triangles, so that the other side is the outside.
+/// Reverses the orientation of all triangles, so that inside and outside are exchanged.
 void FlipTriangles(SkinnedMesh& mesh);
 
 }  // namespace etude

@@ -217,7 +217,7 @@ class NodeReader {
       if (local.scale[k] < 1e-9) return file_.Refuse(where, "flattens an axis; allowed: translation, rotation, scale");
       axes[k] /= local.scale[k];
     }
-    if (glm::determinant(axes) < 0) {  // a mirror image: of the three possible signs, choose that of x
+    if (glm::determinant(axes) < 0) {  // a mirror image: give the negative sign to the scale of x
       local.scale.x = -local.scale.x;
       axes[0] = -axes[0];
     }

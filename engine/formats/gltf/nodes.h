@@ -26,8 +26,8 @@ struct GltfNodes {
 /// levels, matrices that shear, flatten or project, and rotations of length 0.
 Result<GltfNodes> ReadGltfNodes(const GltfFile& file);
 
-/// Returns an error if a joint's global position or axes exceed ±10⁹ in this pose, because small numbers can multiply
-/// along the hierarchy.
+/// Returns an error if a joint's global position or axes exceed ±10⁹ in this pose: scales and translations multiply
+/// along the hierarchy, so the product of allowed numbers may be too large.
 Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const LocalPose& pose,
                            const std::string& where);
 

@@ -31,7 +31,7 @@ struct Fetcher {
   std::string file;
   bool wants_pictures = false;
   double bytes_left = kMaxGltfBytes;
-  std::optional<Error> complaint;  ///< the first one
+  std::optional<Error> complaint;  ///< the first error of a callback
 
   bool Complain(Error error) {
     if (!complaint) complaint = std::move(error);
@@ -88,9 +88,9 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
 
 bool WriteWholeFile(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
-/// Makes `parser` read files only through `fetcher`. It is a template because tinygltf's versions differ: since 2.9 it
-/// also asks for a file's size; if a callback is missing, it returns an error and keeps its own callbacks, which read
-/// any file.
+/// Makes `parser` read files only through `fetcher`. It is a template because tinygltf's versions differ: version 2.9
+/// added a callback for a file's size. If a callback is missing, tinygltf reports an error and keeps its own callbacks,
+/// which read any file.
 template <typename Callbacks, typename Parser>
 Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
   Callbacks callbacks{};
@@ -182,7 +182,7 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
     for (const auto& [key, value] : json.items()) {
       if (key == "extras" || key == "extensions") continue;
       const std::string name = where.empty() ? key : where + "." + key;
-      const bool may_be_object = key == "indices" && !where.starts_with("meshes");  // in a sparse accessor it is one
+      const bool may_be_object = key == "indices" && !where.starts_with("meshes");  // an object in a sparse accessor
       if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() &&
           !(may_be_object && value.is_object())) {
         return Fail({file}, "{}: found {}; allowed: a whole number from 0", name, value.dump().substr(0, 40));
@@ -218,7 +218,7 @@ Result<void> CheckIndexLists(const nlohmann::json& json, const std::string& file
 }
 
 /// Refuses file names with a NUL character, plain or escaped, because tinygltf 2.9 would cut the name there and request
-/// the rest.
+/// another file.
 Result<void> CheckFileNames(const nlohmann::json& json, const std::string& file) {
   for (const char* list : {"buffers", "images"}) {
     if (!json.is_object() || !json.contains(list) || !json[list].is_array()) continue;
@@ -238,11 +238,11 @@ void PutNumber(std::string& bytes, std::size_t number) {
   for (int i = 0; i < 4; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xffU);
 }
 
-/// Returns the file without its meshes if they are compressed by Draco, because the parser would fail on them; nothing
+/// Returns the file without its meshes if they are compressed by Draco, because the parser would fail on them; nullopt
 /// for other files.
 std::optional<std::string> WithoutDracoMeshes(const GltfContainer& container) {
   if (container.json.find(kDraco) == std::string_view::npos) return std::nullopt;
-  // Check that Draco is required.
+  // Return nullopt unless the file requires Draco.
   auto json = nlohmann::json::parse(container.json, nullptr, /*allow_exceptions=*/false);
   const bool is_file = json.is_object() && json.contains("extensionsRequired") && json["extensionsRequired"].is_array();
   if (!is_file || std::ranges::find(json["extensionsRequired"], kDraco) == json["extensionsRequired"].end()) {
@@ -272,7 +272,7 @@ std::optional<std::string> WithoutDracoMeshes(const GltfContainer& container) {
   return bytes += container.binary;
 }
 
-/// The maximal length of a name; every clip copies the names of its joints, so long ones would multiply.
+/// The maximal length of a name; every clip copies the names of its joints, so long names would use much memory.
 constexpr std::size_t kMaxNameBytes = 500;
 
 template <typename Named>

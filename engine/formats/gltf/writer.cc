@@ -37,7 +37,7 @@ class GltfBytes {
   std::vector<unsigned char> bytes_;
 };
 
-/// The use of a buffer view.
+/// The content of a buffer view, for its property `target`.
 enum class GltfTarget { kOther, kVertices, kIndices };
 
 /// The elements of an accessor: their location and type.
@@ -181,7 +181,7 @@ void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& c
   // An animation needs at least one channel. If nothing moves, one channel needs all keys, so that the length is kept.
   const bool all_still = std::ranges::all_of(tracks, &Track::IsStill);
   const int times = AddTimes(model, clip.frames.size(), clip.rate_hz);
-  int first_time = -1;  // created on first use
+  int first_time = -1;  // accessor with one time for constant properties; created on first use
 
   tinygltf::Animation animation;
   animation.name = GltfText(clip.name);
@@ -265,7 +265,7 @@ class GlbWriter {
     mesh.name = GltfText(first.name);
     for (const SkinnedMesh& part : group) {
       if (is_rigid && IsMirrored(character_.skeleton, first.bindings[0].joint)) {
-        SkinnedMesh turned = part;  // because reading will flip it again
+        SkinnedMesh turned = part;  // flipped, because the reader flips the triangles of a mirrored joint
         FlipTriangles(turned);
         mesh.primitives.push_back(MakePrimitive(turned, false));
       } else {

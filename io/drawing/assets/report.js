@@ -90,7 +90,7 @@
     picked = null;
     back?.focus();
   };
-  // A row of a table stands for all trials.
+  // The cells of a table row differ only in their trial, so compare them without the trial's number.
   const TRIAL = /\/\d+(?=\/[^/]*$)/, without = (id) => id.replace(TRIAL, '');
   const ofRow = (ids, kept) => {
     const asked = ids.map(without), count = new Map();

@@ -304,7 +304,7 @@ const scaled = (share) => {
 };
 const short = (x) => Number.isFinite(x) ? x < 9.995 ? x.toFixed(2) : x < 99.95 ? x.toFixed(1) : x.toFixed(0) : '—';
 
-let drawn = 0;  // frames, of all worlds
+let drawn = 0;  // frames drawn so far, of all worlds
 let opened = null;
 const show = (world, cells) => {
   const reduced = matchMedia('(prefers-reduced-motion: reduce)').matches, chosen = new Set(), rate = world.rate_hz, last = world.frames - 1;
