@@ -25,8 +25,8 @@ class LensWarp {
   /// must be below 0.14.
   explicit LensWarp(const Camera& camera);
 
-  /// Returns the camera for which to render: without distortion, and enlarged as far as the corners need. Without
-  /// distortion this is the camera itself.
+  /// Returns the pinhole camera for which scenes are rendered. Its picture is enlarged so that every pixel of the lens
+  /// has a source in it. If the lens has no distortion, this is the camera itself.
   const Camera& pinhole() const { return pinhole_; }
   bool is_none() const { return sources_.empty(); }
 

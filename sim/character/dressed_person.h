@@ -21,7 +21,7 @@ struct Outfit {
   bool is_skirt = false;  ///< a skirt instead of trousers
   double skirt_cm = 40;   ///< from the hips down
   bool has_long_hair = false;
-  /// If set, a suit from head to toe replaces all of these: every part of the body has one plain colour.
+  /// If set, a suit from head to toe replaces the clothes above: every part of the body has one plain colour.
   std::optional<PartColours> suit = {};
 };
 

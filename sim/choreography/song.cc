@@ -43,7 +43,7 @@ Controls TurnAt(const Turn& turn, double beat) {
   return turn.move ? turn.move->curves.At(turn.pace * clock) : Waiting(clock);
 }
 
-/// Returns true if the control changes the place of a foot. A raised heel leaves the toes in place.
+/// Returns true if the control changes the place of a foot on the floor. A raised heel does not, because the toes stay.
 bool MovesAFoot(SideControl control) { return control >= SideControl::kLegFree && control != SideControl::kFootHeel; }
 
 constexpr std::size_t kMinMoves = 8, kMaxMoves = 12;

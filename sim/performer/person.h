@@ -54,11 +54,11 @@ struct Person {
   /// The gain of each control, which multiplies its distance from the ready stance. Gains determine which movements
   /// the person exaggerates or reduces, and which side is stronger.
   std::array<double, kControlCount> gains = AllGains(1);
-  /// The person's posture: offsets that are added to every control, in every move and at rest.
+  /// The person's posture: offsets that are added to the controls, in every move and at rest.
   Controls posture = {};
-  /// The size of the offsets in the person's Style; about 1 for an adult, 0 for somebody who dances exactly as taught.
+  /// The size of the offsets in the person's Style; about 1 for an adult, 0 for a person who dances exactly as taught.
   double looseness = 0;
-  std::uint64_t style = 0;  ///< the random key of the person's Style of every move
+  std::uint64_t style = 0;  ///< the key from which the random numbers of the person's Style of every move are drawn
 };
 
 /// Returns the kind of person for a number `share` in [0, 1). In the mixture, toddlers come first, then school

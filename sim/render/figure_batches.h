@@ -11,8 +11,8 @@ namespace etude {
 /// One capsule as input of the vertex shader (kCapsuleBox in shaders.h). Frame E has the world's axes and its origin at
 /// the camera's centre.
 struct CapsuleInstance {
-  glm::vec4 start_and_radius;  ///< in E; for a face, the end at the chin
-  glm::vec4 end_and_label;     ///< in E
+  glm::vec4 start_and_radius;  ///< start of the axis in E, and radius; for a face, the start is at the chin
+  glm::vec4 end_and_label;     ///< end of the axis in E, and label
   glm::vec4 paint;             ///< RGB 0…1; A = 1 for a head that gets a face
   glm::vec3 front;             ///< unit direction in which the face looks
 };

@@ -91,7 +91,7 @@ std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards) {
 
 MarkedCube MakeMarkedCube(const glm::dvec3& middle) {
   constexpr double kThickness =
-      0.001;  // metres between a disc and its plane, which would otherwise coincide in the picture
+      0.001;  // metres between a disc and its plane, so that the disc is drawn in front of the plane
   MarkedCube cube;
   cube.surfaces.resize(2);
   Surface &black = cube.surfaces[0], &white = cube.surfaces[1];

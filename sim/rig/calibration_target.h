@@ -40,10 +40,10 @@ struct MarkedCube {
   std::vector<PlacedDisc> discs;
   std::vector<Surface> surfaces;  ///< the discs and the planes, for the renderer
 };
-/// Makes the cube at the place of the cube of `CalibrationTarget(middle)`.
+/// Makes the cube with its centre and size as in `CalibrationTarget(middle)`.
 MarkedCube MakeMarkedCube(const glm::dvec3& middle);
 
-/// Returns the seen corners, each with its position in the world.
+/// Returns for each seen corner its pixel and its position in the world.
 std::vector<PointPair> PairsOf(std::span<const PlacedBoard> boards, std::span<const SeenCorner> seen);
 
 }  // namespace etude

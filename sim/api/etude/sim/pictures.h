@@ -17,7 +17,7 @@ struct StudioOptions {
   /// How furnished the room is, 0 to 1. At 0 it is a bare studio with a person of capsules in warm colours; at 1 it is
   /// a lived-in room with a dressed person.
   double scene = 0;
-  std::uint64_t seed = 1;  ///< of the room, its objects and the person's clothes
+  std::uint64_t seed = 1;  ///< determines the room, its objects and the person's clothes
 };
 
 struct Picture {
@@ -45,7 +45,7 @@ class ETUDE_API Studio {
 
   /// Takes the picture of a frame of the motion. Throws BadInput if the camera or the frame does not exist.
   Picture Shoot(std::size_t camera, std::size_t frame) const;
-  /// Takes a picture before the person enters the room. Moving objects are at other positions in it.
+  /// Takes a picture of the room before the person enters it. Its moving objects have other positions than in `Shoot`.
   Picture ShootEmpty(std::size_t camera) const;
 
  private:
