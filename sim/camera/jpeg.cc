@@ -71,7 +71,7 @@ Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t max_pixels) {
   bool is_read = DecodeUntrusted(jpeg, jpeg_error, job, nullptr);
   const std::size_t width = job.image_width, height = job.image_height;
   jpeg_destroy_decompress(&job);
-  constexpr std::size_t kMaxSide = 16'384;  // GL's limit for the side of a picture
+  constexpr std::size_t kMaxSide = 16'384;  // the largest side of a picture in GL
   if (is_read && (width * height > max_pixels || std::max(width, height) > kMaxSide)) {
     return Fail({}, "a JPEG picture of {} x {} pixels; allowed: at most {} in all, {} a side", width, height,
                 max_pixels, kMaxSide);

@@ -89,7 +89,7 @@ Extent ShadowOn(const Extent& extent, const glm::dvec3& lamp, int axis, double p
   return shadow;
 }
 
-// These functions return the extents of a figure's capsules, and of its surfaces as wholes.
+// Return the extents of capsules, one each, and of surfaces, one each. Those with non-finite coordinates are left out.
 std::vector<Extent> ExtentsOf(const std::vector<Capsule>& shape) {
   std::vector<Extent> extents;
   for (const Capsule& capsule : shape) {

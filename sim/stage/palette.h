@@ -22,7 +22,7 @@ Hsv Mixed(const Hsv& a, const Hsv& b, double share);
 /// sometimes any hue. Always draws the same number of random numbers.
 Hsv DrawColour(RandomStream& random);
 
-/// Draws a colour of the studio's objects. Its hue is 150–230°; performers in the studio have other hues.
+/// Draws a colour of the studio's objects, with a hue of 150–230°. Performers in the studio have no such hue.
 Hsv DrawStudioColour(RandomStream& random);
 
 }  // namespace etude
