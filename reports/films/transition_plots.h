@@ -7,8 +7,8 @@
 namespace etude {
 
 /// A strip that shows the jumps of a path over time: the largest second difference of any joint (cm), with the limit of
-/// natural motion where it is known. Below stands the clip that plays: the clip left, an in-between, or the clip
-/// wanted. Time counts in frames from the request.
+/// natural motion where it is known. Below the curve, it names the clip that plays: the clip left, an in-between, or
+/// the clip wanted. Time is in frames after the request.
 class JumpStrip {
  public:
   /// Shows the times `first` … `last`, in frames after the request. The vertical axis ends at `highest_cm` > 0.
@@ -43,7 +43,7 @@ void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& fac
 std::string PointWords(const TransitionFacts& facts, std::size_t point);
 
 /// Returns "side kick in 0.34 s" from the request until the wanted clip starts, and "waited 0.57 s" from then on; ""
-/// before the request. `time` and `last_point` are frames after the request.
+/// before the request. `time` and `last_point` are in frames after the request.
 std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz);
 
 }  // namespace etude
