@@ -278,7 +278,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   const std::vector<Feature> features = FeaturesOf(asked.poses);
   const double rows = static_cast<double>(features.size()) + 1;
   const double height = std::min(84.0, kStripsHeight / rows - kStripGap);
-  const int shown_to = std::max(0, std::min(now, asked.end_frame - 1));  // an event of a damaged recording may be empty
+  const int shown_to = std::max(0, std::min(now, asked.end_frame - 1));  // a damaged recording may have an empty event
   const auto strip_at = [&](std::size_t row, double highest) {
     return Strip{
         {kAnglesPanel.x + kStripLeft, kAnglesPanel.y + kStripsTop + static_cast<double>(row) * (height + kStripGap),

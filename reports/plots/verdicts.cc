@@ -8,8 +8,7 @@
 namespace etude {
 namespace {
 
-/// The series of a cell by name. All have the length of the first one; a series of another length counts as missing
-/// (null).
+/// The series of a cell by name. A series counts as missing (null) if its length differs from that of the first one.
 class Columns {
  public:
   Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}

@@ -27,7 +27,7 @@ MetricWords WordsFor(const std::string& metric_id);
 /// Returns the suffix without its space, for captions: "cm", "".
 std::string UnitOf(const MetricWords& words);
 
-/// Returns the number that summarises all cells, in its unit: the median or the mean, whichever the metric defines.
+/// Returns the number that summarises all cells, in the metric's unit: the median or the mean, as the metric defines.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
 /// Returns a value as text: "12.3°", "98 %"; kNoValue if there is none.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);

@@ -81,7 +81,7 @@ struct StiffBone {
 };
 
 std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& options) {
-  const auto child = [&] { return AllRoles()[Index(role) + 1]; };  // along an arm, roles are consecutive
+  const auto child = [&] { return AllRoles()[Index(role) + 1]; };  // the roles of an arm are in order from the shoulder
   switch (GroupOf(role)) {
     case JointGroup::kShoulders:
       return {{{child(), options.arm_stretch}, {Mirrored(role), options.shoulder_stretch}}};
