@@ -33,8 +33,7 @@ std::int64_t CountWalshAverages(std::span<const double> ascending, double limit)
   return count;
 }
 
-/// OrderOf maps a finite double to an integer, and the next function maps it back. The integers are ordered like the
-/// doubles.
+/// OrderOf maps a finite double to an integer, and ValueAt maps it back. The integers have the order of the doubles.
 std::int64_t OrderOf(double value) {
   const auto bits = std::bit_cast<std::int64_t>(value);
   return bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits;
