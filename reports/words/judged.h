@@ -79,7 +79,7 @@ std::string_view OtherUnits(SamplingUnit unit);
 /// The verdicts of comparisons for other units, summarised over all conditions.
 struct BeyondFinding {
   bool on_these_only = true;            ///< no condition has a verdict for other units
-  bool as_on_these = false;             ///< every condition has a verdict for other units, equal to that on these worlds
+  bool as_on_these = false;             ///< every condition has a verdict for other units, as on these worlds
   std::optional<Verdict> verdict = {};  ///< the common verdict of all conditions that have one for other units
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
