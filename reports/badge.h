@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Returns a verdict as an HTML label: its word on a coloured ground, so that no meaning depends on colour alone.
+/// Returns a verdict as an HTML label: its word on a coloured background, so that no meaning depends on colour alone.
 /// nullopt means that the verdict depends on the condition.
 std::string VerdictBadge(const std::optional<Verdict>& verdict);
 

@@ -111,8 +111,8 @@ void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   }
 }
 
-/// Returns every comparison once, ordered by metric, baseline before rival, method, condition. Leaves out a comparison
-/// with a rival if a comparison with a baseline has the same two methods, in either order.
+/// Returns every comparison once, ordered by metric, then by baseline or rival, then by method and condition. Leaves
+/// out a comparison with a rival if a comparison with a baseline has the same two methods, in either order.
 std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   std::vector<Shown> all;
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {

@@ -16,7 +16,7 @@ constexpr std::string_view kTask = "plausibility", kWithin = "within_limits";
 struct FaultyClips {
   Table table;           ///< clips beyond their limits first, clips that could not be judged last
   std::string sentence;  ///< the number of faulty and of unjudged clips in words; empty if the run has no clips
-  std::size_t rows = 0;  ///< the number of rows without the limit `most`
+  std::size_t rows = 0;  ///< the number of rows that the table would have without the limit `most`
 };
 
 /// Collects the faulty clips of a run; the table has at most `most` rows.
@@ -24,7 +24,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
   FaultyClips found;
   std::vector<TableRow> beyond, others, unjudged;
   std::size_t judged = 0;
-  // Sort the clips: beyond their limits, other faulty clips, clips that could not be judged.
+  // Sort the clips into those beyond their limits, other faulty clips, and clips that could not be judged.
   ForEachRow(run, [&](const Row& row, std::size_t) {
     if (row.task != kTask || row.result.status == Status::kSkipped) return;
     if (row.result.status != Status::kOk) {

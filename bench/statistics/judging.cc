@@ -40,7 +40,7 @@ std::string NotWithFailures(Verdict of_pairs) {
 /// than half of the worlds.
 std::string DescribeWhatMedianHides(const Comparison& c) {
   const int tied = c.pairs - c.differing;
-  const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // ties count half
+  const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // `share_better` counts ties as half
   const std::string ties = 2 * tied > c.pairs ? "in most worlds the same, " : "";
   return fmt::format("the median is too small to matter, but the mean may not be: {}in {} of {} better, in {} worse",
                      ties, better, c.pairs, c.differing - better);

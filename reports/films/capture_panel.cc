@@ -73,7 +73,8 @@ void Tint(const Mask& mask, const Paint& paint, ColourImage& picture) {
   }
 }
 
-// Returns the part of the pictures, in their aspect ratio, that contains the person in every frame with a margin.
+// Returns a part of the pictures that contains the person in every frame with a margin. It has the pictures' aspect
+// ratio.
 Box CropAround(const BodyMotion& motion, const Camera& camera) {
   constexpr double kAirPixels = 45;
   const glm::dvec2 size{camera.intrinsics.width, camera.intrinsics.height};

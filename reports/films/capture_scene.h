@@ -23,7 +23,8 @@ Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, 
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
 /// Finds the captures that a film compares: the recorded methods in the world of the typical cell (ChooseCell), in the
-/// scenario's order, at most three. Empty if there is none; fails if a recording cannot be read.
+/// scenario's order, at most three. The result is empty if that world has no recordings. Fails if a recording cannot be
+/// read.
 Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical);
 
 /// The film of a capture: the views of two cameras and, side by side for each method, the true skeleton with the

@@ -237,7 +237,7 @@ const ColourImage& CoachedScene::Backdrop(const Camera& camera) {
 
 void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   const auto t = static_cast<std::size_t>(frame);
-  // The camera sees coach and learner side by side.
+  // Place the camera so that it sees coach and learner side by side.
   Intrinsics inside;
   inside.width = static_cast<int>(kStage.width);
   inside.height = static_cast<int>(kStage.height);

@@ -148,7 +148,7 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   const Place nowhere;
   const std::vector<RecordedCell> cells = RecordedCells(run, scenario);
   const std::vector<std::string> methods = MethodsOf(cells, scenario);
-  // Two methods must have recordings.
+  // Check that two methods have recordings.
   if (methods.empty()) return Fail(nowhere, "this run kept no recordings of this scenario (its key 'video')");
   if (methods.size() == 1) {
     return Fail(nowhere, "this run kept recordings of only one method; two in the same world are needed");

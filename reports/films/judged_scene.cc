@@ -160,7 +160,7 @@ std::vector<Feature> FeaturesOf(const std::vector<TaughtPose>& poses) {
   return features;
 }
 
-/// A horizontal strip with a value over the frames of a window.
+/// A horizontal strip that shows a value over the frames of a window.
 struct Strip {
   Box box;
   int begin, end;

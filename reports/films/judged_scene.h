@@ -75,7 +75,7 @@ class JudgedScene : public Scene {
 
   JudgedSessionFacts facts_;
   std::string heading_;
-  int first_ = 0, last_ = 0;  ///< [first_, last_) of the session
+  int first_ = 0, last_ = 0;  ///< the film shows the session's frames [first_, last_)
 };
 
 }  // namespace etude

@@ -33,9 +33,9 @@ const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_bef
 constexpr double kDistanceBarsHeight = 120;
 
 /// Draws the ten partial distances between the two frames of a transition point as bars with the features' names. The
-/// line above them gives d, the threshold and the branch. A full bar means that this partial distance alone reaches the
-/// threshold. `point` counts from 0. Before the first transition point, and if the recording has no distances, the bars
-/// are empty. The box is kDistanceBarsHeight high.
+/// line above the bars gives the distance d, the threshold and the branch. A full bar means that this partial distance
+/// alone reaches the threshold. `point` counts from 0. Before the first transition point, and if the recording has no
+/// distances, the bars are empty. The box is kDistanceBarsHeight high.
 void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts, std::optional<std::size_t> point);
 
 /// Describes a transition point: "distance 0.384 < 0.4 · front half"; if the path has two points, "1 of 2 · distance

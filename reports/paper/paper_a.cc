@@ -96,7 +96,7 @@ class MembershipPanel {
 constexpr std::string_view kFuzzyKey = "fuzzy", kBuiltin = "builtin:";
 
 /// Returns the paper's system, then the built-in systems that the scenario sweeps. Systems from files are left out,
-/// because results do not hold their functions.
+/// because results do not contain their functions.
 std::vector<FuzzySystem> ShownSystems(const ScenarioSummary& scenario) {
   std::vector<FuzzySystem> systems = {FuzzySystem{}};
   for (const ConditionSummary& condition : scenario.conditions) {

@@ -21,7 +21,7 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kMaxPairs = 12;
-constexpr std::size_t kMaxPictures = 3;  // of each method
+constexpr std::size_t kMaxPictures = 3;  // pictures per method
 constexpr const char* kCurves[] = {"mpjpe_unaligned_mm", "mpjpe_root_mm"};
 
 /// The cells of one pair, in the order of the scenario's methods.

@@ -18,7 +18,7 @@ class Columns {
     return found == nullptr || found->values.size() != count_ ? nullptr : found;
   }
 
-  /// Returns the name for a value of a series; "" for −1 and for values without a name.
+  /// Returns the name that a series gives to its i-th value; "" for −1 and for values without a name.
   static std::string Name(const Series* series, std::size_t i) {
     if (series == nullptr || !(series->values[i] >= 0)) return "";
     const auto place = static_cast<std::size_t>(std::lround(series->values[i]));

@@ -86,7 +86,7 @@ class RegionFinder {
     region.pixels += count;
     region.is_cut |= run.x0 == 0 || run.x1 == labels_.width || run.y == 0 || run.y == labels_.height - 1;
     region.middle += static_cast<double>(count) * glm::dvec2(0.5 * (run.x0 + run.x1), run.y + 0.5);
-    // Collect borders with the pixels to the left and above.
+    // Collect the borders of this run with the parts to its left and above it.
     if (run.x0 > 0) AddBorder(part, seen_.At(run.x0 - 1, run.y), {run.x0, run.y + 0.5});
     if (run.y > 0) {
       for (int x = run.x0; x < run.x1; ++x) AddBorder(part, seen_.At(x, run.y - 1), {x + 0.5, run.y});

@@ -176,7 +176,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   const glm::dvec3 across = direction - glm::dot(direction, unit) * unit;
   const glm::dvec3 from_across = from - glm::dot(from, unit) * unit;
   const double scale = glm::dot(across, across);
-  constexpr double kParallel = 1e-18;  // squared sine; a parallel ray hits a half-sphere first
+  constexpr double kParallel = 1e-18;  // squared sine; rays below this angle are parallel and hit a half-sphere first
   if (scale < kParallel) return kInfinity;
   const double t = EntryRoot(glm::dot(from_across, across) / scale,
                              (glm::dot(from_across, from_across) - capsule.radius * capsule.radius) / scale);

@@ -29,8 +29,8 @@ struct CameraEffects {
   double white_balance_ev = 0;        ///< red over blue, stops: > 0 is too warm
   double white_balance_drift_ev = 0;  ///< largest deviation of an automatic white balance
 
-  // 1: a pixel senses one colour, the other two are interpolated; < 1: mixed with full colours
-  double bayer = 0;      ///< 1: one colour per pixel, the others interpolated; below 1: mixed with full colours
+  // The sensor (sensor.h) and the file (jpeg.h).
+  double bayer = 0;      ///< 1: each pixel senses one colour, the others are interpolated; < 1: mixed with full colours
   double noise = 1;      ///< multiplies the usual standard deviation of read and shot noise
   double jpeg_loss = 0;  ///< 100 − JPEG quality; 0: no JPEG at all
 };

@@ -51,7 +51,7 @@ struct Tube {
     double ahead_cm = 0;  ///< forward offset from the chain
   };
   std::string name;
-  std::vector<Role> chain;  ///< a single joint: the tube goes straight up from it
+  std::vector<Role> chain;  ///< the joints along the tube; from a single joint, the tube goes straight up
   std::vector<Ring> rings;  ///< in ascending order of `along_cm`
   double blend_cm = 0;      ///< half the length over which the skin is blended between two joints
   double first_cap_cm = 0;  ///< lengths of the round ends beyond the first and last ring
@@ -66,7 +66,7 @@ struct Patch {
   double along_cm;        ///< centre, along the tube
   double half_along_cm;   ///< half the length
   double half_angle_deg;  ///< half the angle that it covers around the tube
-  double lift_cm;         ///< above the tube's skin
+  double lift_cm;         ///< height above the tube's skin
 };
 Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest);
 

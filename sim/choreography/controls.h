@@ -31,7 +31,7 @@ constexpr std::size_t kMiddleControlCount = 12;
 /// exchange the sides; no sign changes.
 enum class SideControl {
   kArmForward,  ///< raises the arm in the sagittal plane; 0 = hanging
-  kArmSide,     ///< away from the sagittal plane, before kArmForward; a T pose is (0°, 90°) or (90°, 90°)
+  kArmSide,     ///< away from the sagittal plane, applied before kArmForward; 90° is a T pose for every kArmForward
   kArmTwist,    ///< outward about the upper arm: in a T pose with the elbow at 90°, +90° points the hand up
   kElbow,       ///< 0 = straight
   kWrist,       ///< flexion of the wrist

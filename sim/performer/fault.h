@@ -13,9 +13,9 @@ namespace etude {
 
 /// The faults that a person can make in one performance of a move.
 enum class Fault {
-  kAmplitude,      ///< smaller than meant
+  kAmplitude,      ///< the movements are smaller than meant
   kWrongSide,      ///< left and right exchanged; impossible for a move that is its own mirror image
-  kWrongMove,      ///< another move
+  kWrongMove,      ///< another move is danced
   kSkipped,        ///< the person stands still instead
   kLate,           ///< the whole move is late
   kOffBeat,        ///< hurries or drags within the move, and is on time again at its end

@@ -33,8 +33,8 @@ constexpr double kWrongPraiseCost = 0.06;
 constexpr double kCorrectionCost = 0.02;
 constexpr double kPraiseGain = 0.03;
 
-/// The minimum severity of a fault that happens (ours). It keeps faults that are too mild to make a performance wrong
-/// rare.
+/// The minimum severity of a fault that happens (ours). Below it, many faults would be too mild to make a performance
+/// wrong.
 constexpr double kMinSeverity = 0.35;
 
 /// For a person without any skill, the probability of each fault, in the order of Fault (ours).
@@ -240,7 +240,7 @@ void Learner::Begin(const Shown& shown) {
   // Draw the performance's variation and its faults. A person who is absent or has given up stands still.
   RandomStream dice(key_, fmt::format("learner/{}/{}", move.name, performance.attempt));
   Chance chance = DrawChance(dice, person_);
-  chance.tempo = 1;  // the music keeps the time
+  chance.tempo = 1;  // the music determines the tempo
   std::size_t instead = 0;
   std::vector<GradedFault> faults = DrawFaults(dice, index, instead);
   const bool stands = HasGivenUp() || person_.kind == People::kAbsent;

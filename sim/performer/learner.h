@@ -53,7 +53,7 @@ struct LearnerPerformance {
   bool is_over = false;  ///< true once the coach shows something else
   bool is_cut = false;   ///< true if the coach stopped it before its last beat, so it is not judged
   /// The event; its faults, stray and truth are known from its first frame on. `end_s` is an estimate until the
-  /// performance is over; `first_right_s` is set when its beat is performed.
+  /// performance is over; `first_right_s` is set when the last key beat is performed.
   SessionEvent event;
 };
 

@@ -14,12 +14,12 @@ namespace {
 struct Preset {
   double min_m, max_m;         // stature, drawn uniformly
   double lag_s, lag_spread_s;  // mean over people, and spread between the performances of one person
-  double tempo, tempo_spread;  // spread between people, of the logarithm
+  double tempo, tempo_spread;  // typical value, and spread of its logarithm between people
   double own_tempo_spread, drift;
   double amplitude, amplitude_spread;
   double lower, lower_spread;  // gain of hips, trunk and legs relative to the arms
   double gain_spread;          // spread of each gain's logarithm
-  double asymmetry;            // spread of the logarithm of left over right
+  double asymmetry;            // spread of the logarithm of the ratio left / right
   double looseness;
   double tiring;
 };

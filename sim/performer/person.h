@@ -17,8 +17,8 @@ namespace etude {
 enum class People {
   kMixed,        ///< drawn from toddlers, school children, adults and experts
   kToddler,      ///< 1.0–1.1 m tall; follows late and loosely, tires soon
-  kSchoolChild,  ///< 1.1–1.6 m
-  kAdult,        ///< 1.5–1.9 m
+  kSchoolChild,  ///< 1.1–1.6 m tall
+  kAdult,        ///< 1.5–1.9 m tall
   kExpert,       ///< an adult who dances nearly as taught
   kAbsent,       ///< an adult who stands still and does not take part
 };
@@ -69,8 +69,7 @@ People KindInMixture(double share);
 /// an adult differ in the same way from the averages of their kinds.
 Person DrawPerson(const WorldKey& key, People people);
 
-/// Returns the share of the amplitude that is left after `danced_s` seconds of dancing. It decreases to 0.6 at the
-/// lowest.
+/// Returns the share of the amplitude that is left after `danced_s` seconds of dancing. It never falls below 0.6.
 double VigourAfter(const Person& person, double danced_s);
 
 /// Returns the sizes of a body with this stature, metres. `childhood` is 0 for an adult's proportions and 1 for those

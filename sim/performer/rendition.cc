@@ -18,7 +18,7 @@ constexpr double kChange = 0.25;
 // The effects of faults at severity 1 (ours).
 constexpr double kLostAmplitude = 0.8;
 constexpr double kLateBeats = 1;
-constexpr double kOffBeats = 1;  // at the largest deviation, limited by kMaxOffBeat so that the timing still increases
+constexpr double kOffBeats = 1;  // at the largest deviation; kMaxOffBeat limits it, so that the timing never goes back
 constexpr double kMaxOffBeat = 0.7 / kPi;
 constexpr double kUnstopped = 0.35;  // share danced before a person stops
 

@@ -114,7 +114,7 @@ class Caster {
   glm::dvec3 start_, along_;
   double radius_;
   glm::dvec3 middle_;  // unit: the axis of a cone around the tile's directions
-  double spread_;      // RoomTile::spread
+  double spread_;      // largest deviation from `middle_`, measured as RoomTile::spread
   double nearest_, farthest_;
   bool is_near_floor_;
 };

@@ -39,7 +39,7 @@ Result<void*> MakeEglContext() {
 void MakeEglCurrent(void* context) { egl.MakeCurrent(egl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context); }
 
 void DestroyEglContext(void* context) {
-  // Make no context current first, because EGL does not destroy a current context.
+  // Release the context first if it is current, because EGL does not destroy a current context.
   if (egl.GetCurrentContext() == context) MakeEglCurrent(EGL_NO_CONTEXT);
   egl.DestroyContext(egl.display, context);
 }

@@ -43,13 +43,13 @@ RoomTile MakeTile(const PixelRect& pixels, const LampView& view, int width) {
       sum += directions.back();
     }
   }
-  // Compute the cone around the directions.
+  // Compute the bounding cone of the directions.
   const double length = glm::length(sum);
   tile.middle = length > 0 ? sum / length : glm::dvec3(0, 1, 0);
   for (const glm::dvec3& direction : directions) {
     tile.spread = std::max(tile.spread, glm::distance(direction, tile.middle));
   }
-  // Compute the ball around the points.
+  // Compute the bounding ball of the points.
   tile.centre = 0.5 * (low + high);
   for (const glm::dvec3& point : points) tile.radius = std::max(tile.radius, glm::distance(point, tile.centre));
   return tile;

@@ -63,7 +63,8 @@ void AddInstances(const Figure& figure, const glm::dvec3& eye, std::vector<Capsu
   }
 }
 
-// Metres. Below this limit, products of floats do not overflow; NaN fails the comparison, too.
+// The largest coordinate that is drawn, metres. Below it, products of floats do not overflow. NaN fails the comparison,
+// too.
 constexpr float kMaxCoordinate = 1e6f;
 
 bool IsWithin(const glm::vec3& v, float limit) {

@@ -48,7 +48,7 @@ struct SurfaceTriangles {
   Triangles plain;    ///< surfaces in one colour
   Triangles painted;  ///< surfaces with a paint
   Triangles textured;
-  std::vector<TexturedRun> textures;  ///< the textures of `textured`, by runs of indices
+  std::vector<TexturedRun> textures;  ///< for each run of indices of `textured`, its texture
 };
 
 /// Collects all triangles of all figures in `all`, whose memory is reused. Triangles with a corner or normal that is

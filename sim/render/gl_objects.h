@@ -64,7 +64,7 @@ class TextureStore {
   void Bind(const SharedTexture& texture);
 
  private:
-  // The pointer is kept, because otherwise another texture could get the same address.
+  // This shared pointer keeps the texture alive; otherwise another texture could get the same address.
   struct Uploaded {
     SharedTexture texture;
     GLuint name = 0;

@@ -36,7 +36,7 @@ struct SurfacePaint {
   double size = 0.1;         ///< metres
   glm::dvec2 patch{0};       ///< x and y of the centre of a patch of the second colour, in front (z > 0)
   glm::dvec2 patch_half{0};  ///< half its width and height; 0: no patch
-  bool is_cloth = false;     ///< with seams and creases
+  bool is_cloth = false;     ///< true: drawn with seams and creases
   friend bool operator==(const SurfacePaint&, const SurfacePaint&) = default;
 };
 

@@ -30,7 +30,8 @@ struct Extent {
 
 bool IsFinitePoint(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Merges pairs of rectangles whose union has at most 10 % more pixels than both together.
+// The bounding rectangle of projected points. The projection of a point behind the camera may be anywhere; the
+// rectangle is then the whole picture.
 class SeenRect {
  public:
   explicit SeenRect(const Camera& camera) : camera_(camera) {}
@@ -115,7 +116,7 @@ std::vector<Extent> ExtentsOf(const std::vector<Surface>& surfaces) {
 
 int Area(const PixelRect& rect) { return rect.Width() * rect.Height(); }
 
-// Merges two rectangles if their union has at most 10 % more pixels than both together.
+// Merges pairs of rectangles whose union has at most 10 % more pixels than both together.
 void Merge(std::vector<PixelRect>& rects) {
   std::erase_if(rects, [](const PixelRect& rect) { return rect.IsEmpty(); });
   for (std::size_t i = 0; i < rects.size(); ++i) {

@@ -24,7 +24,7 @@ constexpr double kAimError = 0.02;       // metres
 struct Stand {
   double angle_deg = 0;
   double height = 0;
-  double aside = 0;  // metres to its own right
+  double aside = 0;  // offset to the camera's own right, metres
 };
 
 std::vector<Stand> StandsOf(const RigOptions& options) {

@@ -34,7 +34,7 @@ PoseLengths LengthsOf(const SkeletonSensorOptions& options) {
 }
 
 constexpr double kFullSpeed = 0.5;  // m/s; at this speed the fast part has its full size
-constexpr double kSpeedCap = 1.3;   // times kFullSpeed; beyond this speed the fast part does not grow
+constexpr double kSpeedCap = 1.3;   // as a multiple of kFullSpeed; above this speed the fast part does not grow
 
 double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSensorOptions& options) {
   double body = 0;

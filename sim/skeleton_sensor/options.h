@@ -81,7 +81,7 @@ struct SkeletonSensorOptions {
   /// correctly, and all other joints are reported at their true positions.
   double strength = 1.0;
 
-  Intrinsics view;  ///< of the depth camera
+  Intrinsics view;  ///< intrinsics of the depth camera
   DepthLaw depth_law = DepthLaw::kTimeOfFlight;
   double reference_distance_m = 2.75;  ///< the distance for which the sizes are given
 
@@ -91,9 +91,9 @@ struct SkeletonSensorOptions {
   std::array<double, kBoneKindCount> correlation{};
   /// Factors on a joint's own error along the bones that end in the joint. Below 1, the sensor keeps limb lengths
   /// nearly constant.
-  double arm_stretch = 1;       ///< of shoulders, elbows and wrists along upper arm and forearm
-  double hand_stretch = 1;      ///< of hands along the hand
-  double shoulder_stretch = 1;  ///< of shoulders towards each other
+  double arm_stretch = 1;       ///< factor for shoulders, elbows and wrists along upper arm and forearm
+  double hand_stretch = 1;      ///< factor for hands along the hand
+  double shoulder_stretch = 1;  ///< factor for shoulders towards each other
   /// The `size` of an ankle or foot at rest on the floor, whose noise has the time constant `rest_time_s`. In motion,
   /// the group's size applies.
   double planted_feet = 0.003;
@@ -123,13 +123,13 @@ struct SkeletonSensorOptions {
   // range. After the shortest duration, it also ends when the limb is seen again.
   int shortest_episode = 3;
   int longest_episode = 40;
-  double nearest_guess_m = 0.2;  ///< range of the error of a hidden hand or foot
+  double nearest_guess_m = 0.2;  ///< smallest and largest error of a wrong guess for a hand or foot
   double farthest_guess_m = 1.1;
   double wrong_guess_chance = 0.6;  ///< probability; otherwise the guess is as accurate as for a seen joint (ours)
 
   double dropout_share = 0.02;    ///< share of all frames in which the whole body is lost
-  double swaps_per_minute = 1.0;  ///< of left and right arms or legs, in profile, a third of a second each (ours)
-  bool swaps_when_facing = true;  ///< false: in proportion to 1 − cos of the body's turn from the sensor (ours)
+  double swaps_per_minute = 1.0;  ///< left and right arms or legs, in profile, for a third of a second each (ours)
+  bool swaps_when_facing = true;  ///< false: the rate is proportional to 1 − cos of the turn from the sensor (ours)
   double outlier_chance = 0.001;  ///< per joint and frame (ours; Gaussian + uniform: arXiv 1512.04134)
   double outlier_size_m = 0.15;   ///< largest error on each axis, drawn uniformly (ours)
 

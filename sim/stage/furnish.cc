@@ -287,7 +287,7 @@ void HangPictures(const WorldKey& key, double scene, double share, Interior& roo
                   .size = random.Uniform(-0.4, 0.1)};
   window.frame = {225, 222, 214};
   window.glow = daylight;
-  // Let light from the window fall into the room.
+  // Hang the window on the wall, and let its light into the room.
   if (scene < kWindow) return;
   room.pictures.push_back(window);
   Lights& lights = room.lights;

@@ -15,7 +15,8 @@ struct Hsv {
 Rgb8 ToRgb(const Hsv& colour);
 Hsv ToHsv(Rgb8 colour);
 
-/// Interpolates between colour `a` (share 0) and `b` (share 1). Hues take the shorter way round.
+/// Interpolates between colour `a` (share 0) and `b` (share 1). Hues are interpolated the shorter way around the
+/// circle.
 Hsv Mixed(const Hsv& a, const Hsv& b, double share);
 
 /// Draws a colour of everyday objects, walls and clothes: often wood and leather, less often denim or green, and

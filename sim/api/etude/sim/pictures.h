@@ -33,7 +33,8 @@ ETUDE_API std::vector<NamedCamera> StereoCameras(const BodyMotion& motion, doubl
                                                  std::uint64_t seed = 1);
 
 /// A room in which a person moves in front of ideal cameras, which take each picture in an instant and without errors.
-/// A picture always has the same bytes. Only one thread at a time may draw, even with different studios.
+/// The same arguments always give a picture with the same bytes. Only one thread at a time may draw, even with
+/// different studios.
 class ETUDE_API Studio {
  public:
   /// Throws BadInput for a motion without frames, no cameras, pictures of more than 4096 pixels a side, a lens with

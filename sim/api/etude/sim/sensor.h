@@ -16,7 +16,7 @@ struct SensorOptions {
   double strength = 1;
   double distance_m = 2.75;  ///< distance of the sensor from the middle of the motion, along the floor; 0.5 to 10
   double turn = 0;           ///< direction of the sensor from that middle, radians; 0 is its +Z side, π/2 its +X side
-  double height_m = 1;       ///< above the floor, 0.1 to 3; the sensor looks at the middle, one metre above the floor
+  double height_m = 1;       ///< height of the sensor; 0.1 to 3; it looks at a point one metre above the middle
   std::uint64_t seed = 1;    ///< the seed of all random numbers
 };
 
