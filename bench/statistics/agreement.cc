@@ -17,8 +17,8 @@ constexpr std::size_t kAgreementResamples = 1999;
 
 using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, low, high, ICC
 
-/// Returns the standard deviation of a further difference between the two measurements (Bland and Altman 2007). Returns
-/// nothing for fewer than two units.
+/// Returns the standard deviation of a single new difference between the two measurements (Bland and Altman 2007).
+/// Returns nothing for fewer than two units.
 std::optional<double> DeviationOf(std::span<const AgreementSums> units, const AgreementSums& all) {
   double within = 0, between = 0, squares = 0;
   const double n = all.count, groups = static_cast<double>(units.size()), bias = *BiasOf(all);

@@ -206,8 +206,8 @@ void Decide(Answer& answer, const Comparison* value) {
          value != nullptr ? value->beyond.verdict
          : answer.success ? answer.success->beyond.verdict
                           : std::nullopt);
-  // The answer for other units must not claim more than the answer for these worlds, so it is inconclusive if the
-  // latter is.
+  // The answer for other units must not claim more than that for these worlds: “better” and “worse” become
+  // inconclusive, and so does every answer if the one for these worlds is open.
   if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kInconclusive;
 }
 

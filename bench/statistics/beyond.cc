@@ -128,8 +128,8 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
       values[i] = KeepThirtyBits(n * mean - (n - 1) * beyond.left_out[i].difference);
     }
   }
-  // If no world differs, all values are 0 for every metric. Do not take an amount for a yes-or-no value then: the
-  // interval of a share would have the wrong unit.
+  // Find out whether the values are those of a yes-or-no metric: −1, 0 or 1. If no world differs, an amount has only
+  // zeros, too; for an amount, the interval of a share would have the wrong unit.
   const bool is_yes_or_no = (sample.yes_or_no || beyond.differing > 0) && std::ranges::all_of(values, [](double value) {
                               return std::abs(value) == 1 || value == 0;
                             });

@@ -203,7 +203,8 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   if (differing == 0) return {1.0, "exact"};
   const double largest = sizes.back();
   // If all differences have the same sign, only two sign vectors, all plus and all minus, give a mean as far from zero.
-  // Drawn sign vectors could not show how small this p is, so Holm's correction would reject it among many comparisons.
+  // Drawn sign vectors could not show how small this p is, so it would not pass Holm's correction among many
+  // comparisons.
   constexpr std::size_t kMaxExponent = 1000;
   if (aggregate == Aggregate::kMean && (negatives == 0 || negatives == differing) && differing <= kMaxExponent) {
     return {SmallestP(static_cast<int>(differing)), "exact"};

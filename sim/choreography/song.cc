@@ -92,7 +92,7 @@ Result<std::vector<SongPart>> ReadParts(const Node& parts, double tempo_bpm, std
     part.start_beat = beat;
     part.beats = part.times * move.beats / PaceOf(part);
     beat += part.beats;
-    // Check the length so far.
+    // Check that the song up to this part is not too long.
     const double seconds = (beat + kLeadBeats) * 60 / tempo_bpm;
     if (seconds > kMaxSeconds) {
       return Fail(item.place, "the song lasts {:.0f} s up to here; at most {}", seconds, kMaxSeconds);

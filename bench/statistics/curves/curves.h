@@ -17,7 +17,7 @@ inline std::optional<double> Share(std::int64_t part, std::int64_t whole) {
 /// A scripted performance of a move, which was truly right or wrong (docs/reference/metrics.md). Grey performances are
 /// not events. "Right" is the positive class.
 struct JudgedEvent {
-  bool is_right = false;      ///< the truth
+  bool is_right = false;      ///< true if the performance was truly right
   bool called_right = false;  ///< the recogniser's call by the end of the event's window
   double score = 0;           ///< the recogniser's soft score; higher = more likely right
 };
