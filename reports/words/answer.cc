@@ -262,7 +262,7 @@ std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, Samplin
                      FormatInterval(c.beyond.low, c.beyond.high, words));
 }
 
-/// Returns what else the answer rests on: the difference where both methods succeeded, and the tail if it decides.
+/// Returns further facts behind an answer: the difference where both methods succeeded, and the tail if it decides.
 std::string FurtherSteps(const Judged& judged) {
   const Answer* answer = judged.answer;
   if (answer == nullptr) return "";

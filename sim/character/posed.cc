@@ -51,7 +51,8 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   for (const Role end : AllRoles()) {
     if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
   }
-  // The position of the head joint differs between files, so the square root of its length ratio is the size.
+  // The position of the head joint differs between files, so only the square root of its length ratio is taken as the
+  // size.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }
 
