@@ -17,7 +17,8 @@ find_package(TinyGLTF REQUIRED)
 find_package(OpenEXR REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
-# OSMesa or EGL draws. Neither is linked: sim/render opens one when the first picture is drawn. Debian after 13 has no OSMesa.
+# The renderer uses OSMesa or EGL. Neither is linked: sim/render opens one of them when the first picture is drawn.
+# Debian after 13 has no OSMesa.
 pkg_check_modules(OSMESA osmesa)
 pkg_check_modules(EGL egl>=1.5)
 if(NOT OSMESA_FOUND AND NOT EGL_FOUND)

@@ -1,7 +1,7 @@
 # Writes a .cc file that holds text files as string literals:
 #   cmake -D OUT=<file.cc> -D HEADER=<header> -D FUNCTION=<name> -D "FILES=<a;b>" -P embed_texts.cmake
-# The header declares `std::span<const etude::EmbeddedText> <FUNCTION>()`; entries stand in the order
-# of FILES, named by their path's last part.
+# The header declares `std::span<const etude::EmbeddedText> <FUNCTION>()`; the entries are in the order
+# of FILES, each named by the last part of its path.
 set(entries "")
 foreach(file IN LISTS FILES)
   file(READ "${file}" text)

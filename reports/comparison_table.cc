@@ -47,7 +47,7 @@ std::string Notes(const Comparison& c) {
 
 std::string BothNotes(const Comparison& c, SamplingUnit unit) {
   std::string text = Notes(c);
-  // If worlds are the units, `Notes` has already written this reason.
+  // If worlds are the units, `Notes` has already written the reason for the open verdict.
   if (c.beyond.why_open.empty() || WorldsAreUnits(unit)) return text;
   return text + fmt::format("{}for {}: {}", text.empty() ? "" : "; ", OtherUnits(unit), c.beyond.why_open);
 }
@@ -101,8 +101,8 @@ std::string Legend(const ScenarioSummary& scenario) {
       with_baselines, FormatCount(static_cast<long long>(rivals)));
 }
 
-/// Calls `visit` for every comparison of every condition: first those with baselines, then those with the strongest
-/// other method.
+/// Calls `visit` for every comparison of every condition: first the comparisons with baselines, then those with the
+/// strongest other method.
 template <typename Visit>
 void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -111,8 +111,8 @@ void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   }
 }
 
-/// Returns every comparison once, ordered by metric, baseline before rival, method, condition. Leaves out a comparison
-/// with the rival if the baseline comparison has the same pair of methods, in either order.
+/// Returns every comparison once, ordered by metric, then by baseline or rival, then by method and condition. Leaves
+/// out a comparison with a rival if a comparison with a baseline has the same two methods, in either order.
 std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   std::vector<Shown> all;
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
@@ -138,7 +138,7 @@ std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
 /// number.
 std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> shown, std::size_t& left) {
   const bool swept = scenario.conditions.size() > 1;
-  // Add the columns; a condition column only if something is swept.
+  // Add the columns. There is a condition column only if a parameter is swept.
   Table table{.label = "Comparisons", .style = "data", .columns = {{"Methods"}}};
   if (swept) table.columns.push_back({"Condition"});
   const auto number = [](const char* head, bool is_detail) {
@@ -167,7 +167,7 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   return TableHtml(table);
 }
 
-/// Returns "holds", or the reason why the conditions have no common verdict.
+/// Returns "holds" if the conditions have a common verdict, else the reason why they have none.
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;

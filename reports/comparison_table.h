@@ -34,7 +34,7 @@ std::size_t CountComparisons(const ScenarioSummary& scenario);
 
 /// Returns every comparison of one scenario once as an HTML table, one row each: the difference with its interval, both
 /// verdicts, the number of worlds, corrected p, effect size and caveats. Comparisons by metrics other than the first
-/// are folded away. Returns "" if nothing is compared.
+/// are folded away. Returns "" if no methods are compared.
 std::string ComparisonTableHtml(const ScenarioSummary& scenario);
 
 /// Returns the comparisons of ComparisonTableHtml as a folded Markdown table.

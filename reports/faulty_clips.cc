@@ -15,8 +15,8 @@ constexpr std::string_view kTask = "plausibility", kWithin = "within_limits";
 /// The clips that show faults, and the clips that could not be judged.
 struct FaultyClips {
   Table table;           ///< clips beyond their limits first, clips that could not be judged last
-  std::string sentence;  ///< the number of these clips in words; empty if the run has no clips
-  std::size_t rows = 0;  ///< the number of rows without the limit `most`
+  std::string sentence;  ///< the number of faulty and of unjudged clips in words; empty if the run has no clips
+  std::size_t rows = 0;  ///< the number of rows that the table would have without the limit `most`
 };
 
 /// Collects the faulty clips of a run; the table has at most `most` rows.
@@ -24,7 +24,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
   FaultyClips found;
   std::vector<TableRow> beyond, others, unjudged;
   std::size_t judged = 0;
-  // Sort the clips: beyond their limits, other faulty clips, clips that could not be judged.
+  // Sort the clips into those beyond their limits, other faulty clips, and clips that could not be judged.
   ForEachRow(run, [&](const Row& row, std::size_t) {
     if (row.task != kTask || row.result.status == Status::kSkipped) return;
     if (row.result.status != Status::kOk) {
@@ -41,7 +41,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
     (is_beyond ? beyond : others).push_back(std::move(line));
   });
   if (judged + unjudged.size() == 0) return found;
-  // Count them in a sentence.
+  // Count the clips of each kind in a sentence.
   found.rows = beyond.size() + others.size() + unjudged.size();
   found.sentence = fmt::format("{} of {} show what no person does{}.", beyond.size() + others.size(),
                                Plural(static_cast<long long>(judged), "clip"),
@@ -51,7 +51,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
         fmt::format(" {} could not be judged.", Plural(static_cast<long long>(unjudged.size()), "further clip"));
   }
   found.sentence += " etude list faults states what each fault is.";
-  // Write the table, at most `most` rows.
+  // Write the table with at most `most` rows.
   found.table = {.label = "Clips with faults",
                  .columns = {{.head = "Clip", .is_row_head = true},
                              {"Method"},

@@ -9,10 +9,10 @@
 namespace etude {
 
 /// Returns the section of faulty clips, for scenarios whose motions have no truth. Clips beyond their limits come
-/// first; each fault is in words. "" for other runs.
+/// first; each fault is in words. Returns "" for other runs.
 std::string FaultyClipsSection(const RunData& run);
 
-/// Returns the table of FaultyClipsSection as Markdown, under a heading; "" for other runs.
+/// Returns the table of FaultyClipsSection as Markdown, under a heading. Returns "" for other runs.
 std::string FaultyClipsMarkdown(const RunData& run);
 
 /// Returns one JUnit case for every clip of a scenario whose motions have no truth. The case fails if the clip exceeds

@@ -178,7 +178,7 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
   const std::string folder = report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder);
   const MoveIdentity& one = moves.front()->identity;
   const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition);
-  // Trial, and a text that lists the metrics that are far worse in its world.
+  // The trial of each world, and a text that lists the metrics that are far worse in it.
   std::vector<std::pair<int, std::string>> worlds;
   std::map<int, std::size_t> places;
   for (const MetricMove* move : moves) {
@@ -278,7 +278,7 @@ std::string AnswerTable(const std::vector<GateAnswer>& answers) {
   return TableMarkdown(table);
 }
 
-/// Returns a command as a code span, or as plain text if a name would break out of the span.
+/// Returns a command as a code span, or as plain text if a name in it would end the span.
 std::string CommandText(const std::string& command) {
   const bool plain = command.find_first_of("`\n\r") == std::string::npos;
   return plain ? "`" + command + "`" : EscapeMarkdown(command);
@@ -345,8 +345,8 @@ std::string WriteGateMarkdown(const GateReport& report) {
                        MoveTable(others) + WorldList("Single worlds that are far worse, too few to fail:",
                                                      TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
   }
-  // Write the claims that could not be decided (they pass), the run's answers, what could not be compared, and changed
-  // settings.
+  // Write the claims that could not be decided (they pass), the answers of the run's own findings, what could not be
+  // compared, and changed settings.
   const std::vector<std::string> undecided = ClaimsThatAre(report, ClaimOutcome::kUndecided);
   text += FoldedAway(fmt::format("Could not be decided ({})", undecided.size()), List("These pass:", undecided));
   text += FoldedAway(fmt::format("Answers of this run ({})", report.answers.size()), AnswerTable(report.answers));

@@ -32,8 +32,8 @@ std::string_view GateVerdictWords(GateVerdict verdict);
 /// Returns one sentence for each kind of judgement: "12 expectations: 11 met, 1 unmet", "against the baseline, 170
 /// comparisons: 2 worse, 168 same".
 std::vector<std::string> GateSentences(const GateReport& report);
-/// Returns one line for each answer that fell since the baseline; if `only_flipped`, only for the answers that fail the
-/// gate.
+/// Returns one line for each answer that became worse since the baseline; if `only_flipped`, only for the answers that
+/// fail the gate.
 std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped = false);
 /// Returns the counts of the moves: "170 comparisons: 2 worse, 3 better, 165 same".
 std::string CompareSentence(const SnapshotComparison& comparison);

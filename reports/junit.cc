@@ -28,7 +28,7 @@ ClaimOutcome MetWhen(bool holds) { return holds ? ClaimOutcome::kMet : ClaimOutc
 JunitCase EveryCellHasARow(const RunData& run, const ScenarioSummary& scenario) {
   std::set<std::string> ids;
   std::set<std::pair<std::string, int>> worlds;
-  for (const Row& row : run.rows) {  // whole worlds, also in the sample of a large run
+  for (const Row& row : run.rows) {  // the sample of a large run also has whole worlds
     if (row.scenario != scenario.name) continue;
     ids.insert(row.Id());
     worlds.emplace(ConditionLabel(row.condition), row.trial);
@@ -43,7 +43,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
   int broken = 0;
   std::string detail;
   for (const ReasonCount& reason : findings.reasons) {
-    // Unsolved and skipped cells fail no test; a scenario can forbid them in `expect`.
+    // Unsolved and skipped cells do not fail this case; a scenario can forbid them in `expect`.
     if (reason.status == Status::kUnsolved || reason.status == Status::kSkipped) continue;
     broken += reason.cells;
     detail += fmt::format("{} x {} in {}: {}\n", reason.cells, StatusName(reason.status), reason.method, reason.Words());
@@ -66,7 +66,7 @@ std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenar
   const ScenarioFindings findings = FindingsOf(run, scenario);
   std::vector<JunitCase> clips = ClipCases(run, scenario.name);
   std::vector<JunitCase> cases{EveryCellHasARow(run, scenario)};
-  // With clips, each clip that cannot be judged is a case already.
+  // If the scenario judges clips, each clip that cannot be judged already fails its own case.
   if (clips.empty()) cases.push_back(NoCellBroke(findings));
   if (findings.answer.is_compared) cases.push_back(TheAnswer(findings));
   for (const ExpectationResult& e : scenario.expectations) {

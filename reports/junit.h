@@ -27,8 +27,8 @@ std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>
 
 /// Returns the run as JUnit XML, one suite per scenario. Each suite has one case per expectation (failed if unmet,
 /// skipped if undecided), and one case that passes if every cell has a row. A last case passes if no cell crashed,
-/// failed, timed out or gave an invalid answer; if the motions have no truth, one case per clip (ClipCases) stands in
-/// its place.
+/// failed, timed out or gave an invalid answer; if the motions have no truth, one case per clip (ClipCases) replaces
+/// it.
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

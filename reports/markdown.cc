@@ -26,8 +26,8 @@ std::string FindingText(const MethodFinding& finding) {
                      finding.why_open.empty() ? "" : EscapeMarkdown(fmt::format(" Open: {}.", finding.why_open)));
 }
 
-/// Returns the answer against the baseline and, if the strongest other method is not the baseline, the answer against
-/// it.
+/// Returns the answer against the baseline and, if the strongest other method is not the baseline, also the answer
+/// against that method.
 std::string AnswerText(const ScenarioFindings& findings) {
   std::string text = FindingText(findings.answer) + "\n";
   return HasOtherRival(findings) ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;

@@ -24,9 +24,9 @@ struct OverviewCell {
   std::string value;
   std::string interval = {};             ///< interval of the value; "" if it has none
   std::string counted = {};              ///< "10 of 12" if some cells have no value, else ""
-  std::optional<double> sorted_by = {};  ///< the value as a number
-  const Comparison* baseline = nullptr;  ///< against the baseline; may be null
-  const Comparison* rival = nullptr;     ///< against the strongest other method; may be null
+  std::optional<double> sorted_by = {};  ///< the method's typical value as a number
+  const Comparison* baseline = nullptr;  ///< comparison with the baseline; may be null
+  const Comparison* rival = nullptr;     ///< comparison with the strongest other method; may be null
 
   bool IsCompared() const { return baseline != nullptr || rival != nullptr; }
 };
@@ -34,7 +34,7 @@ struct OverviewCell {
 struct OverviewRow {
   std::string method, condition;
   std::string cell = {};                 ///< one of the row's cells, if possible a recorded one
-  std::string kept = {};                 ///< HTML attribute of that cell, if it was recorded
+  std::string kept = {};                 ///< HTML attribute of the cell if it was recorded
   std::vector<OverviewCell> cells = {};  ///< one per metric
   bool is_yardstick = false;
 };
@@ -101,7 +101,7 @@ std::vector<OverviewRow> RowsOf(const RunData& run, const ScenarioSummary& scena
                                 std::span<const std::string> metrics) {
   std::vector<OverviewRow> rows;
   const ExampleCells examples(run, scenario);
-  // Rows of the same method, one per condition, stand under each other.
+  // List the rows of the same method, one per condition, below each other.
   for (const std::string& name : scenario.methods) {
     for (const ConditionSummary& condition : scenario.conditions) {
       const auto method = std::ranges::find(condition.methods, name, &MethodSummary::method);
@@ -203,7 +203,7 @@ std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");
   if (!alike) return std::string(kNoValue);
   std::string text = *alike > 0 ? "alike" : "apart";
-  // Every pair has a fuzzy distance. A joint distance exists only if the method uses it.
+  // Show the joint distance if the method uses it; otherwise the fuzzy distance, which every pair has.
   if (const auto joints = ValueOf(row, "joint_distance_cm")) {
     text += fmt::format(" {} cm", FormatNumber(*joints));
   } else if (const auto d = ValueOf(row, "fuzzy_distance")) {

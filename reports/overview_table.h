@@ -9,8 +9,8 @@
 namespace etude {
 
 /// Returns a table of all methods by all metrics, headline metrics first: typical values with intervals and the signs
-/// of their verdicts. Below it stand the missing values with reasons. If something is swept, a row is a method under a
-/// condition. Returns "" if no method has a value.
+/// of their verdicts. Below the table are the missing values with reasons. If a parameter is swept, a row is a method
+/// under a condition. Returns "" if no method has a value.
 std::string OverviewTableHtml(const RunData& run, const ScenarioSummary& scenario);
 /// Returns the values of the headline metrics as a Markdown table, without intervals; "" if there is only one headline
 /// metric.

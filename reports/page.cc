@@ -29,8 +29,8 @@ constexpr const char* kMetric = "mpjpe_mm";
 
 std::string Millimetres(std::optional<double> mm) { return mm ? FormatNumber(*mm) : std::string(kNoValue); }
 
-/// Returns the name of the quantity that a take measures: "error", or "agreement" if its reference may come from the
-/// same keypoints.
+/// Returns the name of the quantity that a take measures: "error", or "agreement" if the reference may come from the
+/// same keypoints as the answer.
 std::string MeasureOf(const RealTake& take) { return take.recovery == "keypoints" ? "agreement" : "error"; }
 
 void AddRealRows(const RealTake& take, Table& table) {
@@ -42,7 +42,7 @@ void AddRealRows(const RealTake& take, Table& table) {
   }
 }
 
-/// Adds the rows of simulated takes; adds their number to `rows`, which counts over all scenarios.
+/// Adds the rows of simulated takes to the table, and their number to `rows`, which counts over all scenarios.
 void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table& table) {
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
@@ -58,7 +58,7 @@ void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table&
   }
 }
 
-// A second defence besides escaping: the page may load nothing but the motions beside it.
+// Forbids the page to load anything but the motions beside it. This is a second defence besides escaping.
 constexpr std::string_view kPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'self' file:; img-src data:; media-src "
     "data:";
@@ -84,7 +84,8 @@ std::string Head(const RunData& run) {
       kPolicy, EscapeMarkup(run.suite), Styles(run));
 }
 
-/// Returns the list of answers, one line per scenario with its verdicts against baseline and rival.
+/// Returns the list of answers: one line per scenario, with its verdicts against the baseline and against the strongest
+/// other method.
 std::string Answers(const RunData& run, const std::vector<ScenarioFindings>& findings) {
   std::string html = "<nav aria-label=\"Answers\"><ol class=\"answers\">";
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
@@ -121,7 +122,7 @@ std::string HowToRead() {
                      kHowToRead, kSigns, kComparisonLegend);
 }
 
-/// Returns a sentence on how much of a large run the pictures show; "" if they show all of it.
+/// Returns a sentence on which part of a large run the pictures show; "" if they show all of it.
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(

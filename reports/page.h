@@ -10,8 +10,8 @@
 namespace etude {
 
 /// Returns the HTML report of a run: verdicts first, in plain words with pictures; tables of numbers are folded away.
-/// The page loads nothing: everything is embedded, and its Content-Security-Policy forbids network access. `real` holds
-/// captures of real films, shown beside the simulated ones.
+/// Everything but the recorded motions is embedded; these are scripts beside the page. Its Content-Security-Policy
+/// forbids network access. `real` holds captures of real films, shown beside the simulated ones.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
 
 /// Returns the verdicts of the page as a short Markdown text, for a pull request or a release note.

@@ -16,9 +16,9 @@ constexpr std::size_t kMaxDigits = 4;  // digits of a width or height; a limit k
 /// An element that is allowed between marks, with its allowed attributes.
 struct Element {
   std::string_view name;
-  /// "class=film" allows this value only; "alt=" allows every value that IsAllowedValue accepts.
+  /// "class=film": this value only; "alt=": every value that IsAllowedValue accepts
   std::vector<std::string_view> attributes = {};
-  bool is_void = false;  ///< has no closing tag
+  bool is_void = false;  ///< true if the element has no closing tag
 };
 
 using Elements = std::span<const Element>;
@@ -62,8 +62,8 @@ bool IsAllowedValue(std::string_view name, std::string_view value) {
                              [&](const char* type) { return IsData(value, type); });
 }
 
-/// Removes ' name="value"' or ' name' from the front of `tag`. Returns true if the element allows this attribute;
-/// nothing if the text is malformed.
+/// Removes ' name="value"' or ' name' from the front of `tag`. Returns true if the element allows this attribute, false
+/// if it does not, and nothing if the text is malformed.
 std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element) {
   tag.remove_prefix(1);
   const std::size_t end = std::min(tag.find_first_of("= "), tag.size());
@@ -87,7 +87,8 @@ std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element)
   });
 }
 
-/// Returns the element that a tag without its brackets opens; null if the element or an attribute is not allowed.
+/// Returns the element that an opening tag, given without its brackets, opens; null if the element or an attribute is
+/// not allowed.
 const Element* FindOpened(std::string_view tag, Elements elements) {
   const std::string_view name = tag.substr(0, tag.find(' '));
   const auto found = std::ranges::find(elements, name, &Element::name);

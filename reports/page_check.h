@@ -13,7 +13,7 @@ constexpr std::string_view kTakesBegin = "<!--takes-->", kTakesEnd = "<!--/takes
 /// The result of comparing a page with the page made from its run.
 struct PageCheck {
   bool same = false;                          ///< equal bytes outside the marks
-  bool has_media = false, has_takes = false;  ///< there is something between marks of this kind; it was not compared
+  bool has_media = false, has_takes = false;  ///< true if the page has text, not compared, between such marks
 };
 
 /// Compares a page with `bare`, the same run's page with nothing between its marks. Between the marks the page may hold

@@ -96,8 +96,8 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / path));
     if (found != text) check.differences.push_back((folder / path).string() + kOtherwise);
   }
-  // Compare the page. Takes of real films do not belong to the run; one empty take stands for them, so that the rest of
-  // their section can be compared.
+  // Compare the page. Takes of real films do not belong to the run; to compare the rest of their section, pass one
+  // empty take.
   bool has_media = false;
   if (const FilePath page = folder / kPage; Exists(page)) {
     ++check.files;

@@ -12,8 +12,8 @@
 namespace etude {
 
 struct ReportOptions {
-  /// If true, makes the films and the picture strip, which take most of a report's time; if false, the page says that
-  /// none was requested.
+  /// If true, makes the films and the picture strip, which take most of a report's time. If false, the page says that
+  /// no films were requested.
   bool pictures = true;
   /// If true, films show coached sessions from first to last frame, not only around a correction.
   bool whole_sessions = false;
@@ -33,9 +33,9 @@ constexpr const char *kGateMarkdown = "gate.md", *kGateJunit = "gate.xml";
 
 /// The result of comparing a report with its run.
 struct ReportCheck {
-  int files = 0;                          ///< number of files that exist and were compared
+  int files = 0;                          ///< number of files that were compared
   std::vector<std::string> differences;   ///< files that disagree with the run, or belong to no report
-  std::vector<std::string> not_compared;  ///< descriptions of files that exist but were not compared
+  std::vector<std::string> not_compared;  ///< descriptions of the files that exist but were not compared
 };
 
 /// Compares the tables, motions and page in a folder with the same files made anew from its run. Does not compare

@@ -32,7 +32,7 @@ namespace {
 
 // The maximum number of points per curve: a screen has no room for more, which would only make the page larger.
 constexpr std::size_t kMaxSteps = 120;
-// Beyond this ratio a linear axis squeezes all but the largest values into one line.
+// If the largest value exceeds the smallest by more than this ratio, the axis is logarithmic.
 constexpr double kLogarithmicFrom = 100;
 
 std::string Caption(const std::string& what, const MetricWords& words) {
@@ -57,9 +57,9 @@ std::string WorstOf(const std::string& metric) {
 }
 
 // Returns the first headline metric (or its variant for the worst effector) for which cells keep a series along this
-// axis, else the first metric with such a series. Skips three kinds of series: series that are no metric, because they
-// have pictures of their own; series of zeros, because they are errors of parts without a target; and shares, because a
-// median of yes and no is meaningless.
+// axis, else the first metric with such a series. Skips three kinds of series: series that are not metrics, because
+// they have pictures of their own; series of zeros, because they are errors of parts without a target; and shares,
+// because a median of yes and no is meaningless.
 std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
                                      const std::map<std::string, std::string>& method_of) {
   std::vector<std::string> found;
@@ -169,7 +169,7 @@ std::string StillElement(const Still& still) {
       EscapeMarkup(still.caption), still.jpeg_base64);
 }
 
-// The data is JSON in a script element beside the canvas; the browser does not run it.
+// Put the data as JSON into a script element beside the canvas; the browser does not run it.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
   return fmt::format(
       "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\">"
@@ -240,8 +240,8 @@ std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, con
   return "";
 }
 
-/// Returns a folded part on how the cells ended, which goals they reached, and why some failed. Its visible line counts
-/// the cells that are not ok.
+/// Returns a folded part on how the cells ended, which goals they reached, and why some failed. Its title, which is
+/// always visible, counts the cells that are not ok.
 std::string Failures(const RunData& run, const ScenarioSummary& scenario, const ScenarioFindings& findings) {
   int others = 0;
   for (const ReasonCount& reason : findings.reasons) others += reason.cells;
@@ -284,8 +284,8 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
                      begin, EscapeMarkup(finding.sentence));
 }
 
-/// Returns verdicts and sentence against the baseline and, if the strongest other method is not the baseline, against
-/// that method; the second sentence is folded away.
+/// Returns verdicts and sentence against the baseline and, if the strongest other method is not the baseline, also
+/// against that method. The second sentence is folded away.
 std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;

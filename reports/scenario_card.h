@@ -26,7 +26,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
 /// reason, or only the reason; "" if there is neither.
 std::string FilmElement(const Film& film, bool plays_at_once);
 
-/// Returns the anchor of a scenario's card. `index` is the scenario's place in the run.
+/// Returns the anchor of a scenario's card. `index` is the scenario's index in the run.
 std::string CardAnchor(std::size_t index);
 
 /// Returns one scenario as HTML: its question, the answer, a chart, the expectations, the failures, and all numbers.

@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kRowsPerFloat = 50;  // this number fits on a page of A4
+constexpr std::size_t kRowsPerFloat = 50;  // the number of rows that fit on a page of A4
 
 constexpr std::string_view kHead =
     "% Needs \\usepackage{booktabs}. The same figures with all their digits: the CSV files beside this one.\n";
@@ -60,8 +60,8 @@ std::vector<TableCell> ComparisonCells(const Comparison& c, const MetricWords& w
   return cells;
 }
 
-/// Returns the comparisons with baselines, then those with the strongest other method, except pairs that are already
-/// listed.
+/// Returns the comparisons with baselines, then those comparisons with the strongest other method whose pair of methods
+/// is not among the first.
 std::vector<const Comparison*> ComparisonsOf(const ConditionSummary& condition, const std::string& method,
                                              const std::string& metric) {
   std::vector<const Comparison*> found;

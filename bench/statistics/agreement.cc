@@ -17,8 +17,8 @@ constexpr std::size_t kAgreementResamples = 1999;
 
 using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, low, high, ICC
 
-/// Returns the standard deviation of one additional difference between the two measurements (Bland and Altman 2007).
-/// Returns nothing with fewer than two units.
+/// Returns the standard deviation of a single new difference between the two measurements (Bland and Altman 2007).
+/// Returns nothing for fewer than two units.
 std::optional<double> DeviationOf(std::span<const AgreementSums> units, const AgreementSums& all) {
   double within = 0, between = 0, squares = 0;
   const double n = all.count, groups = static_cast<double>(units.size()), bias = *BiasOf(all);
@@ -49,7 +49,7 @@ Figures FiguresOf(std::span<const AgreementSums> units) {
   return figures;
 }
 
-/// Returns the confidence interval of each figure, from resampled units.
+/// Returns the confidence interval of each figure by resampling units.
 std::array<std::optional<Interval>, kFigures> FigureIntervals(std::span<const AgreementSums> units,
                                                               const Figures& figures, std::uint64_t seed,
                                                               const std::string& purpose) {
@@ -103,9 +103,9 @@ CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<
 }
 
 std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
-  std::map<std::string_view, const std::vector<Series>*> held;  // the series of each cell, by cell
+  std::map<std::string_view, const std::vector<Series>*> held;  // the series of each cell, by the cell's name
   for (const CellSeries& cell : run.series) held.emplace(cell.cell, &cell.series);
-  // Collect the sums of each angle with their units.
+  // For one angle, the sums of each pair of curves, with the pair's unit.
   struct Collected {
     std::vector<AgreementSums> pairs;
     std::vector<std::string> units;
@@ -131,7 +131,7 @@ std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
       collected[at->second].units.push_back(row.units.empty() ? row.clip : row.units.front());
     }
   });
-  // Measure the agreement of each angle. Each angle has a random stream of its own.
+  // Measure the agreement of each angle, with one random stream for each.
   for (const auto& [key, at] : places) {
     found[at].agreement = MeasureAgreement(collected[at].pairs, collected[at].units, run.seed, "agreement/" + key);
   }

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// A figure with its 95 % confidence interval, from resampled units.
+/// A figure with its 95 % confidence interval, which is computed by resampling units.
 struct AgreementFigure {
   std::optional<double> value;
   std::optional<Interval> interval;  ///< absent if there are fewer than kMinSample units
@@ -20,9 +20,9 @@ struct AgreementFigure {
 
 /// The agreement of two measurements of one quantity over several pairs of curves, in the quantity's unit.
 struct CurveAgreement {
-  int units = 0;  ///< number of people, or of pairs
+  int units = 0;  ///< number of people, or of pairs of curves
   AgreementFigure rmse, bias;
-  AgreementFigure low, high;  ///< 95 % limits of agreement; they need two units
+  AgreementFigure low, high;  ///< 95 % limits of agreement; at least two units are needed
   AgreementFigure icc;        ///< ICC(A,1)
 };
 

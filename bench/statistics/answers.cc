@@ -14,7 +14,8 @@ namespace {
 
 bool IsDecided(Verdict verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
 
-/// Returns the definition of a share of worlds, by which a step of an answer is judged.
+/// Returns a metric for shares of worlds, whose threshold is Study::success_matters. A step of an answer is judged by
+/// it.
 MetricInfo ShareMetric(const Study& study, const std::string& id) {
   MetricInfo metric = *FindMetric(id);
   metric.direction = Direction::kHigherIsBetter;
@@ -24,8 +25,8 @@ MetricInfo ShareMetric(const Study& study, const std::string& id) {
   return metric;
 }
 
-/// Returns a cell's success: its value, or 0 if the cell failed without a value. Nullopt if the cell was skipped, or if
-/// it was answered but has no value.
+/// Returns a cell's success: its value, or 0 if the cell failed without a value. Returns nullopt if the cell was
+/// skipped, or if its status is ok but it has no value.
 std::optional<double> SuccessAt(const MethodColumns& method, const std::string& success, int trial) {
   const Status status = method.StatusAt(trial).value_or(Status::kSkipped);
   if (status == Status::kSkipped) return std::nullopt;
@@ -52,8 +53,8 @@ PairedWorlds SuccessesOf(const Pairing& pairing, const std::string& success) {
   return worlds;
 }
 
-/// Returns one pair for each world. Its difference is −1 if the method's value is far worse, 1 if it is far better, and
-/// else 0.
+/// Returns one pair for each world: the pair's difference is −1 if the method's value is far worse, 1 if it is far
+/// better, and else 0.
 PairedWorlds FarOff(const PairedWorlds& values, const MetricInfo& metric, double times) {
   PairedWorlds far = values;
   const double sign = metric.direction == Direction::kLowerIsBetter ? -1 : 1;
@@ -70,7 +71,7 @@ class Measurer {
   Measurer(const Study& study, const ConditionTable& table, std::uint64_t seed)
       : study_(study), table_(table), seed_(seed) {}
 
-  /// `other` is the name of the method on the other side; `key` keys the random streams.
+  /// `other` is the name of the other method; `key` keys the random streams.
   Answer Measure(const Pairing& pairing, const PairedWorlds& values, const std::string& other,
                  const std::string& key) const {
     Answer answer = MeasureSteps(pairing, values, key);
@@ -103,13 +104,13 @@ class Measurer {
       return PurposeOf(study_.scenario, table_.condition, step, key, method);
     };
     Answer answer{.method = method, .value_metric = value};
-    // Compare success; failures count 0.
+    // Compare success; a failed cell counts 0.
     const PairedWorlds successes = study_.success.empty() ? PairedWorlds() : SuccessesOf(pairing, study_.success);
     if (!successes.pairs.empty()) {
       answer.success = Compare(successes, ShareMetric(study_, study_.success), purpose("success"));
     }
     if (value.empty()) return answer;
-    // Compare the value in the worlds in which both succeeded.
+    // Compare the value in the worlds in which both methods succeeded.
     if (!successes.pairs.empty() && AreShares(successes.pairs, ShareMetric(study_, study_.success))) {
       PairedWorlds both;
       for (std::size_t i = 0; i < values.pairs.size(); ++i) {
@@ -192,8 +193,8 @@ void Decide(Answer& answer, const Comparison* value) {
   if (answer.tail && IsDecided(answer.tail->verdict)) {
     return decide(AnswerStep::kTail, answer.tail->verdict, answer.tail->beyond.verdict);
   }
-  // No step decides. The answer is "no difference" only if the verdict on the value is "no difference" and the verdict
-  // on success is not open.
+  // No step decides. The answer is "no difference" only if the verdict on the value is "no difference" and that on
+  // success is not open.
   const auto is_open = [](const std::optional<Comparison>& step) {
     return step && step->verdict == Verdict::kInconclusive && (step->differing > 0 || step->pairs < kMinSample);
   };
@@ -205,7 +206,8 @@ void Decide(Answer& answer, const Comparison* value) {
          value != nullptr ? value->beyond.verdict
          : answer.success ? answer.success->beyond.verdict
                           : std::nullopt);
-  // The answer for other units must not claim more than the answer for these worlds.
+  // The answer for other units must not claim more than that for these worlds: “better” and “worse” become
+  // inconclusive, and so does every answer if the one for these worlds is open.
   if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kInconclusive;
 }
 

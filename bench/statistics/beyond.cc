@@ -72,7 +72,7 @@ std::pair<double, double> ShareInterval(std::span<const double> values) {
 }
 
 /// Returns true if the interval lies on one side of zero. One end may be zero if the estimate is not: units without a
-/// difference make many Walsh averages zero, and the test takes them into account.
+/// difference make many Walsh averages zero, which the signed-rank test takes into account.
 bool IsOnOneSide(const Beyond& beyond) {
   return (*beyond.low >= 0 && *beyond.difference > 0) || (*beyond.high <= 0 && *beyond.difference < 0);
 }
@@ -117,19 +117,19 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   // For each unit, compute the mean without all worlds of that unit.
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double rest = one_way ? n - 1 : worlds - sums.worlds[order[i]];
-    if (rest == 0) continue;  // all worlds share this unit: nothing is left without it
+    if (rest == 0) continue;  // if all worlds share this unit, none is left without it
     const double sum = one_way ? sum_of_means - means[i] : sums.total - sums.sums[order[i]];
     beyond.left_out.push_back({sample.names[order[i]], sum / rest});
   }
-  // Compute one value per unit, and the pseudo-median of these values.
+  // Compute one value per unit (its mean, or the jackknife's pseudo-value), and the pseudo-median of these values.
   std::vector<double> values = means;
   if (!one_way && beyond.left_out.size() == means.size()) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] = KeepThirtyBits(n * mean - (n - 1) * beyond.left_out[i].difference);
     }
   }
-  // If no world differs, all values are 0, whatever the metric. For an amount, the interval of a share would then have
-  // the wrong unit.
+  // Find out whether the values are those of a yes-or-no metric: −1, 0 or 1. If no world differs, an amount has only
+  // zeros, too; for an amount, the interval of a share would have the wrong unit.
   const bool is_yes_or_no = (sample.yes_or_no || beyond.differing > 0) && std::ranges::all_of(values, [](double value) {
                               return std::abs(value) == 1 || value == 0;
                             });
@@ -142,9 +142,9 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   const double half = StudentQuantile(1 - kAlpha / 2, beyond.units - 1) * error;
   beyond.mean_low = KeepThirtyBits(mean - half);
   beyond.mean_high = KeepThirtyBits(mean + half);
-  // Choose the test by the counts, never by the result.
+  // Choose the test by the numbers of units and comparisons, never by the result.
   if (SmallestP(beyond.units) * comparisons <= kAlpha) {
-    // If all values have the same size, their ranks are equal, and the test is then the sign test.
+    // If all values have the same size, all ranks are equal, and the signed-rank test is the sign test.
     beyond.test = SignedRankTest(values);
     beyond.test.how = "signed ranks of units, " + beyond.test.how;
   } else {

@@ -70,10 +70,10 @@ class DrawnMedian {
   std::uint32_t low_ = 0, last_ = 0;
 };
 
-/// Fills `means` and `medians` with the aggregates of resamples. Each has kResamples entries, or is empty if it is not
-/// needed. Each resample draws as many indices as there are values, two from each 64 random bits. The probability of an
-/// index is higher than that of another by at most a factor of 1 + count / 2³². Four resamples are summed side by side,
-/// because each addition to a single sum would have to wait for the previous one.
+/// Fills `means` and `medians` with the aggregates of resamples. Each span has kResamples entries, or is empty if the
+/// aggregate is not needed. Each resample draws as many indices as there are values, two from each 64 random bits. The
+/// probability of an index is higher than that of another by at most a factor of 1 + count / 2³². Four resamples are
+/// summed side by side, because each addition to a single sum would have to wait for the previous one.
 void Resample(std::span<const double> sorted, RandomStream& dice, std::span<double> means, std::span<double> medians) {
   constexpr std::size_t kTogether = 4;
   const std::size_t count = sorted.size(), words = (count + 1) / 2, pairs = count / 2;
@@ -119,13 +119,14 @@ std::optional<double> Acceleration(std::span<const double> jackknife) {
     cubes += pull * pull * pull;
     largest = std::max(largest, std::abs(value));
   }
-  // Rounding alone makes the jackknife values of a constant sample differ.
+  // The jackknife values of a constant sample differ by rounding alone; that counts as no difference.
   const double noise = 1e-12 * largest;
   if (squares <= noise * noise * static_cast<double>(jackknife.size())) return std::nullopt;
   return cubes / (6 * squares * std::sqrt(squares));
 }
 
-/// Returns the replicate at a level. The rank is rounded to an integer, so the last bits of `level` have no effect.
+/// Returns the replicate at a level. Its rank is level · (number of replicates + 1), rounded to an integer, so the last
+/// bits of `level` have no effect.
 double AtLevel(std::span<const double> sorted, double level) {
   const double rank = std::round(level * static_cast<double>(sorted.size() + 1));
   return sorted[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(sorted.size()))) - 1];
@@ -155,7 +156,7 @@ std::vector<double> Sorted(std::span<const double> values) {
   return sorted;
 }
 
-/// Returns the interval of a sample that needs no resampling: all values are equal, or there are too many values.
+/// Returns the interval of a sample that needs no resampling, because all values are equal or there are too many.
 /// Returns nullopt for other samples.
 std::optional<Interval> IntervalWithoutDice(std::span<const double> sorted, Aggregate aggregate, double confidence) {
   if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
@@ -219,7 +220,7 @@ std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> valu
     return MedianAndMean{*median, *IntervalWithoutDice(sorted, Aggregate::kMean, confidence)};
   }
   RandomStream dice = DiceOf(seed, purpose);
-  // Both aggregates use the same resamples. They are drawn in the order in which BootstrapInterval draws them.
+  // Draw one set of resamples for both aggregates, in the order in which BootstrapInterval draws them.
   std::vector<double> medians(kResamples), means(kResamples);
   Resample(sorted, dice, means, medians);
   const auto interval = [&](std::vector<double>& replicates, Aggregate aggregate) {

@@ -77,7 +77,7 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
   // Compute both tests and the effect size, and judge the comparison as if it were the only one.
   result.signed_rank = SignedRankTest(differences);
   result.sign_flip = SignFlipTest(differences, metric.aggregate, seed, purpose);
-  // For a metric without a direction, larger values count as better here.
+  // If the metric has no direction, larger values count as better in this share.
   const double sign = metric.direction == Direction::kLowerIsBetter ? -1 : 1;
   result.share_better = ShareBetter(differences, sign);
   for (double difference : differences) {

@@ -15,7 +15,7 @@ struct Pair {
   double method = 0;
 };
 
-/// Returns true if all values are 0 or 1, so that their means are shares. Returns false for metrics that are amounts.
+/// Returns true if all values are 0 or 1 and the metric is no amount, so that means are shares.
 bool AreShares(std::span<const Pair> pairs, const MetricInfo& metric);
 
 /// Returns method − baseline without the effects of rounding. A difference below a billionth of the practical threshold
@@ -34,9 +34,9 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
 /// sign-flip test if it is the mean. The choice depends on the metric, never on the result.
 std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& metric);
 
-/// Returns true if too few pairs differ for the bootstrap of a mean to exclude rare large differences. For example, if
-/// all 8 worlds of a sample are equal, the interval has no width. But a difference that occurs in one world of ten is
-/// absent from 43 % of such samples.
+/// Returns true if too few pairs differ for the bootstrap interval of a mean to rule out rare large differences. For
+/// example, if both methods agree in all 8 worlds of a sample, the interval has no width. But a difference that occurs
+/// in one world of ten is absent from 43 % of such samples.
 bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 
 /// Returns the verdict, which follows from the interval, `p_holm`, the metric's practical threshold and alpha =

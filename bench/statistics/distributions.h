@@ -7,8 +7,8 @@ double NormalCdf(double x);
 /// Returns Φ⁻¹(p), the p-quantile of the standard normal distribution, 0 < p < 1.
 double NormalQuantile(double p);
 
-/// StudentQuantile returns the p-quantile of Student's t with `freedom` > 0 degrees of freedom; the other function
-/// returns P(|T| ≥ |t|).
+/// StudentQuantile returns the p-quantile of Student's t with `freedom` > 0 degrees of freedom; StudentTwoSided returns
+/// P(|T| ≥ |t|).
 double StudentQuantile(double p, int freedom);
 double StudentTwoSided(double t, int freedom);
 
@@ -19,9 +19,10 @@ double FairCoinUpperTail(int successes, int trials);
 /// way, because the last bits of these functions differ between machines.
 double KeepThirtyBits(double value);
 
-/// Returns the smallest mean difference that a two-sided paired t test at 5 % finds with a power of 80 %. It is in
-/// standard deviations of the `count` > 1 independent differences. `comparisons` = m is the number of tests
-/// (Bonferroni, the first step of Holm): (t(1 − 0.05 / 2m) + t(0.8)) / √n, both with n − 1 degrees of freedom.
+/// Returns the smallest mean difference that a two-sided paired t test at 5 % finds with a power of 80 %. Its unit is
+/// the standard deviation of the `count` > 1 independent differences. `comparisons` = m is the number of tests
+/// (Bonferroni, the first step of Holm): (t(1 − 0.05 / 2m) + t(0.8)) / √n, both quantiles with n − 1 degrees of
+/// freedom.
 double MinDetectableDifference(int count, int comparisons);
 
 }  // namespace etude

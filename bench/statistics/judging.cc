@@ -16,8 +16,8 @@
 namespace etude {
 namespace {
 
-/// Returns a note with the number of worlds in which a method has no value; "" if there are none. Such worlds are not
-/// in the difference, which favours a method that fails in hard worlds (survivorship bias).
+/// Returns a note with the number of worlds in which a method has no value; "" if there are none. The difference leaves
+/// such worlds out, which favours a method that fails in hard worlds (survivorship bias).
 std::string NoteOnMissing(const Comparison& c) {
   const int without = c.only_baseline + c.only_method + c.neither;
   if (without == 0) return "";
@@ -40,18 +40,18 @@ std::string NotWithFailures(Verdict of_pairs) {
 /// than half of the worlds.
 std::string DescribeWhatMedianHides(const Comparison& c) {
   const int tied = c.pairs - c.differing;
-  const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // ties count half
+  const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // `share_better` counts ties as half
   const std::string ties = 2 * tied > c.pairs ? "in most worlds the same, " : "";
   return fmt::format("the median is too small to matter, but the mean may not be: {}in {} of {} better, in {} worse",
                      ties, better, c.pairs, c.differing - better);
 }
 
-/// Returns the reason why the verdict is open: the first that holds, in the order in which a reader would check.
-/// Returns "" if the verdict is clear.
+/// Returns the reason why the verdict is open; if several reasons hold, the first in the order in which a reader would
+/// check them. Returns "" if the verdict is clear.
 std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
   if (c.verdict != Verdict::kInconclusive) return "";
   if (c.pairs == 0) return "no world has both values";
-  // The interval lies within ± threshold, but there may be relevant differences that it cannot show.
+  // The interval lies within ± threshold, but relevant differences may exist that the interval cannot show.
   const int needed = PairsNeeded(comparisons, kAlpha);
   const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
   if (within && SeesTooFewDiffer(c, metric)) {
@@ -82,7 +82,7 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
     if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
     return fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", p, comparisons);
   }
-  // Both find a difference, but it is too small, or the metric has no direction.
+  // The interval and the test both find a difference, but it is too small, or the metric has no direction.
   if (std::abs(*c.difference) < metric.practical) return "it differs, but it is undecided whether enough to matter";
   return "it differs, but neither direction is better";
 }
@@ -132,7 +132,7 @@ void JudgeOnTheseWorlds(std::span<Question* const> family) {
   }
 }
 
-/// Copies the results for these worlds to `beyond`. This is for a scenario in which every world is its own unit.
+/// Copies the results for these worlds to `beyond`, for scenarios in which every world is its own unit.
 void CopyVerdictsBeyond(Comparison& comparison) {
   Beyond& beyond = comparison.beyond;
   beyond.units = comparison.pairs;
@@ -150,7 +150,7 @@ void CopyVerdictsBeyond(Comparison& comparison) {
   beyond.why_open = comparison.why_open;
 }
 
-/// Judges a family of comparisons for other units, by the rule for these worlds.
+/// Judges a family of comparisons for other units as JudgeOnTheseWorlds does for these worlds.
 void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
   // Apply Holm's correction to the p-values without failures, and to those with failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;
@@ -167,7 +167,7 @@ void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
     beyond.p_holm = corrected_alone[i];
     beyond.verdict = VerdictBeyond(beyond, metric);
     beyond.why_open = WhyOpenBeyond(beyond, metric, unit, comparisons);
-    // The verdict stands only if it is the same with failures counted.
+    // Keep the verdict only if it is the same with failures counted.
     if (!family[i]->with_failures || !beyond.verdict) continue;
     Beyond& with_failures = family[i]->with_failures->beyond;
     with_failures.p_holm = beyond.p_holm = corrected[i];
@@ -193,7 +193,7 @@ SplitCondition Split(const Study& study, const std::vector<SweptValue>& conditio
   return split;
 }
 
-/// Returns true if the verdict belongs to this comparison and these other swept values.
+/// Returns true if `verdict` is about this comparison under the swept values `rest`.
 bool IsSameQuestion(const AcrossVerdict& verdict, const std::vector<SweptValue>& rest, const Comparison& comparison) {
   return verdict.condition == rest && verdict.metric == comparison.metric && verdict.method == comparison.method &&
          verdict.baseline == comparison.baseline;
@@ -261,7 +261,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   return {outcome, detail};
 }
 
-/// Changes "met" to "unmet" if the method is worse by success, because success would decide an answer first.
+/// Changes "met" to "unmet" if the method is worse by success: success decides an answer before the value.
 void AskSuccessFirst(const Expectation& expectation, const Study& study, const ConditionTable& table,
                      const std::string& other, bool wants_lower, std::uint64_t seed, Finding& finding) {
   const bool wants_better = wants_lower == (FindMetric(expectation.metric)->direction == Direction::kLowerIsBetter);

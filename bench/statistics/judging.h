@@ -23,13 +23,13 @@ struct Question {
 /// Corrects the deciding p-values of comparisons that belong together (Holm), judges each comparison again, and sets
 /// its notes and the reason for an open verdict. A comparison without a p also counts in the correction. If only one
 /// method failed in some worlds, the p with failures counted is used, and the verdict must be the same with and without
-/// failures. The verdicts for other units are a family of their own, judged by the same rule. If every world is its own
-/// `unit`, they equal the verdicts for these worlds.
+/// failures. The verdicts for other units are corrected as a separate family and judged by the same rule. If every
+/// world is its own `unit`, they equal the verdicts for these worlds.
 void JudgeFamily(std::span<Question* const> family, SamplingUnit unit = SamplingUnit::kWorld);
 
 /// Judges the comparisons with baselines again for a study whose verdicts must be the same under every value of
 /// Study::across. Returns one verdict per comparison and per condition of the other swept parameters, in the order of
-/// `conditions`. Returns none if Study::across is empty.
+/// `conditions`. Returns no verdicts if Study::across is empty.
 std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<ConditionSummary>& conditions);
 
 /// Judges one expectation over every condition that it names. A comparison (below, above) is met if the paired verdict

@@ -48,7 +48,7 @@ double SumOf(const std::vector<int>& ranks) {
 /// Returns the smaller of P(W ≤ w) and P(W ≥ w) over all signs of these ranks (shift algorithm).
 double ExactTail(const std::vector<int>& ranks, double w) {
   const auto total = static_cast<std::size_t>(SumOf(ranks));
-  std::vector<double> ways(total + 1);  // by sum: how many sign vectors reach it, an integer of at most 2⁵⁰
+  std::vector<double> ways(total + 1);  // for each sum of positive ranks, the number of sign vectors; at most 2⁵⁰
   ways[0] = 1;
   std::size_t reached = 0;
   for (int rank : ranks) {
@@ -64,8 +64,8 @@ double ExactTail(const std::vector<int>& ranks, double w) {
 double NormalTail(const std::vector<int>& ranks, double w) {
   double squares = 0;
   for (int rank : ranks) squares += static_cast<double>(rank) * rank;
-  // Each rank is included with probability ½, so the mean is Σr / 2 and the variance Σr² / 4, with or without ties. The
-  // continuity correction is half a rank towards the mean. Ranks are doubled, so it is 1.
+  // Each rank is positive with probability ½, so the mean is Σr / 2 and the variance Σr² / 4, with or without ties. The
+  // continuity correction moves w by half a rank towards the mean; with doubled ranks, it is 1.
   const double distance = std::max(std::abs(w - SumOf(ranks) / 2) - 1, 0.0);
   return KeepThirtyBits(NormalCdf(-distance / std::sqrt(squares / 4)));
 }
@@ -78,8 +78,8 @@ constexpr int kDraws = 9999;
 /// The signs of the differences, one bit each: 1 = negative.
 using Signs = std::vector<std::uint64_t>;
 
-/// Returns the index of the n-th bit that is 1. If all bits of `flip` are 1, returns the index of the n-th bit that is
-/// 0.
+/// Returns the index of the n-th bit that is 1 in `signs`. If all bits of `flip` are 1, returns the index of the n-th
+/// bit that is 0.
 std::size_t IndexOfNth(const Signs& signs, std::size_t n, std::uint64_t flip) {
   for (std::size_t word = 0;; ++word) {
     std::uint64_t bits = signs[word] ^ flip;
@@ -93,7 +93,8 @@ std::size_t IndexOfNth(const Signs& signs, std::size_t n, std::uint64_t flip) {
   }
 }
 
-/// The absolute differences |d| in ascending order, zeros first. Computes their aggregate under any signs.
+/// The absolute differences |d| in ascending order, zeros first. It computes the aggregate of the differences under any
+/// signs.
 class FlippedSample {
  public:
   FlippedSample(std::vector<double> sizes, Aggregate aggregate) : sizes_(std::move(sizes)), aggregate_(aggregate) {
@@ -148,8 +149,8 @@ class FlippedSample {
   std::vector<std::array<double, 256>> byte_sums_;
 };
 
-/// Tests very many differences by a normal approximation of the sign flips. A mean has variance Σd² / n². For a median,
-/// the numbers of differences above and below zero are compared (sign test).
+/// Tests a large number of differences by a normal approximation of the sign-flip test. A mean has variance Σd² / n².
+/// For a median, the numbers of differences above and below zero are compared (sign test).
 PairedTest ManyFlips(std::span<const double> sizes, const Signs& signs, Aggregate aggregate) {
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -201,8 +202,9 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   const std::size_t differing = sizes.size() - zeros;
   if (differing == 0) return {1.0, "exact"};
   const double largest = sizes.back();
-  // If all have one sign, no other signs but their opposites give a mean as far from zero. Drawn signs could not show
-  // how small this p is, so that Holm's correction would reject it among many comparisons.
+  // If all differences have the same sign, only two sign vectors, all plus and all minus, give a mean as far from zero.
+  // Drawn sign vectors could not show how small this p is, so it would not pass Holm's correction among many
+  // comparisons.
   constexpr std::size_t kMaxExponent = 1000;
   if (aggregate == Aggregate::kMean && (negatives == 0 || negatives == differing) && differing <= kMaxExponent) {
     return {SmallestP(static_cast<int>(differing)), "exact"};
@@ -218,8 +220,8 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   const double reached = std::abs(sample.AggregateUnder(observed)) - 1e-12 * largest;
   Signs signs(sample.words());
   if (differing <= kMaxEnumerated) {
-    // If few differ, enumerate all sign vectors. A vector and its mirror image are equally far from zero, so half of
-    // the vectors are enough.
+    // If few differences are non-zero, enumerate all sign vectors. A vector and its negative give aggregates equally
+    // far from zero, so half of the vectors are enough.
     const std::uint32_t all = std::uint32_t{1} << (differing - 1);
     int extreme = 0;
     for (std::uint32_t bits = 0; bits < all; ++bits) {
@@ -234,7 +236,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   }
   // Otherwise draw sign vectors.
   RandomStream dice({.suite_seed = seed, .scenario = "sign-flip", .trial = 0}, purpose);
-  // The bits behind the last difference must stay 0. If they were 1, they would count as negative.
+  // Set the bits behind the last difference to 0; otherwise they would count as negative differences.
   const std::uint64_t last =
       ordered.size() % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (ordered.size() % 64)) - 1;
   int extreme = 0;

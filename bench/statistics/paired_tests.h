@@ -21,15 +21,16 @@ PairedTest SignedRankTest(std::span<const double> differences);
 
 /// Returns the matched-pairs rank-biserial correlation (Kerby 2014), −1…1: the rank sum of the positive differences
 /// minus the rank sum of the negative ones, divided by the total of both. The ranks are those of the signed-rank test.
-/// 0 if all differences are zero.
+/// It is 0 if all differences are zero.
 double RankBiserial(std::span<const double> differences);
 
 /// Computes the sign-flip permutation test (Fisher 1935) of the differences' median or mean. Up to 16 non-zero
 /// differences, all sign vectors are enumerated, and p is exact. For a mean, p is also exact for n differences of one
 /// sign (2 / 2ⁿ), and for differences of equal size by the binomial distribution (for shares this is McNemar's exact
-/// test). Otherwise m = 9,999 sign vectors are drawn from a stream keyed by `seed` and `purpose`. b of them have an aggregate at least as far from zero as the
-/// observed one, and p = (b + 1) / (m + 1) (Phipson & Smyth 2010). Above kMaxResampled differences, p comes from a
-/// normal approximation; for a median, from the normal approximation of the sign test.
+/// test). Otherwise m = 9,999 sign vectors are drawn from a stream keyed by `seed` and `purpose`. b of them have an
+/// aggregate at least as far from zero as the observed one, and p = (b + 1) / (m + 1) (Phipson & Smyth 2010). Above
+/// kMaxResampled differences, p comes from a normal approximation; for a median, from the normal approximation of the
+/// sign test.
 PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate, std::uint64_t seed,
                         const std::string& purpose);
 

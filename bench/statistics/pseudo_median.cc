@@ -23,7 +23,7 @@ constexpr std::int64_t kMaxExactValues = 50;
 /// Returns the number of Walsh averages of the ascending values that are at most `limit`.
 std::int64_t CountWalshAverages(std::span<const double> ascending, double limit) {
   std::int64_t count = 0;
-  auto end = static_cast<std::int64_t>(ascending.size());  // end of the partners of the current value
+  auto end = static_cast<std::int64_t>(ascending.size());  // end of the values whose average with value i is ≤ `limit`
   for (std::int64_t i = 0; i < end; ++i) {
     while (end > i &&
            (ascending[static_cast<std::size_t>(i)] + ascending[static_cast<std::size_t>(end - 1)]) / 2 > limit)
@@ -33,8 +33,7 @@ std::int64_t CountWalshAverages(std::span<const double> ascending, double limit)
   return count;
 }
 
-/// OrderOf maps a finite double to an integer, and the next function maps it back. The integers are ordered like the
-/// doubles.
+/// OrderOf maps a finite double to an integer, and ValueAt maps it back. The integers have the order of the doubles.
 std::int64_t OrderOf(double value) {
   const auto bits = std::bit_cast<std::int64_t>(value);
   return bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Returns the worst value that any method reached under the condition. It counts as the value of a failed cell.
+/// Returns the worst value that any method reached under the condition, which counts as the value of a failed cell.
 /// Returns nothing if there is no value.
 std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& metric) {
   std::optional<double> worst;
@@ -29,7 +29,7 @@ std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& met
   return worst;
 }
 
-/// Returns the method's aggregate over one half of the worlds, in which failed cells count as `worst`; nothing if the
+/// Returns the method's aggregate over one half of the worlds; failed cells count as `worst`. Returns nothing if the
 /// half has no worlds.
 std::optional<double> ScoreOf(const ConditionTable& table, const MethodColumns& method, const MetricInfo& metric,
                               double worst, int half) {
@@ -70,8 +70,9 @@ bool IsCandidate(const Study& study, const ComparedMethod& method, const Compare
   return other.name != method.name && other.name != method.against && Competes(study, other);
 }
 
-/// Returns the best candidate in one half of the worlds by the first headline metric. If several candidates are left,
-/// the second metric decides, and so on; finally the order of the methods decides. Returns "" if there is no candidate.
+/// Returns the best candidate in one half of the worlds by the first headline metric. If several candidates are equally
+/// good, the second metric decides between them, and so on; finally the order of the methods decides. Returns "" if
+/// there is no candidate.
 std::string BestOther(const Study& study, const ConditionTable& table, const ComparedMethod& method, int half) {
   std::vector<const MethodColumns*> candidates;
   for (const ComparedMethod& other : study.methods) {
@@ -161,7 +162,7 @@ void ScenarioTable::Add(const Row& row) {
   if (method == table->methods.end()) return;
   method->Add(row);
   std::vector<int>& units = table->world_units[static_cast<std::size_t>(row.trial)];
-  if (!units.empty()) return;  // the methods of a world share its units
+  if (!units.empty()) return;  // all methods of a world have the same units
   for (const std::string& name : row.units) {
     const auto known = std::find(table->units.begin(), table->units.end(), name);
     units.push_back(static_cast<int>(known - table->units.begin()));
@@ -263,7 +264,7 @@ std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, 
   if (!HasRival(study, method)) return std::nullopt;
   if (!study.rival.empty()) return Rival{{study.rival, study.rival}};
   Rival rival{{BestOther(study, table, method, 1), BestOther(study, table, method, 0)}};
-  // One half has no worlds from which the rival could be chosen.
+  // If one half has no worlds, no rival can be chosen from it.
   if (rival.of_half[0].empty() || rival.of_half[1].empty()) return std::nullopt;
   return rival;
 }

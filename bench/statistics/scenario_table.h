@@ -42,7 +42,7 @@ class MethodColumns {
 /// All values and statuses measured under one condition.
 struct ConditionTable {
   std::vector<SweptValue> condition;
-  std::vector<MethodColumns> methods;         ///< as the study lists them
+  std::vector<MethodColumns> methods;         ///< in the order of the study's methods
   std::vector<std::string> units;             ///< names of all units, in the order of first occurrence
   std::vector<std::vector<int>> world_units;  ///< by trial: indices of the units that the world was drawn from
 
@@ -65,15 +65,15 @@ class ScenarioTable {
 
   std::string scenario_;
   std::vector<ConditionTable> conditions_;
-  /// The condition of the last row. It is tried first, because rows of one condition follow each other.
+  /// The condition of the row added last. It is tried first, because rows of one condition follow each other.
   std::size_t last_ = 0;
 };
 
 /// Returns the half of the worlds to which a trial belongs, 0 or 1. All worlds of a unit are in the same half.
 int HalfOf(const ConditionTable& table, int trial);
 
-/// The values of one metric for two methods in the worlds of a condition. Worlds that both methods skipped are not
-/// counted.
+/// The values of one metric for two methods in the worlds of a condition. Worlds that both methods skipped are left
+/// out.
 struct PairedWorlds {
   std::vector<Pair> pairs;  ///< one for each world in which both have a value
   std::vector<int> trials;  ///< the trial of each pair
@@ -109,7 +109,7 @@ std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>
 
 /// The strongest rival of a method.
 struct Rival {
-  std::array<std::string, 2> of_half;  ///< the rival in worlds of even units, and in worlds of odd units
+  std::array<std::string, 2> of_half;  ///< the rival in worlds of even units, then the rival in worlds of odd units
 
   std::string Name() const;  ///< "a", or "a or b" if the two halves chose differently
   std::string Note() const;  ///< says how they were chosen; "" if both are the same

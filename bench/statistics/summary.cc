@@ -49,7 +49,8 @@ MetricSummary SummariseMetric(const MetricInfo& metric, const MethodColumns& met
   summary.present = static_cast<int>(values.size());
   if (values.empty()) return summary;
   summary.median = Quantile(values, 0.5);
-  // A weighted mean equals the mean of its linearised values (Taylor expansion of a ratio), so it has their interval.
+  // A weighted mean is the mean of its linearised values (Taylor expansion of a ratio), so their interval is its
+  // interval.
   std::vector<double> linear = values;
   if (!metric.weight.empty()) {
     const std::vector<double> weights = method.WeightsOf(metric);
@@ -95,7 +96,7 @@ struct Family {
   std::uint64_t seed = 1;
   int size = 0;  ///< number of comparisons that are judged together
 
-  /// Estimates the difference for other units. The result is empty if every world is its own unit.
+  /// Estimates the difference for other units. Empty if every world is its own unit.
   Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric) const {
     if (WorldsAreUnits(study.unit)) return {};
     return MeasureBeyond(UnitsOf(worlds, table, metric), size);
@@ -246,7 +247,7 @@ namespace {
 
 using Stages = std::set<std::string>;
 
-/// A method and the stages that the truth replaces in it.
+/// A method, and the stages in it that are replaced by the truth.
 struct Member {
   std::string method;
   Stages stages;
@@ -283,8 +284,8 @@ std::vector<std::vector<Member>> FamiliesOf(const Study& study) {
   return members;
 }
 
-/// Returns a chain of members. The first has the fewest stages; each next member is the smallest one that contains the
-/// stages of the one before.
+/// Returns a chain of members. The first member has the fewest stages; each next member is the smallest one that
+/// contains all stages of the member before it.
 std::vector<Member> ChainOf(const std::vector<Member>& family) {
   std::vector<Member> chain;
   for (const Member& member : family) {
@@ -328,7 +329,8 @@ class BudgetMaker {
     const std::vector<Member> members = is_whole ? family_ : ChainOf(family_);
     values_ = ValuesOf(members, table_, metric_);
     if (values_.empty() || members.size() < 2) return std::nullopt;
-    // Compute the error with the fewest replaced stages, the remaining error with the most, and the shares in between.
+    // Compute the error with the fewest replaced stages, the error that remains with the most replaced stages, and the
+    // shares of the stages in between.
     budget_.metric = metric_;
     budget_.method = members.front().method;
     budget_.is_shapley = is_whole;

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Returns the number of comparisons between methods and their baselines. They are judged together.
+/// Returns the number of comparisons between methods and their baselines, which are judged together as one family.
 int CountComparisons(const Study& study);
 
 /// The summary of one condition and its comparisons, before the comparisons of all conditions are judged together.
@@ -18,7 +18,7 @@ struct ConditionFindings {
   ConditionSummary summary;  ///< without comparisons; its answers are not judged yet
   std::vector<Question> against_baselines, against_rivals;
 };
-/// Measures one method under one condition. Results that belong to no method are computed together with the first
+/// Measures one method under one condition. Results that belong to no single method are computed with the study's first
 /// method. Random streams depend only on the things compared, so methods and conditions may be measured in any order
 /// and by any process. Append adds the findings of a condition's next method.
 ConditionFindings MeasureMethod(const Study& study, const ConditionTable& table, std::size_t method,

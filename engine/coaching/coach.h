@@ -126,7 +126,7 @@ struct CoachStep {
   CoachOutput output;
 };
 
-/// Paper A's coach as a state machine (algorithms A8). It is immutable, and any number of sessions can share it. It
+/// Paper A's coach as a state machine. It is immutable, and any number of sessions can share it. It
 /// gets the recogniser's evidence, but not the truth about what was danced.
 ///
 ///     Coach coach(transitions, {}, {FindPolicy("at-first-mistake"), {}});

@@ -29,7 +29,7 @@ struct PoseFeatures {
   double& operator[](Feature feature) { return values[static_cast<std::size_t>(feature)]; }
 };
 
-/// Computes the ten features of one frame (algorithms A1). `standing_hip_height` is the height of this body's hip
+/// Computes the ten features of one frame. `standing_hip_height` is the height of this body's hip
 /// centre above the floor when standing, in metres, > 0. A limb of zero length gives the angle 0.
 PoseFeatures ComputeFeatures(const BodyPose& pose, double standing_hip_height);
 

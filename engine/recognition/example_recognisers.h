@@ -11,7 +11,7 @@ namespace etude {
 struct DtwOptions {
   /// The distance to the nearest example at which the evidence is ½, as RMS per joint with the trunk scaled to 50 cm.
   /// The default (ours) lies between the typical distance of the same move by another person and the typical distance
-  /// of the most similar other move (algorithms A7).
+  /// of the most similar other move.
   double half_at_cm = 11;
 };
 

@@ -12,7 +12,7 @@ using namespace etude;
 int main() {
   const KinematicTree body = MakeBodyTree(LimbLengths{});
   std::mt19937 dice(1);
-  // A share of the way from the middle of a joint's range to its end.
+  // Draws an angle uniformly from the given share of a joint's range, around its middle.
   const auto draw = [&](const AngleRange& range, double share) {
     const double middle = (range.lower + range.upper) / 2, half = share * (range.upper - range.lower) / 2;
     return middle + half * (2 * dice() / double(std::mt19937::max()) - 1);

@@ -1,4 +1,4 @@
-// What a Kinect and two cameras would have seen of a clip, and how wrong the Kinect is: two_sensors CLIP.bvh writes
+// Simulates a Kinect and two cameras that watch a clip. two_sensors CLIP.bvh prints the Kinect's mean error and writes
 // left.ppm and right.ppm, the middle of the clip, into the current folder.
 #include <etude/sim/pictures.h>
 #include <etude/sim/sensor.h>

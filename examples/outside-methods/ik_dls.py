@@ -60,8 +60,8 @@ def forward(tree, root, angles):
 
 
 def lacking(tree, targets, places, rotations):
-    """Returns six errors per effector: the way to its target, and the rotation vector to its target, for small
-    angles."""
+    """Returns six errors per effector: the vector from it to its target, and the rotation vector between their axes,
+    which is accurate for small angles."""
     lacks = []
     for effector, target in zip(tree["effectors"], targets):
         rotation = rotations[effector["joint"]]

@@ -76,7 +76,7 @@ class Network:
         before, last, after = past[-2], past[-1], future[0]
         turns = last[3:].reshape(-1, 4)
         back = turns * [1, -1, -1, -1]
-        # Each row is the root's position, or a joint's rotation relative to that in the last past frame.
+        # Make one row for the root's position and one for each joint's rotation, relative to the last past frame.
         relative = [np.vstack([pose[:3] - last[:3], vectors(times(back, pose[3:].reshape(-1, 4)))]) for pose in (before, after)]
         leave, way = -relative[0] * (problem.gap + 1), relative[1]
         frames = []

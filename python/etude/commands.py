@@ -176,7 +176,7 @@ def report(run, *, video=True, progress=True, program=None):
 
 @dataclass(frozen=True)
 class Gate:
-    """The verdict of a gate; true if it passed. `text` is all that the gate says, one line per check."""
+    """The verdict of a gate; true if it passed. `text` is the gate's whole output, one line per check."""
     passed: bool
     text: str
 

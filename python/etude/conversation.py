@@ -119,7 +119,7 @@ def _class_names(spec):
 
 
 def _call(function, first, **offered):
-    """Calls a function with `first` and with those of `offered` that it has arguments for."""
+    """Calls a function with `first`, and with those values of `offered` for which it has arguments."""
     parameters = inspect.signature(function).parameters.values()
     takes_all = any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters)
     names = [parameter.name for parameter in parameters]

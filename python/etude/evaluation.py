@@ -16,16 +16,16 @@ from etude.results import load
 def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, people=None, lag=None, statistics=None,
              music_beats=None, metrics=(), alone=False, floor=None, limits=None, output=None, overwrite=False, jobs=None,
              progress=True, program=None, unit=None, up=None, **answers):
-    """Judges answers by their truth, or alone, and returns the Run, as load does.
+    """Judges answers by their truth, or without one (`alone`), and returns the Run, as load does.
 
     truth, and each answer by its method's name: a motion file, a folder or a pattern; or an array of positions, frames
     × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` of their joints and `rate_hz`;
     a joint with the name of a role plays that role; give `unit` ("cm") if arrays are not in metres, and `up` ("z") if Y
     does not point up. Arrays are kept as .npz files in the folder `output` + ".motions". pairs: a CSV file of pairs,
-    given instead. joints, people, lag, statistics, music_beats, metrics: as the options of `etude evaluate`. alone:
-    there is no truth; floor and limits are then the options of `etude evaluate --alone`, and the metric within_limits
-    says which clips keep the limits. output: the result folder; by default the first free one of out/evaluate-1,
-    out/evaluate-2, …
+    given instead of truth and answers. joints, people, lag, statistics, music_beats, metrics: as the options of `etude
+    evaluate`. alone: there is no truth; floor and limits are then the options of `etude evaluate --alone`, and the
+    metric within_limits says which clips keep the limits. output: the result folder; by default the first free one of
+    out/evaluate-1, out/evaluate-2, …
 
     Raises EtudeError, also if a method has no answer that can be judged; its `run` is then set. Warns of pairs that are
     not judged.

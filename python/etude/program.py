@@ -114,7 +114,7 @@ def needed(module):
 
 
 def _tell(line, progress):
-    """Passes a line of progress on. Returns False if the line is something else."""
+    """Passes a line of progress on to the caller. Returns False if the line is not about progress."""
     tenth = _TENTH.match(line)
     if tenth is None:
         return False

@@ -75,7 +75,7 @@ def _folder_of(module):
 
 
 def _interpreter(granted):
-    """Returns the Python that runs this process; adds its prefix to `granted` if the fence does not show it anyway."""
+    """Returns the Python that runs this process; adds its prefix to `granted` unless the fence shows it to all."""
     for prefix in dict.fromkeys([sys.prefix, sys.base_prefix]):
         if not f"{prefix}/".startswith(SYSTEM):
             granted.append(prefix)
@@ -168,7 +168,7 @@ class _Pieces:
                              "within the method, or in a class's __init__, or read it from a file that its `files` lists")
 
     def _import(self, module, line):
-        """Adds an import line, and the module's folder if Python does not bring it."""
+        """Adds an import line, and the module's folder if the module does not come with Python."""
         if getattr(module, "__file__", None) and module.__name__.partition(".")[0] != "etude":
             self._show(module)
         self._imports.append(line)

@@ -73,7 +73,8 @@ void Tint(const Mask& mask, const Paint& paint, ColourImage& picture) {
   }
 }
 
-// Returns the part of the pictures, in their aspect ratio, that contains the person in every frame with a margin.
+// Returns a part of the pictures that contains the person in every frame with a margin. It has the pictures' aspect
+// ratio.
 Box CropAround(const BodyMotion& motion, const Camera& camera) {
   constexpr double kAirPixels = 45;
   const glm::dvec2 size{camera.intrinsics.width, camera.intrinsics.height};
@@ -195,12 +196,12 @@ View CapturePanel::Seen(Renderer& renderer, std::size_t camera, int frame, Targe
 void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const {
   const std::size_t k = static_cast<std::size_t>(frame);
   const CaptureExtras::View& view = extras_.views[camera];
-  // Draw the whole picture so large that the crop fills the canvas; everything else is cut off.
+  // Scale the whole picture so that the crop fills the canvas; the canvas cuts off the rest.
   const Box& crop = crops_[camera];
   const double scale = canvas.width() / crop.width;
   const Intrinsics& inside = view.truth.intrinsics;
   const Box panel{-crop.x * scale, -crop.y * scale, inside.width * scale, inside.height * scale};
-  // Tint before scaling, because scaling costs most of a frame's time.
+  // Tint the picture before it is scaled, because scaling takes most of a frame's time.
   ColourImage picture = Seen(renderer, camera, frame, Targets::kColour).colour;
   Tint(view.masks[k], kMaskTint, picture);
   Tint(OutlineOf(view.masks[k]), kMaskEdge, picture);

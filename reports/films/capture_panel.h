@@ -18,7 +18,7 @@ namespace etude {
 /// skeleton.
 class CapturePanel {
  public:
-  /// Fails if the recording's facts cannot be read or do not match its tracks.
+  /// Fails if the recording's extras cannot be read or do not match its tracks.
   static Result<CapturePanel> Make(const RunData& run, const ShownCell& cell);
 
   int Frames() const { return static_cast<int>(truth_.poses.size()); }
@@ -33,7 +33,7 @@ class CapturePanel {
   const std::string& Method() const { return method_; }
   /// Returns the name of the performed clip: "clap"; empty if the recording does not state it.
   const std::string& Clip() const { return clip_; }
-  /// Returns the error in words: "43 mm now, 51 mm on average"; empty if it was not measured.
+  /// Returns the error in words: "43 mm now, 51 mm on average"; empty if the run did not measure it.
   std::string ErrorWords(int frame) const;
 
   /// Renders one camera's view without noise.
@@ -51,7 +51,8 @@ class CapturePanel {
   const Box& CropOf(std::size_t camera) const { return crops_[camera]; }
 
   /// Draws the part of one camera's picture around the person, with mask and skeleton over it and without text. The
-  /// part fills the canvas. The same canvas size gives the same picture, so callers may cache it.
+  /// part fills the canvas. Calls with the same canvas size, camera and frame draw the same picture, so callers may
+  /// cache it.
   void Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const;
 
  private:

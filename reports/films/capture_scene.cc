@@ -162,7 +162,7 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
       row.Add(picture, fmt::format("T = {}", frame + 1));
     }
   }
-  // Draw one row of skeletons of the whole motion.
+  // Draw one row with the recovered skeletons of the whole motion.
   PlateRow row = begin_row("The whole sequence, its skeletons");
   for (const int frame : sequence) {
     Canvas picture(kPictureWidth, kPictureHeight);
@@ -181,7 +181,7 @@ constexpr Box kSkeletonsBox{456, 52, 812, 656};
 constexpr double kSkeletonTop = 78, kSkeletonBottom = 62;
 constexpr Paint kGround{0.13, 0.15, 0.17, 1};
 constexpr Paint kTruthBone{0.62, 0.66, 0.69, 0.85};
-// Error of a joint, in centimetres, at which the colour scale ends.
+// The error of a joint at which the colour scale ends, centimetres.
 constexpr double kMaxErrorCm = 12;
 
 /// Returns green for no error, yellow for half of kMaxErrorCm, red for kMaxErrorCm centimetres and more.
@@ -293,7 +293,7 @@ void CaptureScene::DrawSkeletons(Canvas& canvas, const CapturePanel& capture, co
   const BodyPose& recovered = capture.Recovered(frame);
   const auto seen = [&](const glm::dvec3& joint) -> std::optional<glm::dvec2> {
     const auto pixel = Project(camera_, joint);
-    // Skip joints far outside the column, because they would cover its neighbour.
+    // Skip joints far outside the column, because they would cover the neighbouring column.
     if (!pixel || pixel->x < 0 || pixel->x > box.width) return std::nullopt;
     return glm::dvec2(box.x, box.y + kSkeletonTop) + *pixel;
   };

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Draws two moments of a capture as its first two cameras saw them, with mask and recovered skeleton.
+/// Draws two frames of a capture as its first two cameras saw them, with mask and recovered skeleton.
 std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer);
 
 /// Saves the pictures of DrawStrip for other programs, as EXR files with colour, depth and labels.
@@ -18,12 +18,13 @@ Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, 
 
 /// Draws all stages of a capture's moments in the layout of paper B's figures 5.3 to 5.14: for each moment and camera
 /// the picture, the person cut out of it, the marks, the skeleton with its lengths fixed, and the skeleton after
-/// inverse kinematics. Below follow, as in figure 5.15, the whole motion as the cameras saw it, and its skeletons. At
-/// most two cameras are shown. Returns nullopt if the recording keeps no moments.
+/// inverse kinematics. Below these rows are, as in figure 5.15, the whole motion as the cameras saw it, and its
+/// skeletons. At most two cameras are shown. Returns nullopt if the recording keeps no moments.
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
 /// Finds the captures that a film compares: the recorded methods in the world of the typical cell (ChooseCell), in the
-/// scenario's order, at most three. Empty if there is none; fails if a recording cannot be read.
+/// scenario's order, at most three. The result is empty if that world has no recordings. Fails if a recording cannot be
+/// read.
 Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical);
 
 /// The film of a capture: the views of two cameras and, side by side for each method, the true skeleton with the

@@ -117,7 +117,7 @@ void AddTree(const glm::dvec3& foot, double height, std::size_t kind, Figure& fo
 }
 
 constexpr Box kStage{12, 52, 1256, 520};
-constexpr Box kSaid{12, 52, 1064, 520};  // text may cover only this part of the stage
+constexpr Box kSaid{12, 52, 1064, 520};  // the part of the stage that text may cover
 constexpr Box kInset{1086, 372, 170, 188};
 constexpr Box kHint{1046, 64, 210, 280};
 
@@ -127,8 +127,8 @@ constexpr double kSessionEyeHeight = 1.35, kSessionDistance = 5.2, kSessionLookA
 
 constexpr int kBeforeCorrection = 3 * kFilmRate;
 
-/// The maximum number of frames that the timeline shows. In a longer film, the timeline shows the frames around the
-/// current one.
+/// The maximum number of frames that the timeline shows. If the film is longer, the timeline shows a window around the
+/// current frame.
 constexpr int kTimelineFrames = 24 * kFilmRate;
 
 const Room kMeadow{.casts_shadows = false};
@@ -192,7 +192,7 @@ Figure ForestFigure() {
                                                   {2.3, 2.1, -2.0},
                                                   {3.2, 2.9, -2.2},
                                                   {4.2, 2.4, -1.8},
-                                                  {5.2, 3.1, -2.1}}};  // x, height, z
+                                                  {5.2, 3.1, -2.1}}};  // x, height, z of each tree
   for (std::size_t i = 0; i < kTrees.size(); ++i) {
     AddTree({kTrees[i].x, 0, kTrees[i].z}, kTrees[i].y, i, forest);
   }
@@ -237,7 +237,7 @@ const ColourImage& CoachedScene::Backdrop(const Camera& camera) {
 
 void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   const auto t = static_cast<std::size_t>(frame);
-  // The camera sees coach and learner side by side.
+  // Place the camera so that it sees coach and learner side by side.
   Intrinsics inside;
   inside.width = static_cast<int>(kStage.width);
   inside.height = static_cast<int>(kStage.height);
@@ -260,10 +260,10 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   // Show the reason for the latest decision, if it was made within the last two seconds.
   std::string why;
   for (const auto& decision : facts_.decisions) {
-    // Leave out events about music, clips and rules of correction: they belong in the log.
+    // Leave out events about music, clips and rules of correction: they are too detailed for viewers.
     const bool is_said = decision.event != "tag" && decision.event != "transition" && decision.event != "corrects";
     if (is_said && decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
-      // Show the name of a verdict, without its evidence.
+      // For a verdict, show its name without its evidence.
       const std::string_view event = decision.event;
       why = event == "wrong"   ? "wrong: " + decision.why.substr(0, decision.why.find(':'))
             : event == "right" ? "judged right"

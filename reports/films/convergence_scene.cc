@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr double kSecondsPerDoubling = 0.7;
-// Without the time for which the first and the last state are held.
+// The duration of a race in the film, without the time for which the first and the last state are held.
 constexpr double kMinRaceSeconds = 4, kMaxRaceSeconds = 8;
 
 constexpr Paint kGrid{0.24, 0.27, 0.29, 1};
@@ -144,7 +144,7 @@ namespace {
 
 // Pictures are drawn larger by this factor and then shrunk, which smooths the edges.
 constexpr double kDetail = 1.5;
-// The part of the panel's width, at its left, that is reserved for text.
+// The share of the panel's width, at its left, that is reserved for text.
 constexpr double kWordsShare = 0.34;
 // The bodies are turned by this angle from the front, so that near and far limbs can be distinguished.
 constexpr double kTurn = Radians(25);
@@ -189,7 +189,7 @@ void DrawMarks(Canvas& canvas, const std::vector<std::pair<glm::dvec2, glm::dvec
   }
 }
 
-// All errors far below the goal are written as "< 0.001".
+// Writes a number; errors far below the goal are all "< 0.001".
 std::string ShortNumber(double value) { return value < 0.001 ? "< 0.001" : FormatNumber(value); }
 
 double LargestShift(const BodyPose& a, const BodyPose& b) {
@@ -242,7 +242,7 @@ ViewBounds ConvergenceStage::BoundsOf(const IkRace& race) const {
     for (const BodyPose& pose : path.poses) Studio::Include(BodyOf(Placed(pose), kInk), bounds);
   }
   for (const auto& target : targets_) {
-    constexpr double kMargin = 0.05;  // metres, for the ring
+    constexpr double kMargin = 0.05;  // metres, for the rings around targets
     if (target) Studio::Include({{{Part::kHead, Placed(*target), Placed(*target), kMargin}}}, bounds);
   }
   // Centre the bodies in the space beside the text.
@@ -285,7 +285,7 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
   if (!drawn_ || drawn_->entry != seen) drawn_ = {seen, stage_.Picture(renderer, path_.poses[seen], colour_)};
   canvas.Put(drawn_->picture, static_cast<int>(panel.x), static_cast<int>(panel.y), kPanelRadius);
 
-  // Write the method, the iteration and the errors beside it.
+  // Write the method, the iteration and the errors beside the body.
   const double x = panel.x + 18, room = panel.width * kWordsShare - 18;
   const auto figure = [&](double y, const std::string& label, const std::string& value, const Paint& paint) {
     canvas.DrawText({x, panel.y + y}, label, 17, kSoftInk, room);
@@ -298,12 +298,12 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
     figure(y, label, ShortNumber(now) + suffix, now < goal ? kGood : kInk);
   };
   canvas.DrawText({x, panel.y + 36}, path_.method, 25, colour_, panel.width - 36, true);
-  // Show the iteration of the shared clock, not the last recorded one.
+  // Show the iteration of the clock that both methods share, because recordings leave out iterations.
   const int reached = std::min(static_cast<int>(iteration), path_.iterations.back());
   figure(84, "iteration", FormatCount(reached), kInk);
   error(164, "worst position error", path_.position_cm, kGoalCm, " cm");
   error(244, "worst orientation error", path_.orientation_deg, kGoalDeg, "°");
-  // After a method has ended, show how it ended; its last pose stays until the other method ends.
+  // After the method has ended, show how it ended. Its last pose stays until the other method ends.
   if (entry + 1 == path_.poses.size()) {
     const Paint& paint = path_.solved_at ? kGood : kWarn;
     canvas.DrawText({x, panel.y + 342}, path_.ending, 25, paint, panel.width - 36, true);

@@ -85,7 +85,7 @@ class ConvergenceStage {
   double lift_;  ///< raises the figures, metres, so that no body is below the floor
   BodyPose truth_;
   IkTargets targets_;
-  mutable Studio studio_;  ///< keeps its last picture
+  mutable Studio studio_;  ///< mutable because it keeps its last picture
   Mask ghost_, rim_;
 };
 
@@ -107,7 +107,8 @@ class ConvergencePanel {
   const IkPath& path_;
   const ConvergenceStage& stage_;
   Paint colour_;
-  /// For each entry of the path, the latest entry whose picture differs visibly from the picture before.
+  /// For each entry of the path, the entry whose picture is shown: the latest one that differs visibly from the picture
+  /// before.
   std::vector<std::size_t> seen_;
   std::optional<Drawn> drawn_;  ///< the latest picture; it is often needed again, because iterations never decrease
 };

@@ -109,7 +109,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     return Fail({.file = "recording " + cells[0].row->Id()}, "it lacks the track truth");
   }
   race.truth = truth->poses.front();
-  std::vector<std::optional<glm::dvec3>> targets;  // the same for both methods, because they solve the same world
+  std::vector<std::optional<glm::dvec3>> targets;  // targets of both methods, which solve the same world
   for (std::size_t i = 0; i < 2; ++i) {
     ASSIGN_OR_RETURN(auto extras, ExtrasOf(*cells[i].row, *cells[i].recording));
     if (i == 0) targets = extras.targets_m;
@@ -148,12 +148,12 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   const Place nowhere;
   const std::vector<RecordedCell> cells = RecordedCells(run, scenario);
   const std::vector<std::string> methods = MethodsOf(cells, scenario);
-  // Two methods must have recordings.
+  // Check that two methods have recordings.
   if (methods.empty()) return Fail(nowhere, "this run kept no recordings of this scenario (its key 'video')");
   if (methods.size() == 1) {
     return Fail(nowhere, "this run kept recordings of only one method; two in the same world are needed");
   }
-  // Find the first world that both methods recorded, and note the worlds that only one of them recorded.
+  // Find the first world that both methods recorded, and note the earlier worlds that only one of them recorded.
   std::vector<std::string> passed_over;
   for (const RecordedCell& cell : cells) {
     const bool is_first = cell.row->method == methods[0];

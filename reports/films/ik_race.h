@@ -27,14 +27,14 @@ struct IkPath {
   std::vector<double> orientation_deg;  ///< error of the worst single axis of any effector
   std::optional<int> solved_at;         ///< both errors are below the goal from this iteration on
   std::string ending;                   ///< "solved", "not solved", or the status
-  std::string reason;                   ///< the reason if it is not solved, else empty
+  std::string reason;                   ///< the reason if the path is not solved, else empty
 
-  /// Returns the entry to show at `iteration`: the last recorded iteration that is not later.
+  /// Returns the entry to show at `iteration`: the last recorded iteration up to it.
   std::size_t EntryAt(double iteration) const;
 };
 
-/// Returns true if any error is above zero. If all are zero, the world has no targets of this kind (position or
-/// orientation).
+/// Returns true if any error is above zero. If all are zero, the world has no targets of this kind (positions or
+/// orientations).
 bool IsAskedFor(const std::vector<double>& errors);
 
 /// The roles of the body that have targets, in the order of the effectors in the tree.

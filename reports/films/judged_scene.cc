@@ -95,7 +95,7 @@ Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place)
   return extras;
 }
 
-/// Adds other methods recorded in the same world, up to the number of timeline rows.
+/// Adds the verdicts of other methods recorded in the same world, up to the number of rows of the timeline.
 Result<void> AddOtherJudges(const RunData& run, const ShownCell& cell, Facts& facts) {
   constexpr std::size_t kMaxJudges = 2;
   for (const auto& [row, recorded] : RecordedRows(run)) {
@@ -160,7 +160,7 @@ std::vector<Feature> FeaturesOf(const std::vector<TaughtPose>& poses) {
   return features;
 }
 
-/// A horizontal strip with a value over the frames of a window.
+/// A horizontal strip that shows a value over the frames of a window.
 struct Strip {
   Box box;
   int begin, end;
@@ -278,7 +278,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   const std::vector<Feature> features = FeaturesOf(asked.poses);
   const double rows = static_cast<double>(features.size()) + 1;
   const double height = std::min(84.0, kStripsHeight / rows - kStripGap);
-  const int shown_to = std::max(0, std::min(now, asked.end_frame - 1));  // an event of a damaged recording may be empty
+  const int shown_to = std::max(0, std::min(now, asked.end_frame - 1));  // a damaged recording may have an empty event
   const auto strip_at = [&](std::size_t row, double highest) {
     return Strip{
         {kAnglesPanel.x + kStripLeft, kAnglesPanel.y + kStripsTop + static_cast<double>(row) * (height + kStripGap),

@@ -22,12 +22,13 @@ struct JudgedSessionFacts {
     std::string move, truth, fault;  ///< truth: right, grey, wrong; fault: "none", or names
     int begin_frame = 0, end_frame = 0;
     std::vector<TaughtPose> poses;  ///< empty if no key pose of the move is known
-    /// For each key pose, the first frame by which this pose and all poses before it have been seen; nullopt if never.
+    /// For each key pose, the frame at which it was reached: the first frame by which this pose and all poses before it
+    /// have been seen; nullopt if there is none.
     std::vector<std::optional<int>> reached;
   };
   struct Judge {
     std::string method;
-    /// For each performance, the frame of the verdict "right"; nullopt if that verdict was not given.
+    /// For each performance, the frame of the verdict "right"; nullopt if the method did not give that verdict.
     std::vector<std::optional<int>> called_right;
     std::vector<DetectionExtras::Alarm> alarms;  ///< only false alarms
   };
@@ -74,7 +75,7 @@ class JudgedScene : public Scene {
 
   JudgedSessionFacts facts_;
   std::string heading_;
-  int first_ = 0, last_ = 0;  ///< [first_, last_) of the session
+  int first_ = 0, last_ = 0;  ///< the film shows the session's frames [first_, last_)
 };
 
 }  // namespace etude

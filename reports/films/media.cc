@@ -34,7 +34,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   std::string& why = media.film.why_not;
   const auto capture_cell = ChooseCell(run, "capture", "recovered");
   const auto coach_cell = capture_cell ? std::nullopt : ChooseCell(run, "transition", "coach");
-  // A film of a coach alone is not needed if another film compares methods.
+  // Make no film of a coach alone if another film compares methods.
   const auto compares = [&](const ScenarioSummary& scenario) { return FindTransitionRace(run, scenario).has_value(); };
   if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
   if (!coach_cell && !capture_cell) {
@@ -46,7 +46,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-  // `shoot` makes the film, and keeps the reasons why earlier films could not be made.
+  // `shoot` makes the film and adds the reasons why earlier parts could not be made.
   const auto shoot = [&](Scene&& scene) {
     Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);

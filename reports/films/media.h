@@ -21,10 +21,10 @@ struct ScenarioPicture {
   Picture picture;
 };
 
-/// All pictures and films made from a run's recordings. For those that could not be made, it holds the reasons.
+/// All pictures and films made from a run's recordings, and the reasons why others could not be made.
 struct Media {
-  /// The run's film: a capture, or a coach alone; empty for other tasks, and if the film of a scenario shows the same
-  /// already.
+  /// The run's film: of a capture, or of a coach alone. Empty for other tasks, and if the film of a scenario shows the
+  /// same.
   Film film;
   /// Moments of the capture: pictures of both cameras with mask and recovered skeleton.
   std::vector<Picture> strip;
@@ -41,7 +41,7 @@ struct MediaPaths {
 };
 
 struct MediaOptions {
-  /// False: films of coached sessions are cut around a correction, films of judged sessions to 24 s.
+  /// If false, films of coached sessions are cut around a correction, and films of judged sessions to 24 s.
   bool whole_sessions = false;
   FilmWatch watch = {};
 };

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Draws the body from the front as lines, with its feet near the lower edge of a box that shows `tall` metres from
-/// bottom to top.
+/// Draws the body from the front as lines. The box shows `tall` metres from bottom to top; the feet are near its lower
+/// edge.
 void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, double tall, const Paint& paint);
 
 /// Returns the position of a joint in the box of DrawStickFigure, pixels of the canvas.
@@ -27,10 +27,10 @@ inline constexpr Paint kUndecidedPaint{0.55, 0.58, 0.60, 1};
 /// Returns the name of a move or fault for people: "fast_sway" becomes "fast sway".
 std::string PlainName(std::string name);
 
-/// Returns the plain name of one of paper A's angles, named after the limb that is bent or raised: "right arm".
+/// Returns the plain name of one of paper A's angles: the limb that is bent or raised, such as "right arm".
 std::string_view PlainNameOf(Feature feature);
 
-/// Returns the colour of "right" or "wrong"; any other word gets the colour of undecided verdicts.
+/// Returns the colour of the verdict "right" or "wrong"; any other word gets the colour of undecided verdicts.
 Paint PaintOfWord(const std::string& word);
 
 /// The strip below a film of a session: rows of bars over the visible frames, and a line at the current frame.

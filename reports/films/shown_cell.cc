@@ -24,7 +24,7 @@ std::vector<ShownCell> RecordedCells(const RunData& run, const ScenarioSummary& 
 }
 
 ShownCell MiddleOf(std::vector<ShownCell> cells, const std::string& metric) {
-  // Cells without a value come last; equal values keep the order of the run.
+  // Sort by value; cells without a value come last, and equal values keep the order of the run.
   std::ranges::stable_sort(cells, [&](const ShownCell& a, const ShownCell& b) {
     const auto x = ValueOf(*a.row, metric), y = ValueOf(*b.row, metric);
     return x.has_value() != y.has_value() ? x.has_value() : x && *x < *y;

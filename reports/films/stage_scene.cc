@@ -22,7 +22,7 @@ constexpr double kLookAtHeight = 0.94;
 // 2.
 constexpr double kCoachDetail = 1.5;
 // The camera path is averaged over this many frames (a second) to either side. While the camera stands still, the room
-// need not be drawn again.
+// is not drawn again.
 constexpr int kCoachFollowFrames = 30;
 // The smallest distance of the hips from the room's wall, metres.
 constexpr double kMinWallDistance = 1.0;
@@ -48,9 +48,9 @@ void PutOnStage(BodyMotion& motion, int point) {
 
 Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 
-// The film is at least this long, enough to watch one change of moves; kLongest limits the time for making it.
+// The minimum number of frames of the film, enough to watch one change of moves. (The maximum is kLongest.)
 constexpr int kMinFrames = 5 * kFilmRate;
-// A repeated motion rests this many frames on its last frame before it starts again.
+// The number of frames for which a repeated motion rests on its last frame before it starts again.
 constexpr int kRest = kFilmRate / 2;
 
 constexpr Box kCoachBox{12, 52, 1256, 656};

@@ -15,8 +15,8 @@
 
 namespace etude {
 
-/// A coach that changes from one move to another, seen from the front by a camera that follows. Around each transition
-/// point, bars show the partial distances of that point.
+/// A coach that changes from one move to another, seen from the front by a camera that follows the coach. Around each
+/// transition point, bars show the partial distances of that point.
 class CoachPanel {
  public:
   /// Cuts the recording to at most `longest` frames around the first transition point. Fails if the recording's facts

@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-// Returns the frame of the request. Older recordings contain only the wait, from which the frame follows. Without both,
-// returns the last transition point.
+// Returns the frame of the request. Older recordings do not contain it; there it is the last transition point minus the
+// wait, which is 0 if the recording does not contain the wait either.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
   constexpr double kMaxWaitSeconds = 3600;
@@ -37,10 +37,9 @@ std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, con
 }
 
 constexpr int kBefore = kFilmRate, kAfter = 3 * kFilmRate / 2;
-// A transition later than this does not extend the film; its method is shown while it waits.
+// A transition later than this does not extend the film. The film then ends while the method still waits.
 constexpr int kLatest = 4 * kFilmRate;
-// How much of a transition slow motion shows before and after the transition point: long enough to see what leads to
-// the transition and what follows it.
+// The time that slow motion shows before and after a transition point.
 constexpr int kSlowBefore = kFilmRate / 3, kSlowAfter = 2 * kFilmRate / 3;
 constexpr int kMaxSlowFrames = 5 * kFilmRate / 2;
 

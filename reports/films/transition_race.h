@@ -18,8 +18,8 @@ struct TransitionPath {
   std::vector<double> jumps_cm;  ///< largest second difference of any joint, one per frame
   int request = 0;               ///< index into `motion` of the frame of the request; it may lie outside `motion`
 
-  /// Returns the index of the frame `time` frames after the request; before the recording the first frame, after it the
-  /// last frame.
+  /// Returns the index of the frame `time` frames after the request. Times before or after the recording give its first
+  /// or last frame.
   int FrameAt(int time) const;
   bool IsRecordedAt(int time) const;
   /// Returns the time of a frame of the motion, in frames after the request.
@@ -39,13 +39,14 @@ struct TransitionRace {
 };
 constexpr std::size_t kMaxTransitionPaths = 4;
 
-/// Returns the transitions of these methods in a world, in their order, at most kMaxTransitionPaths. Methods without a
-/// transition that can be shown are left out.
+/// Returns the transitions of these methods in a world, in the order of `methods`, at most kMaxTransitionPaths. Methods
+/// without a transition that can be shown are left out.
 TransitionRace RaceIn(const RecordedRequest& world, const ScenarioSummary& scenario,
                       const std::vector<std::string>& methods);
 
-/// Finds the first world that has recordings of the most methods (at most kMaxTransitionPaths, the first ones of the
-/// scenario). Fails with the reason if no world has recordings of two.
+/// Finds the world in which the most methods have recordings; of several such worlds, the first. Takes at most
+/// kMaxTransitionPaths methods, in the scenario's order. Fails with the reason if no world has recordings of two
+/// methods.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
 /// Maps frames of a film to times of a request, the same for every method. The film runs from a second before the

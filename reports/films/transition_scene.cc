@@ -37,7 +37,8 @@ std::vector<std::vector<FloorMove>> AllPlacements(const TransitionRace& race) {
   return placements;
 }
 
-// How many frames a change stays marked, and how many frames the pose at the leaving point stays visible as a ghost.
+// The number of frames for which a change stays marked, and for which the pose at the leaving point stays visible as a
+// ghost.
 constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
 constexpr double kPanelMargin = 12;
 constexpr Paint kPlate{0.13, 0.15, 0.17, 1};
@@ -107,8 +108,8 @@ Box TransitionPanel::BodyBox(const Box& column) {
           column.height - kCaptionHeight - kStripHeight - kDistanceBarsHeight - 2 * kGap};
 }
 
-// Returns the name of the clip that plays. A clip between two points has the name that the recording gives it, else
-// "in-between".
+// Returns the name of the clip that plays at a time. A clip between two points has the name that the recording gives
+// it, else "in-between".
 std::string TransitionPanel::ClipAt(int time) const {
   const std::size_t points = path_.PointsBefore(time);
   if (points == 0) return path_.facts.from;

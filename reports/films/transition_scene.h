@@ -29,7 +29,7 @@ class TransitionStage {
   int width_, height_;
   Character bear_;
   std::vector<std::vector<FloorMove>> placements_;  ///< by path and frame
-  mutable Studio studio_;                           ///< keeps its last picture
+  mutable Studio studio_;                           ///< mutable because it keeps its last picture
 };
 
 /// One method's column of the film that compares transitions: the person, the jumps, and the distances at the
@@ -60,7 +60,7 @@ class TransitionPanel {
   std::size_t index_;
   const TransitionStage& stage_;
   const JumpStrip& strip_;
-  std::optional<Drawn> drawn_;  ///< slow motion shows each picture several times
+  std::optional<Drawn> drawn_;  ///< kept, because slow motion shows each picture several times
 };
 
 /// The film of one request under two to four methods side by side. It shows when each method changes, how smoothly, and

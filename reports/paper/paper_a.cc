@@ -51,7 +51,7 @@ class MembershipPanel {
   std::string Label(const Shape& shape, std::string_view name) const {
     const Cut top = CutOf(shape, 1);
     const double peak = 0.5 * (std::max(top.low, universe_.low) + std::min(top.high, universe_.high));
-    // Nearer to an edge, a centred name would leave the panel.
+    // A name that is centred nearer to an edge than this would leave the panel.
     const double room = 0.15 * (universe_.high - universe_.low);
     const char* anchor = peak < universe_.low + room ? "start" : peak > universe_.high - room ? "end" : "middle";
     return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);
@@ -64,7 +64,7 @@ class MembershipPanel {
     marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
     constexpr double kMinGap = 22;
     std::string svg;
-    std::array<double, 2> last = {-kMinGap, -kMinGap};  // the position of each row's last number
+    std::array<double, 2> last = {-kMinGap, -kMinGap};  // the position of the last number in each row
     for (double mark : marks) {
       const double x = inputs_.At(mark);
       const std::size_t row = x - last[0] < kMinGap ? 1 : 0;
@@ -80,7 +80,7 @@ class MembershipPanel {
   std::vector<double> Bends(const Shape& shape) const {
     std::vector<double> bends;
     for (double grade : {1.0, 0.0}) {
-      if (grade == 0 && std::holds_alternative<Gaussian>(shape)) continue;  // a Gaussian has no foot
+      if (grade == 0 && std::holds_alternative<Gaussian>(shape)) continue;  // a Gaussian never reaches 0
       const Cut cut = CutOf(shape, grade);
       bends.insert(bends.end(), {cut.low, cut.high});
     }
@@ -96,7 +96,7 @@ class MembershipPanel {
 constexpr std::string_view kFuzzyKey = "fuzzy", kBuiltin = "builtin:";
 
 /// Returns the paper's system, then the built-in systems that the scenario sweeps. Systems from files are left out,
-/// because results do not hold their functions.
+/// because results do not contain their functions.
 std::vector<FuzzySystem> ShownSystems(const ScenarioSummary& scenario) {
   std::vector<FuzzySystem> systems = {FuzzySystem{}};
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -161,7 +161,7 @@ Table PaperTerms() {
     std::size_t t = 0;
     for (const Term& term : TermsOf(figure.feature)) {
       std::string words = WriteShape(PaperMemberships().shapes[FirstTermOf(figure.feature) + t]);
-      words = words.substr(1, words.size() - 2);  // without braces
+      words = words.substr(1, words.size() - 2);  // without the braces
       table.rows.push_back({{fmt::format("{}", figure.number), FeatureNames(figure.feature), term.name, words,
                              fmt::format("{}", figure.equations[t++])}});
     }
@@ -212,7 +212,7 @@ double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuz
     PoseFeatures pose;
     pose[feature] = universe.low + (universe.high - universe.low) * i / kSteps;
     const auto back = DefuzzifyFeature(Fuzzify(pose, memberships), feature, memberships, method);
-    if (!back) continue;  // without grades there is nothing to defuzzify
+    if (!back) continue;  // without grades, nothing can be defuzzified
     sum += std::abs(*back - pose[feature]);
     ++count;
   }

@@ -28,7 +28,8 @@ double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuz
 /// the axis has a mark where a piecewise linear function bends.
 std::string MembershipPlotSvg(Feature feature, const Memberships& memberships, const std::string& title);
 
-/// Returns true for paper A's own scenario (task transition, named `paper-bridging`) and for sweeps of the key `fuzzy`.
+/// Returns true for paper A's own scenario (task transition, named `paper-bridging`), and for scenarios that sweep the
+/// key `fuzzy`.
 bool ShowsPaperA(const ScenarioSummary& scenario);
 
 /// Returns figures 5 to 10 of paper A, drawn from the functions that grade poses, with the values that defuzzification

@@ -16,7 +16,7 @@ namespace etude {
 namespace {
 
 struct Quantity {
-  const char* suffix;  ///< of the series' name
+  const char* suffix;  ///< the end of the series' name
   const char* label;
 };
 constexpr std::array<Quantity, 4> kQuantities{{{"position_error_cm", "position, cm"},
@@ -211,7 +211,7 @@ std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario) {
       with_angles = with_angles || !set.angles.empty();
     }
   }
-  // Without a filled table, the paper's tables have nothing to be compared with.
+  // If no table was filled, leave out the paper's printed tables, because there is nothing to compare them with.
   return open ? html : html + PrintedHtml(with_angles);
 }
 

@@ -22,7 +22,7 @@ std::string PaperLetter(std::size_t index) {
 }
 
 Table TableOf(const PaperTable& table) {
-  constexpr int kDecimals = 6;  // as paper B prints
+  constexpr int kDecimals = 6;  // the number of decimals that paper B prints
   Table shown{.label = table.caption, .style = "printed", .caption = table.caption, .columns = {{.is_row_head = true}}};
   for (const PaperColumns& group : table.columns) {
     for (const std::string& name : group.names) {
@@ -125,7 +125,7 @@ PaperTable AngleTable(const char* caption, const AngleFigures& figures) {
   return table;
 }
 
-// A cell that keeps one series of errors keeps them all.
+// The series by which a cell is recognised that keeps errors; such a cell keeps the series of all errors.
 constexpr std::string_view kErrorSeries = "position_error_x_cm";
 
 constexpr std::string_view kNoAxis = "a dash means that the joint has no such axis.";

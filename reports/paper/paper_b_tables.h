@@ -18,7 +18,7 @@ struct PaperColumns {
   std::vector<std::string> names;
 };
 
-/// One row with a figure per column; a figure is unset if its value cannot exist or is missing.
+/// One row with a figure per column. A figure is unset if it is missing or cannot exist.
 struct PaperRow {
   std::string label;
   std::vector<std::optional<double>> values;
@@ -41,8 +41,8 @@ Table TableOf(const PaperTable& table);
 /// A row of paper B's tables of errors, in the paper's order.
 struct PaperBEffector {
   const char* label;        ///< "R_hand"
-  const char* name;         ///< of the effector in the tree
-  const char* description;  ///< as in figure 5.2
+  const char* name;         ///< the effector's name in the tree
+  const char* description;  ///< the effector's description in figure 5.2
 };
 inline constexpr std::array<PaperBEffector, 4> kPaperBEffectors{{{"foot", "right_foot", "right foot"},
                                                                  {"R_hand", "right_hand", "right hand"},
@@ -87,7 +87,7 @@ struct PaperBSet {
 
 struct PaperBCondition {
   std::vector<SweptValue> condition;
-  std::vector<PaperBSet> sets;  ///< first the first trial; then all trials together, if there are several
+  std::vector<PaperBSet> sets;  ///< the first trial; then, if there are several trials, all of them together
 };
 
 /// Returns true if a cell of this scenario keeps the errors for these tables: the task is `ik`, with `record:

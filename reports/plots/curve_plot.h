@@ -10,7 +10,7 @@ namespace etude {
 struct PlotCurve {
   std::size_t style = 0;  ///< index of the method that gives the colour and dashes
   bool faint = false;
-  std::vector<double> values;   ///< 0 or more
+  std::vector<double> values;   ///< each 0 or more
   std::vector<double> at = {};  ///< position of each value on the horizontal axis; empty: 0, 1, 2, …
 };
 

@@ -31,7 +31,7 @@ std::vector<std::string> UnitNames(const std::map<int, Found>& found) {
 }
 
 constexpr double kHeight = 250, kTop = 8, kBottom = 212;
-constexpr double kSwarm = 26;  // how far dots spread to either side
+constexpr double kSwarm = 26;  // maximum offset of dots to either side
 constexpr std::size_t kMaxNamed = 16;
 
 /// The indices of both methods in the scenario. They select the methods' colours and marks.
@@ -106,8 +106,8 @@ class Plot {
     const MetricInfo* info = FindMetric(c_.metric);
     return info == nullptr ? 0 : info->practical * words_.scale;
   }
-  // Returns the lower end of a logarithmic axis: costs below a hundredth of the practical threshold need not be
-  // distinguished.
+  // Returns the lower end of a logarithmic axis. Costs below a hundredth of the practical threshold are drawn at this
+  // end, because they need not be distinguished.
   double Floor() const {
     return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
   }
@@ -147,7 +147,8 @@ class Plot {
   /// Draws the mean difference of each unit, and beside them the interval over units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
-    // A world of two clips belongs to both clips, so no clip has a mean of its own.
+    // If a unit is a pair of clips, show only the interval: each world belongs to two clips, so a clip has no mean of
+    // its own.
     std::string interval = Interval(axis, kUnitsX + 10, c_.beyond.difference, c_.beyond.low, c_.beyond.high);
     if (scenario_.unit == SamplingUnit::kClipPair) return interval;
     std::map<std::size_t, std::pair<double, int>> sums;
@@ -192,8 +193,8 @@ std::string Caption(const Judged& judged, const PairedDots& pairs) {
 
 constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
 
-/// Returns the unit that matters most: if the difference matters, the unit whose removal leaves the smallest
-/// difference; else the unit whose removal leaves the largest.
+/// Returns the unit that matters most. If the difference matters, this is the unit without which the difference is
+/// smallest; otherwise it is the unit without which the difference is largest.
 const LeftOut& Extreme(const Beyond& beyond, double practical) {
   const double all = *beyond.mean;
   const bool matters = std::abs(all) >= practical;

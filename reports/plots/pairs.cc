@@ -21,17 +21,17 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kMaxPairs = 12;
-constexpr std::size_t kMaxPictures = 3;  // of each method
+constexpr std::size_t kMaxPictures = 3;  // pictures per method
 constexpr const char* kCurves[] = {"mpjpe_unaligned_mm", "mpjpe_root_mm"};
 
 /// The cells of one pair, in the order of the scenario's methods.
 struct Pair {
   std::string name;
   std::vector<const Row*> cells;
-  double worst_mm = 0;  ///< of all frames and methods
+  double worst_mm = 0;  ///< largest error of all frames and methods
 };
 
-/// Returns the indices of a method's worst frames, the worst first; no two of them are near each other.
+/// Returns the indices of a method's worst frames, the worst first; frames near a worse frame are left out.
 std::vector<std::size_t> WorstFrames(const std::vector<double>& errors) {
   const std::size_t apart = std::max<std::size_t>(1, errors.size() / 10);
   std::vector<std::size_t> order(errors.size()), worst;
@@ -62,7 +62,7 @@ PlotCurve PeaksOf(const std::vector<double>& errors, std::size_t style) {
 std::string CurvesSvg(const Pair& pair, const CellSeriesIndex& series, const ScenarioSummary& scenario,
                       const std::string& metric) {
   constexpr double kTall = 150, kUpper = 8, kLower = 128;
-  // Draw one curve for each method, from 0 to the largest value.
+  // Draw one curve for each method, on an axis from 0 to the largest value.
   std::vector<PlotCurve> curves;
   std::vector<double> all = {0}, frames = {0, 1};
   for (const Row* cell : pair.cells) {

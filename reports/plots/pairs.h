@@ -10,7 +10,7 @@ namespace etude {
 bool ShowsPairs(const ScenarioSummary& scenario);
 
 /// Returns, for each pair of files, the error in every frame as curves and, if the motions were recorded, the worst
-/// frames as pictures. The pair with the largest error comes first. "" for other scenarios.
+/// frames as pictures. The pair with the largest error comes first. Returns "" for other scenarios.
 std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -14,8 +14,8 @@ namespace etude {
 std::string LeadPictureHtml(const RunData& run, const ScenarioSummary& scenario);
 
 /// Draws all further pictures of a scenario's worlds, the method in question first: strips of the other conditions,
-/// comparisons as estimation plots, the effect of leaving a unit out, error budgets, survival curves. "" if there are
-/// none.
+/// comparisons as estimation plots, the effect of leaving a unit out, error budgets, survival curves. Returns "" if
+/// there are none.
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario);
 
 // The parts of the plot section, except the parts on verdicts (verdicts.h).
@@ -31,14 +31,15 @@ std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, cons
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
 /// Draws survival curves of the metrics that are censored in this scenario (steps of unsolved cells, waits without an
-/// end): one curve per method, one panel per condition; "" if there are none. Cells that never end stay in the
-/// denominator, so a method gains nothing by giving up early.
+/// end): one curve per method, one panel per condition. Returns "" if no metric is censored. Cells that never end stay
+/// in the denominator, so a method gains nothing by giving up early.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 
 /// A world in which both methods of a comparison have a value. Shares are in per cent.
 struct PairedWorld {
   int trial = 0;
-  /// Index in PairedDots::units; if the world has several units (clip left × clip entered), the first.
+  /// The world's index in PairedDots::units. If the world has several units (clip left × clip entered), the index of
+  /// the first.
   std::size_t unit = 0;
   double baseline = 0, method = 0;
   std::string baseline_cell = {}, method_cell = {};  ///< HTML attributes of the dots; "" if the cells were not recorded
@@ -48,14 +49,14 @@ struct PairedWorld {
 
 /// The worlds behind one comparison, at most kMaxPlottedWorlds.
 struct PairedDots {
-  std::vector<PairedWorld> worlds;  ///< in the order of trials
+  std::vector<PairedWorld> worlds;  ///< in order of their trials
   std::vector<std::string> units;   ///< sorted by name; empty if worlds are units
   std::size_t total = 0;            ///< number of all paired worlds; `worlds` holds every n-th of them
 };
 inline constexpr std::size_t kMaxPlottedWorlds = 400;
 
-/// Returns the paired worlds of a comparison. Empty if no world has both values, or if the other side consists of two
-/// rivals, each chosen on half of the worlds.
+/// Returns the paired worlds of a comparison. The result is empty if no world has both values, or if the other side
+/// consists of two rivals, each chosen on half of the worlds.
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
 
 /// Draws one comparison as an estimation plot (Gardner & Altman 1986; paired as in Ho et al. 2019). The first panel

@@ -22,7 +22,7 @@ constexpr std::size_t kMaxDots = 100;  // per row
 struct Dot {
   int trial = 0;
   double value = 0;
-  std::string cell = {};  ///< HTML attribute of the dot if its cell was recorded
+  std::string cell = {};  ///< HTML attribute that links the dot to its cell, if the cell was recorded
 };
 
 /// The dots of one method, and the quartiles and typical value of all its values.

@@ -26,12 +26,12 @@ constexpr std::size_t kMaxLines = 16;
 struct Censored {
   std::string_view metric;
   std::string_view done;   ///< a metric that is 1 if the event happened; "" if every value means that it did
-  std::string_view share;  ///< the name of the share that the curve shows
+  std::string_view share;  ///< the words for the share that the curve shows
 };
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
-/// Returns the time until the cell reached the event, infinite if it never did; nothing for a skipped cell.
+/// Returns the time until the event happened in the cell, infinite if it never did; nothing for a skipped cell.
 std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
   const auto took = ValueOf(row, rule.metric);

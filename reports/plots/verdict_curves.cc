@@ -36,7 +36,7 @@ std::string Figure(const std::string& caption, const std::string& words, const s
                      BeginPanel(kRocHeight, words), drawn);
 }
 
-/// Draws curves of one share over another, each with a mark if it has one.
+/// Draws curves of one share over another, and a mark on each curve that has one.
 std::string SharePanel(const std::string& caption, const std::string& words,
                        const std::map<std::size_t, SharePoints>& curves,
                        const std::map<std::size_t, std::pair<double, double>>& marked = {}) {
@@ -126,7 +126,7 @@ struct Curves {
   std::string words, found_words, wait_words, keys;
 };
 
-/// The performances that are truly right or wrong (not grey), and the performer of each.
+/// All performances that are truly right or wrong (not grey), and the performer of each.
 struct PooledEvents {
   std::vector<JudgedEvent> events;
   std::vector<int> people;

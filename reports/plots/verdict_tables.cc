@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMaxTabled = 1;
 constexpr std::size_t kMaxMethods = 16;
 constexpr std::size_t kMaxSessions = 5;
-constexpr std::size_t kMaxMoves = 60;  // per confusion table; the number of its cells grows with the square
+constexpr std::size_t kMaxMoves = 60;  // per confusion table, which has a cell for each pair of moves
 
 using Verdicts = std::map<std::size_t, MethodVerdicts>;
 

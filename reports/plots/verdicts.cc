@@ -8,8 +8,7 @@
 namespace etude {
 namespace {
 
-/// The series of a cell by name. All have the length of the first one; a series of another length counts as missing
-/// (null).
+/// The series of a cell by name. A series counts as missing (null) if its length differs from that of the first one.
 class Columns {
  public:
   Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}
@@ -19,7 +18,7 @@ class Columns {
     return found == nullptr || found->values.size() != count_ ? nullptr : found;
   }
 
-  /// Returns the name for a value of a series; "" for −1 and for values without a name.
+  /// Returns the name that a series gives to its i-th value; "" for −1 and for values without a name.
   static std::string Name(const Series* series, std::size_t i) {
     if (series == nullptr || !(series->values[i] >= 0)) return "";
     const auto place = static_cast<std::size_t>(std::lround(series->values[i]));

@@ -48,7 +48,8 @@ MoveConfusion ConfusionOf(std::span<const JudgedPerformance> performances);
 struct FaultCount {
   int all = 0, found = 0;
 };
-/// Returns two counts for each name of a worst fault: of slight faults (severity up to ½) and of bad faults.
+/// Returns two counts for each name of a worst fault: one of performances with a slight fault (severity up to ½), one
+/// of performances with a bad fault.
 std::map<std::string, std::pair<FaultCount, FaultCount>> FoundByFault(std::span<const JudgedPerformance> performances);
 
 /// The mistakes in a person's session: right performances that were missed, and wrong performances that were praised.

@@ -14,9 +14,9 @@ using TransitionFacts = TransitionExtras;
 using PointFacts = TransitionExtras::Point;
 using CandidateFacts = TransitionExtras::Candidate;
 
-/// Reads the facts of a recorded transition; facts that the recording does not hold are empty. There is always at least
-/// one point. `transition_frames` are ascending; frames outside the coach's motion are dropped. Fails, naming `cell`,
-/// if the extras are no JSON object.
+/// Reads the facts of a recorded transition; facts that the recording does not contain are empty. There is always at
+/// least one transition point. `transition_frames` are ascending; frames outside the coach's motion are dropped. Fails,
+/// naming `cell`, if the extras are no JSON object.
 Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell);
 
 /// Returns a clip's name in the form for people: "builtin:side_kick" becomes "side kick".

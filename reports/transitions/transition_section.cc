@@ -17,7 +17,7 @@ namespace {
 
 TableColumn NumberColumn(std::string head) { return {.head = std::move(head), .is_number = true}; }
 
-/// Draws a bar for one feature: its partial distance as a share of the squared threshold.
+/// Draws a bar for one feature: its partial distance as a share of `full`.
 TableCell Bar(double partial, double full, bool has_threshold) {
   const double share = full > 0 ? std::clamp(partial / full, 0.0, 1.0) : 0;
   const bool alone = has_threshold && partial >= full;
@@ -33,7 +33,7 @@ std::string DistanceWords(double distance, std::optional<double> threshold) {
                      fmt::format("{:g}", *threshold));
 }
 
-// Limits for readability; the recordings hold all worlds and methods.
+// Limits on what the page shows; the recordings hold all worlds and methods.
 constexpr std::size_t kMaxWorlds = 6;
 constexpr std::size_t kMaxMethods = 12;
 constexpr std::size_t kMaxCandidates = 24;
@@ -112,8 +112,8 @@ std::string FrameIn(const std::string& clip, int frame) {
   return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", clip, frame);
 }
 
-/// Returns the transition point for which a candidate was considered; a transition through an in-between has two
-/// points. The point has no clips if it is unknown.
+/// Returns the transition point to which a candidate belongs; a transition through an in-between has two points. The
+/// result has no clips if the point is unknown.
 PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
   const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
   const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());

@@ -42,8 +42,8 @@ class DistanceTable {
 };
 
 /// Explains each recorded transition, the methods of one request side by side: the frames left and entered, the ten
-/// partial distances of the transition points, and the candidates. A list that was cut says so. Returns "" without
-/// worlds.
+/// partial distances of the transition points, and the candidates. A list of candidates that was shortened says so.
+/// Returns "" without worlds.
 std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds);
 
 /// Writes a short Markdown form: the frames left and entered, and the largest partial distances.

@@ -27,7 +27,7 @@ std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {
   for (const CellRecording& recorded : run.recordings) {
     const std::vector<Track>& tracks = recorded.recording.tracks;
     const bool moves = std::ranges::any_of(tracks, [](const Track& track) { return !track.motion.poses.empty(); });
-    // Without tracks, the motions are in the extras (EvaluationExtras).
+    // If a recording has no tracks, its motions are in the extras (EvaluationExtras).
     if (moves || tracks.empty()) recordings.emplace(recorded.cell, &recorded.recording);
   }
   std::vector<RecordedWorld> worlds;

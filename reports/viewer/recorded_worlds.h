@@ -17,7 +17,7 @@ struct RecordedCell {
 
 /// The recorded cells of one world.
 struct RecordedWorld {
-  std::size_t scenario = 0;  ///< index into RunData::scenarios
+  std::size_t scenario = 0;  ///< index in RunData::scenarios
   /// Path of the file with its motions, relative to `report`: "motions/capture-1.js"; only harmless characters.
   std::string file;
   std::vector<RecordedCell> cells;  ///< in the order of the scenario's methods; never empty

@@ -21,7 +21,7 @@
 namespace etude {
 namespace {
 
-/// How the viewer shows a track of a recording.
+/// The way in which the viewer shows a track of a recording.
 struct TrackLook {
   std::string_view task, track;
   std::string_view label;  ///< "" = the method's name
@@ -58,7 +58,7 @@ TrackLook LookOf(const std::string& task, const std::string& track) {
   return found == Looks().end() ? TrackLook{task, track, track, "shown"} : *found;
 }
 
-/// Returns the meaning of the distance between a joint and its reference in a task, and the unit of the task's headline
+/// Returns, for a task, the meaning of the distance between a joint and its reference, and the unit of the headline
 /// metric.
 std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   if (task == "capture" || task == "evaluation") return {"distance from the true joint", "mm"};
@@ -74,7 +74,7 @@ struct TrackPoints {
   std::vector<glm::dvec3> points;
 
   std::size_t FrameCount() const { return points.size() / joints; }
-  /// Drops frames at the end that repeat the frame before them; the viewer holds the last frame.
+  /// Drops frames at the end that repeat the frame before them, because the viewer repeats the last frame by itself.
   void CutWhereItRests() {
     const auto frame = static_cast<std::ptrdiff_t>(joints);
     while (points.size() > joints && std::equal(points.end() - frame, points.end(), points.end() - 2 * frame)) {
@@ -136,7 +136,7 @@ class Writer {
         AddBody(cell, PointsOf(track), track.name == "wanted" ? begin + wanted_ : begin, members);
       }
     }
-    // Resolve the references of errors, and let the world start at frame 0.
+    // Resolve the references of errors, and shift all frames so that the world starts at frame 0.
     FindReferences();
     StartAtZero();
     if (task_ == "ik") json_["floor_m"] = lowest_;
@@ -162,7 +162,7 @@ class Writer {
     const TrackLook look = LookOf(task_, motion.track);
     const std::size_t frames = motion.FrameCount();
     motion.CutWhereItRests();
-    // Share a body that another method has recorded identically.
+    // If another method has recorded the same body, share it.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Body& body = bodies_[i];
       if (body.motion.track != motion.track || body.begin != begin || look.label.empty()) continue;
@@ -192,7 +192,8 @@ class Writer {
     bodies_.push_back({std::move(motion), begin, cell_});
   }
 
-  // A body that several methods share is a reference for every method.
+  // For each body, lists the bodies from which its error is measured: those of the same cell, and bodies that several
+  // methods share.
   void FindReferences() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       for (const std::string_view track : LookOf(task_, bodies_[i].motion.track).against) {
@@ -221,8 +222,8 @@ class Writer {
     if (std::ranges::find(marks, mark) == marks.end()) marks.push_back(std::move(mark));
   }
 
-  /// Adds the extras of a cell. Returns the frame of the world at which its recording begins; it is chosen so that all
-  /// transitions have their requests at the same time.
+  /// Adds the extras of a cell. Returns the frame of the world at which the cell's recording begins. It is chosen so
+  /// that the requests of all transitions are at the same frame of the world.
   int AddExtras(const std::string& method, const Recording& recording) {
     wanted_ = 0;
     const auto add = [&](const auto& extras) {
@@ -341,7 +342,7 @@ class Writer {
   const RecordedWorld& world_;
   const std::string& task_;
   std::size_t cell_ = 0;
-  int wanted_ = 0;  ///< the frame of the cell's recording at which the wanted clip starts
+  int wanted_ = 0;  ///< the frame at which the wanted clip starts in the cell's recording
   double lowest_ = 0;
   std::vector<Body> bodies_;  ///< in the order of json_["bodies"]
   Json json_;
@@ -355,7 +356,7 @@ glm::dvec3 QuantisedMotion::At(std::size_t point) const {
 }
 
 QuantisedMotion Quantise(std::span<const glm::dvec3> points) {
-  // Find the box of all points that are seen.
+  // Find the bounding box of all points that were seen.
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const glm::dvec3& point : points) {
     if (!IsSeen(point)) continue;

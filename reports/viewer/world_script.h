@@ -17,15 +17,15 @@ struct QuantisedMotion {
   static constexpr std::uint16_t kNoStep = 65535;
 
   glm::dvec3 low{0};
-  /// The same for all axes, metres; the quantisation error of a coordinate is at most half a step, plus the rounding of
-  /// doubles.
+  /// The size of a step, the same for all axes, metres. The quantisation error of a coordinate is at most half a step,
+  /// plus the rounding of doubles.
   double step = 0;
   std::vector<std::uint16_t> steps;
 
   glm::dvec3 At(std::size_t point) const;
 };
-/// Quantises points. The step is the range of the widest axis divided by 65,534, the smallest step that 16 bits allow;
-/// the step is 0 if the motion stands still.
+/// Quantises points. The step is the range of the widest axis divided by 65,534, the smallest step that 16 bits allow.
+/// If all points are equal, the step is 0.
 QuantisedMotion Quantise(std::span<const glm::dvec3> points);
 
 /// Writes the motions of one world as the script beside the page that the viewer loads: `etudeMotion({…});`, in ASCII.

@@ -23,7 +23,7 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
   const double difference = *c.difference;
   const bool worse = c.verdict == Verdict::kWorse;
   const std::string worlds = fmt::format("{} of {}", FormatCount(worse ? c.worse : c.better), Plural(c.pairs, "world"));
-  // "Lowers by 12.3 (10.1–14.0)": the verb states the sign, so the interval is negated.
+  // The verb states the direction ("lowers by 12.3 (10.1–14.0)"), so for a negative difference the interval is negated.
   std::optional<double> low = c.ci_low, high = c.ci_high;
   if (difference < 0 && low && high) {
     low = -*c.ci_high;
@@ -34,7 +34,7 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
                      FormatInterval(low, high, words), other, worlds);
 }
 
-/// Returns true if the mean lies outside the interval of the median, so that the mean must be told too.
+/// Returns true if the mean lies outside the interval of the median. The sentence then states the mean, too.
 bool MeanTellsMore(const Comparison& c) {
   return c.mean && c.ci_low && c.ci_high && (*c.mean < *c.ci_low || *c.mean > *c.ci_high);
 }
@@ -57,7 +57,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
                           FormatInterval(c.mean_low, c.mean_high, words));
   }
   figures += fmt::format(" on {}", Plural(c.pairs, "world"));
-  // The verdict chooses the verb.
+  // Choose the verb by the verdict.
   switch (c.verdict) {
     case Verdict::kBetter:
     case Verdict::kWorse:
@@ -99,7 +99,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                        CountVerdicts(VerdictsOf(judged), judged.size()));
   }
   const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
-  // With two conditions, the range of changes has already named both.
+  // With two conditions, the range of changes has already named both conditions.
   const std::string under = judged.size() > 2 ? " under " + AllConditions(judged.size()) : "";
   const auto verdict = CommonVerdict(judged);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) {
@@ -137,9 +137,9 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
              : fmt::format(" Not included in this difference, because one of the two has no value there: {}.", text);
 }
 
-// From this value on, a ratio tells more than a difference.
+// From this ratio on, the answer states the ratio of costs instead of their difference.
 constexpr double kMinTellingRatio = 2;
-// A value below this share of the practical threshold counts as zero, because a ratio to it would be meaningless.
+// Costs below this share of the practical threshold count as zero: a ratio to them would be meaningless.
 constexpr double kMinShareOfThreshold = 0.1;
 
 std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
@@ -154,8 +154,8 @@ std::string RatioText(const CostRatio& ratio) {
   return least == most ? least : fmt::format("{}–{}", least, most);
 }
 
-/// Returns true if this metric is the one that the scenario's question is about; then the answer considers success
-/// before the value.
+/// Returns true if this metric is the scenario's first headline metric, which its question is about. The answer then
+/// considers success before the value.
 bool IsAnswer(const ScenarioSummary& scenario, const std::string& metric) {
   return !scenario.headline_metrics.empty() && scenario.headline_metrics.front() == metric;
 }
@@ -189,7 +189,7 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
   return "undecided against " + others;
 }
 
-/// Returns the range of the differences over conditions: " (−0.949 mm)"; "" if there is none.
+/// Returns the range of the differences over all conditions: " (−0.949 mm)"; "" if there are none.
 std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   if (!HaveOneMetric(judged)) return "";
   std::optional<double> low, high;
@@ -239,12 +239,12 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
                          const std::string& baseline, const std::optional<Verdict>& of_baseline) {
   const std::vector<Judged> judged = AnswersOf(scenario, method, Against::kRival);
   if (judged.empty()) return "";
-  // Name the metric if another metric decided the comparison with the baseline.
+  // If the comparison was decided by another metric than the comparison with the baseline, name that metric.
   const std::string& decides = judged.front().comparison->metric;
   const std::string what = decides == metric ? "" : WordsFor(decides).label + " ";
   const std::string rival = OthersOf(judged);
   const std::string elsewhere = CostElsewhere(scenario, method, decides, rival);
-  // If the baseline is also the strongest other method, the first half has already compared the method with it.
+  // If the baseline is also the strongest other method, the first half of the line already has the comparison with it.
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
   const auto verdict = CommonVerdict(judged);
   const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
@@ -262,7 +262,7 @@ std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, Samplin
                      FormatInterval(c.beyond.low, c.beyond.high, words));
 }
 
-/// Returns the further grounds of an answer: the difference where both methods succeeded, and the tail if it decides.
+/// Returns further facts behind an answer: the difference where both methods succeeded, and the tail if it decides.
 std::string FurtherSteps(const Judged& judged) {
   const Answer* answer = judged.answer;
   if (answer == nullptr) return "";

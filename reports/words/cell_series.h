@@ -29,7 +29,8 @@ class KeptCells {
 
   /// Returns the recording of a cell; null if it has none.
   const Recording* Find(const std::string& cell) const;
-  /// Returns the attribute by which the page's scripts find a recorded cell, ` data-cell="ID"`; "" for any other cell.
+  /// Returns the HTML attribute by which the page's scripts find a recorded cell, ` data-cell="ID"`; "" if the cell has
+  /// no recording.
   std::string Attribute(const std::string& cell) const;
 
  private:
@@ -44,7 +45,7 @@ bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::strin
 std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenario,
                                   const std::vector<SweptValue>& condition);
 
-/// Returns every recording whose cell has a row, with that row, in order.
+/// Returns all recordings whose cells have a row, each with that row, in order.
 std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run);
 
 /// Returns the median of each step over several curves of different lengths. A curve that has ended continues with its

@@ -20,19 +20,19 @@ struct MetricWords {
   bool is_share = false;  ///< 0…1, shown in per cent
   bool by_mean = false;   ///< true: the mean summarises all cells; false: the median
   Direction direction = Direction::kNeither;
-  /// "orientation error", "solved", "F1": for texts that mention mean or share themselves.
+  /// The label without “mean” or “share”, for texts that state these themselves: "orientation error", "solved", "F1".
   std::string plain_label = {};
 };
 MetricWords WordsFor(const std::string& metric_id);
 /// Returns the suffix without its space, for captions: "cm", "".
 std::string UnitOf(const MetricWords& words);
 
-/// Returns the number that summarises all cells, in its unit: the median or the mean, whichever the metric defines.
+/// Returns the number that summarises all cells, in the metric's unit: the median or the mean, as the metric defines.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
 /// Returns a value as text: "12.3°", "98 %"; kNoValue if there is none.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);
 
 /// Returns an interval as text: "10.1–14.0" or "−1.2 to 0.4". Both ends have equally many digits, except that an end
-/// that would be shown as 0 keeps more: "−0.0031 to 30.4". kNoValue if there is no interval.
+/// that would be shown as 0 keeps more: "−0.0031 to 30.4". Returns kNoValue if there is no interval.
 std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words);
 }  // namespace etude

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// With more methods than this, only the least and the most successful method are named.
+// If there are more methods than this, only the least and the most successful one are named.
 constexpr std::size_t kMaxSuccesses = 12;
 
 std::string ExpectationsSentence(const RunFindings& f) {
@@ -29,7 +29,7 @@ std::string ExpectationsSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Returns a sentence on how many cells were measured. SuccessSentence says how many of them reached their goal.
+/// Returns a sentence on how many cells were measured. (SuccessSentence says how many cells reached their goal.)
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return " No cell ran.";
   const int measured = f.ok + f.unsolved;
@@ -115,7 +115,8 @@ std::string ValuesOf(const ScenarioSummary& scenario, const std::string& method,
   return low == high ? FormatValue(low, words) : FormatInterval(low, high, words) + words.suffix;
 }
 
-/// Returns the share of a method's cells that reached their goal; without a success metric, the share that ended ok.
+/// Returns the share of a method's cells that reached their goal. If the scenario has no success metric, returns the
+/// share of cells that ended ok.
 std::string SuccessOf(const ScenarioFindings& findings, const ScenarioSummary& scenario, const std::string& method) {
   if (!findings.successes.empty()) {
     const SuccessFinding& success = findings.successes.front();
@@ -219,7 +220,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);
     findings.rival = CompareInWords(scenario, asked, findings.metric, Against::kRival);
   }
-  // List all methods that are compared, and the yardsticks.
+  // List all methods that are compared with others, and the yardsticks.
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
     if (IsYardstick(scenario, scenario.methods[i])) {
       findings.yardsticks.push_back(scenario.methods[i]);

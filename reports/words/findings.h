@@ -20,16 +20,16 @@ inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
   return verdict ? VerdictName(*verdict) : "it depends";
 }
 
-/// The comparison of one method with another by one metric, over all conditions.
+/// The comparison of one method with another method by one metric, over all conditions.
 struct MethodFinding {
   std::string method;
-  /// The method compared with. If the strongest other method differs by condition, it is the first condition's.
+  /// The method on the other side. If the strongest other method differs by condition, it is the first condition's.
   std::string baseline;
   SamplingUnit unit = SamplingUnit::kWorld;
   bool is_compared = false;             ///< false if the method was not compared by this metric
-  std::optional<Verdict> verdict = {};  ///< verdict on these worlds; empty if it depends on the condition
-  BeyondFinding beyond = {};            ///< for other units
-  std::string others = {};              ///< all methods with which it was compared: “a” or “b”
+  std::optional<Verdict> verdict = {};  ///< verdict on these worlds; empty if the verdict depends on the condition
+  BeyondFinding beyond = {};            ///< verdicts for other units
+  std::string others = {};              ///< all methods on the other side, over the conditions: “a” or “b”
   std::string sentence = {};            ///< plain words, with the figures behind the verdicts
   std::string why_open = {};            ///< the reason for an open verdict; set only if there is one condition
 
@@ -53,7 +53,7 @@ struct KeyFigures {
 /// Returns the figures as a table. Its columns are aligned as numbers if `has_number_columns`.
 Table FiguresTable(const KeyFigures& figures, bool has_number_columns);
 
-/// The cells of a method that ended with one status, for reasons that are counted as one.
+/// The cells of a method that ended with one status, for reasons of one kind, which are counted together.
 struct ReasonCount : CountedReason {
   Status status = Status::kFailed;
   std::string method = {};
@@ -70,8 +70,9 @@ struct SuccessFinding {
 struct ScenarioFindings {
   std::string metric;    ///< the first headline metric, which the question is about; "" if there is none
   std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
-  MethodFinding answer;  ///< against the baseline
-  /// Against the strongest other method; not compared in old runs, and if there is no such method.
+  MethodFinding answer;  ///< the comparison with the baseline
+  /// The comparison with the strongest other method. It is marked as not compared in old runs, and if no such method
+  /// exists.
   MethodFinding rival;
   KeyFigures figures;
   std::vector<MethodFinding> methods;  ///< every method compared with another, in the scenario's order
@@ -81,7 +82,7 @@ struct ScenarioFindings {
   std::vector<SuccessFinding> successes;         ///< one per success metric (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< reasons of all cells that are not ok, the most frequent first
 };
-/// Returns true if the strongest other method is not the baseline, so that its comparison adds something.
+/// Returns true if the strongest other method is not the baseline, so that the comparison with it adds something.
 bool HasOtherRival(const ScenarioFindings& findings);
 
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario);
@@ -98,8 +99,8 @@ struct RunFindings {
 };
 RunFindings FindingsOf(const RunData& run);
 
-/// Returns a finding on success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %."; if there are many
-/// methods, only those with the smallest and the largest share.
+/// Returns a finding on success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %." If there are many
+/// methods, it names only those with the smallest and the largest share.
 std::string SuccessSentence(const SuccessFinding& finding);
 
 /// Returns the counts of the statuses: "480 cells: 470 ok, 8 unsolved, 2 failed".

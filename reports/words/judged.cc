@@ -27,7 +27,7 @@ std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUn
   return text;
 }
 
-/// Returns the first reason why no condition has a verdict for other units.
+/// Returns the first reason why conditions have no verdict for other units.
 std::string WhyNone(const std::vector<Judged>& judged, SamplingUnit unit) {
   for (const Judged& j : judged) {
     const Beyond& beyond = j.comparison->beyond;
@@ -152,7 +152,7 @@ std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
 }
 
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
-  // A scenario without metrics compares no methods at all, so the result for this method is false.
+  // A scenario without metrics compares no methods at all; then no method counts as left out of comparisons.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
   // A method that is compared at all is compared under every condition.

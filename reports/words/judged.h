@@ -18,7 +18,7 @@ struct Judged {
   /// The answer that the comparison decides or belongs to; null if the comparison stands alone.
   const Answer* answer = nullptr;
 
-  /// Return the verdict on these worlds, and the verdict for other units like them.
+  /// These functions return the verdict on these worlds and the verdict for other units like them.
   Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
   std::optional<Verdict> Elsewhere() const { return answer == nullptr ? comparison->beyond.verdict : answer->beyond; }
 };
@@ -28,8 +28,8 @@ struct Judged {
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Returns the answers on a method, one per condition. Each has the comparison that decides it: the comparison of
-/// success, or else of the value. For a summary without answers, returns the comparisons by the first headline metric.
+/// Returns the answers on a method, one per condition. Each answer comes with the comparison that decides it: of
+/// success, or else of the value. If the summary has no answers, returns the comparisons by the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
 /// Returns true if all comparisons are by the same metric.
@@ -39,17 +39,18 @@ bool HaveOneMetric(const std::vector<Judged>& judged);
 /// else one.
 std::vector<std::string> BaselinesOf(const Judged& judged);
 
-/// Names the methods compared with: "“a”", or "“a” or “b”" if conditions or halves of the worlds have different rivals.
+/// Names the methods on the other side: "“a”", or "“a” or “b”" if conditions or halves of the worlds have different
+/// rivals.
 std::string OthersOf(const std::vector<Judged>& judged);
 
-/// Returns the verdict on these worlds if all `judged` have the same one, else nothing. `judged` must not be empty.
+/// Returns the verdict on these worlds if it is the same for all `judged`, else nothing. `judged` must not be empty.
 std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged);
 
 /// Returns "both conditions", "all 4 conditions".
 std::string AllConditions(std::size_t count);
 
-/// Returns the counts of verdicts: "better under 3 of 4, inconclusive under 1 of 4", "worse under all 4 conditions"; ""
-/// if there are none.
+/// Counts verdicts in words: "better under 3 of 4, inconclusive under 1 of 4", "worse under all 4 conditions"; "" for
+/// no verdicts.
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions);
 
 /// Returns the verdict on these worlds of each of `judged`.
@@ -59,14 +60,15 @@ std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged);
 /// method, because it is the baseline of the others.
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method);
 
-/// Returns true for a yardstick, such as natural motion: a method that is compared with no other, and no other with it.
+/// Returns true for a yardstick, such as natural motion: a method that is not compared with any other method in either
+/// direction.
 bool IsYardstick(const ScenarioSummary& scenario, const std::string& method);
 
 /// Returns the method's index in the scenario, which selects its colour and mark; the number of methods if it is not
 /// found.
 std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method);
 
-/// Returns the method's name; a yardstick is "natural (yardstick)".
+/// Returns the name of a method, with a mark if it is a yardstick: "natural (yardstick)".
 std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method);
 
 /// Returns the units of a verdict on the worlds that were run: "these worlds", "these people", "these clips".
@@ -77,7 +79,7 @@ std::string_view OtherUnits(SamplingUnit unit);
 /// The verdicts of comparisons for other units, summarised over all conditions.
 struct BeyondFinding {
   bool on_these_only = true;            ///< no condition has a verdict for other units
-  bool as_on_these = false;             ///< every condition has a verdict for other units, the same as on these worlds
+  bool as_on_these = false;             ///< every condition has a verdict for other units, as on these worlds
   std::optional<Verdict> verdict = {};  ///< the common verdict of all conditions that have one for other units
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };

@@ -16,7 +16,8 @@ constexpr double kHeadDeviation = 0.035, kShoulderDeviation = 0.079, kElbowDevia
                  kFingerDeviation = 0.026, kHipDeviation = 0.107, kKneeDeviation = 0.087, kAnkleDeviation = 0.089,
                  kToeDeviation = 0.068;
 
-// The standard deviations σ behind RelativeDeviations, by role. Hip centre and spine are never marked.
+// The standard deviations σ of keypoint evaluations, from which RelativeDeviations is computed, by role. They are 0 for
+// hip centre and spine, which are never marked.
 constexpr std::array<double, kRoleCount> kDeviations = {
     0,
     0,
@@ -57,9 +58,9 @@ glm::dvec2 Normal2(RandomStream& random) {
   return {u, random.Normal()};
 }
 
-constexpr double kReferenceErrorPx = 2;  // the error for which probabilities and shares are given
+constexpr double kReferenceErrorPx = 2;  // the `error_px` for which annotator.h gives probabilities and shares
 
-// A pair of limbs: the index of the first of three strokes of the left limb, and of the right limb.
+// A pair of limbs. A limb has three consecutive strokes; `left` and `right` are the indices of its first stroke.
 struct Pair {
   std::size_t left, right;
 };
@@ -86,7 +87,8 @@ double HalfWidthOf(const PictureEvidence& seen, std::size_t first) {
   return widest;
 }
 
-// Returns a value from 1 (the two limbs overlap, or only one is visible) to 0 (at least two widths apart).
+// Returns how much the two limbs overlap: 1 if their middles coincide or only one limb is visible, 0 if they are at
+// least two widths apart.
 double Overlap(const PictureEvidence& seen, const Pair& pair) {
   const auto left = MiddleOf(seen, pair.left), right = MiddleOf(seen, pair.right);
   if (!left || !right) return 1;
@@ -138,8 +140,9 @@ class PictureErrors {
  private:
   double Strength() const { return errors_.error_px / kReferenceErrorPx; }
 
-  // Finds each joint's unclearness and the direction of its bias. The bias is along the limb that begins at the joint,
-  // otherwise along the limb that ends there. Of the two limbs' unclearness, the larger counts.
+  // Computes each joint's unclearness and the direction of its bias. A joint between two limbs gets the larger
+  // unclearness of both. Its bias is along the limb that ends at the joint if that limb is visible, otherwise along the
+  // limb that begins there.
   void MeasureLimbs() {
     along_.fill({0, 1});
     for (std::size_t i = kStrokeCount; i-- > 0;) {
@@ -224,7 +227,7 @@ void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
 
 Marks Annotator::Mark(int frame, const AnnotatedPicture& picture) {
   const PictureDice& dice = dice_.DrawNumbers(frame);
-  // Find the evidence in the picture; sometimes exchange left and right.
+  // Measure the visible limbs, then exchange left and right while an exchange lasts.
   PictureEvidence seen = SeePicture(picture, eye_);
   SwapSides(dice, seen);
   const PictureErrors errors(errors_, dice_.bias(), dice, seen);

@@ -26,11 +26,11 @@ struct PersonErrors {
 /// fingers .026. The absolute size is not used, because it describes crowd workers on pictures of all kinds.
 const std::array<double, kRoleCount>& RelativeDeviations();
 
-/// The shares of a mark's variance *(ours; Bartlett, Bussey and Flyger 2006 show that different operators differ more
-/// than repeated marks of one operator, and that joints differ)*.
+/// A mark's error is the sum of three parts. These are the parts' shares of its variance *(ours; Bartlett, Bussey and
+/// Flyger 2006 show that different operators differ more than repeated marks of one operator, and that joints differ)*.
 constexpr double kBiasShare = 0.3;         ///< bias of one annotator for one joint, constant over a take
-constexpr double kLastingShare = 0.4;      ///< correlated from frame to frame: the lasting part
-constexpr double kIndependentShare = 0.3;  ///< drawn for each frame
+constexpr double kLastingShare = 0.4;      ///< correlated from frame to frame: the “lasting” part
+constexpr double kIndependentShare = 0.3;  ///< drawn anew for each frame
 /// The time constant of the lasting part: the number of frames at 30 Hz after which its autocorrelation is 1/e
 /// *(ours)*.
 constexpr double kLastingFrames = 10;
@@ -43,8 +43,8 @@ double Unclearness(double contrast);
 /// Probabilities and sizes of mistakes with a limb at `error_px` = 2. All are *(ours)* and proportional to `error_px`.
 double MissProbability(const LimbEvidence& limb);  ///< 0.2 % + up to 10 % if hardly visible + up to 3 % if unclear
 constexpr double kShortShare = 0.03;               ///< standard deviation of the share left out at each end of a stroke
-constexpr double kSwapProbability = 0.0003;        ///< per marked frame: left and right arms, or legs, are exchanged
-constexpr double kOverlapSwapProbability = 0.002;  ///< added if both limbs overlap, as seen from the side
+constexpr double kSwapProbability = 0.0003;        ///< per marked frame: an exchange of left and right begins
+constexpr double kOverlapSwapProbability = 0.002;  ///< added when both limbs overlap in the picture, as in a side view
 constexpr double kSwapFrames = 5;                  ///< mean number of marked frames of an exchange
 
 /// The random numbers of one picture. Their number depends neither on the picture nor on the strength of the errors.
@@ -62,8 +62,8 @@ class AnnotatorDice {
  public:
   AnnotatorDice(const WorldKey& key, int annotator, int camera);
 
-  /// Returns this person's bias at each joint centre, with unit variance, along and across the limb beyond the joint.
-  /// The bias is the same for all cameras.
+  /// Returns this person's bias at each joint centre, with unit variance: along a limb at the joint, and across it. The
+  /// bias is the same for all cameras.
   const std::array<glm::dvec2, kRoleCount>& bias() const { return bias_; }
   /// Draws the numbers of a frame. Call it with ascending frames.
   const PictureDice& DrawNumbers(int frame);
@@ -94,7 +94,7 @@ class Annotator {
   PersonErrors errors_;
   EvidenceOptions eye_;
   AnnotatorDice dice_;
-  std::array<int, 2> swapped_frames_{};  // remaining marked frames in which arms and legs are exchanged
+  std::array<int, 2> swapped_frames_{};  // remaining marked frames of an exchange: arms, legs
 };
 
 }  // namespace etude

@@ -8,7 +8,7 @@ namespace {
 
 // The pixels of `picture` at most `reach` outside the bounding box of a and b.
 struct Box {
-  int x0, x1, y0, y1;  // half open
+  int x0, x1, y0, y1;  // half-open ranges of columns and rows
 };
 
 Box BoxAround(const glm::dvec2& a, const glm::dvec2& b, double reach, const ColourImage& picture) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kNoBorder = -1;
 
-// For two parts, the stroke that begins at their border.
+// For two parts, the index of the stroke that begins at their border; kNoBorder if they have none.
 using BorderTable = std::array<std::array<int, kPartCount>, kPartCount>;
 constexpr BorderTable kBorderOf = [] {
   BorderTable table{};
@@ -55,7 +55,7 @@ class RegionFinder {
 
   void FindVisible(int y) {
     const std::uint32_t* labels = &labels_.pixels[static_cast<std::size_t>(y) * labels_.width];
-    constexpr int kBlock = 16;  // most pixels of a picture show no person
+    constexpr int kBlock = 16;  // pixels that are skipped together if none of them shows the performer
     for (int x = 0; x < labels_.width; ++x) {
       if (x + kBlock <= labels_.width && !HasPerformer(labels + x, kBlock)) {
         x += kBlock - 1;
@@ -86,7 +86,7 @@ class RegionFinder {
     region.pixels += count;
     region.is_cut |= run.x0 == 0 || run.x1 == labels_.width || run.y == 0 || run.y == labels_.height - 1;
     region.middle += static_cast<double>(count) * glm::dvec2(0.5 * (run.x0 + run.x1), run.y + 0.5);
-    // Collect borders with the pixels to the left and above.
+    // Collect the borders of this run with the parts to its left and above it.
     if (run.x0 > 0) AddBorder(part, seen_.At(run.x0 - 1, run.y), {run.x0, run.y + 0.5});
     if (run.y > 0) {
       for (int x = run.x0; x < run.x1; ++x) AddBorder(part, seen_.At(x, run.y - 1), {x + 0.5, run.y});
@@ -103,7 +103,7 @@ class RegionFinder {
 
   // Adds the contrast at the end `x` of a run. The pixel at x + `step` is outside the run.
   void AddContrast(const PixelRun& run, std::uint8_t part, int x, int step) {
-    constexpr int kApart = 2;  // keeps away from pixels that mix both sides
+    constexpr int kApart = 2;  // distance in pixels from the end, which avoids pixels that mix both surfaces
     const int outside = x + kApart * step, inside = std::clamp(x - kApart * step, run.x0, run.x1 - 1);
     if (outside < 0 || outside >= labels_.width) return;
     const std::uint32_t other = labels_.At(outside, run.y);
@@ -119,7 +119,7 @@ class RegionFinder {
   const Mask& person_;
   const int margin_px_;
   Image<std::uint8_t> seen_;         // part of each visible pixel, 0 elsewhere
-  int first_ = 1 << 30, last_ = -1;  // range of columns with visible pixels so far
+  int first_ = 1 << 30, last_ = -1;  // range of columns with visible pixels so far; empty at first
   std::array<int, kPartCount> outline_{};
   Regions found_;
 };

@@ -50,7 +50,7 @@ Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const 
 
 /// A picture as the annotator sees it. All three images have the same size.
 struct AnnotatedPicture {
-  const LabelImage& labels;    ///< the part at each pixel, because annotators can distinguish limbs
+  const LabelImage& labels;    ///< the part that each pixel shows, because annotators can distinguish limbs
   const ColourImage& colours;  ///< used only for the contrast of limbs
   const Mask& person;          ///< the segmented person; the annotator does not see the rest
 };

@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Radii as shares of lengths of the body. With these shares, a body of 1.70 m looks like a dressed adult.
 constexpr double kUpperArmPerLength = 0.155;
 constexpr double kForearmPerLength = 0.145;
-constexpr double kHandPerForearm = 0.13;  // many files end the hand at the wrist, so its length is not used
+constexpr double kHandPerForearm = 0.13;  // the hand joint is not used: many files put it at the wrist
 constexpr double kThighPerLength = 0.165;
 constexpr double kShankPerLength = 0.12;
 constexpr double kFootPerShank = 0.068;
@@ -27,7 +27,7 @@ constexpr double kShoulderPerTrunk = 0.13;
 constexpr double kNeckPerTrunk = 0.11;
 constexpr double kHeadPerTrunk = 0.185;
 constexpr double kSkullPerTrunk = 0.06;       // half the length of the head's axis
-constexpr double kNeckToHeadPerTrunk = 0.34;  // files end the head at its middle or at its top
+constexpr double kNeckToHeadPerTrunk = 0.34;  // the head joint is not used: files put it at the head's middle or top
 
 struct Limb {
   Part part;
@@ -108,7 +108,7 @@ double TrunkLength(const BodyPose& pose) {
 
 void AddTrunk(const BodyPose& pose, std::vector<Capsule>& body) {
   const double length = TrunkLength(pose);
-  // The ribs are widest between the middle of the back and the shoulders.
+  // Place the widest point of the ribs between the middle of the back and each shoulder, at this share of the way.
   constexpr double kRibs = 0.45;
   const glm::dvec3 middle = 0.5 * (pose[kSpine] + pose[kShoulderCentre]);
   const glm::dvec3 left_rib = glm::mix(middle, pose[kLeftShoulder], kRibs);
@@ -159,7 +159,7 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
 
 /// Returns true if the ray misses the capsule's bounding sphere by more than any rounding error. Most rays do.
 bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
-  constexpr double kAir = 1e-6;  // metres
+  constexpr double kAir = 1e-6;  // metres, larger than any rounding error
   const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
   const double radius = 0.5 * glm::length(capsule.b - capsule.a) + capsule.radius + kAir;
   const double along = glm::dot(from, direction), outside = glm::dot(from, from) - radius * radius;
@@ -176,7 +176,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   const glm::dvec3 across = direction - glm::dot(direction, unit) * unit;
   const glm::dvec3 from_across = from - glm::dot(from, unit) * unit;
   const double scale = glm::dot(across, across);
-  constexpr double kParallel = 1e-18;  // squared sine; a parallel ray hits a half-sphere first
+  constexpr double kParallel = 1e-18;  // squared sine; rays below this angle are parallel and hit a half-sphere first
   if (scale < kParallel) return kInfinity;
   const double t = EntryRoot(glm::dot(from_across, across) / scale,
                              (glm::dot(from_across, from_across) - capsule.radius * capsule.radius) / scale);
@@ -184,7 +184,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   return t < kInfinity && along >= 0 && along <= length ? t : kInfinity;
 }
 
-// Rotates a vector from the world's axes to the box's.
+// Rotates a vector about the vertical from the world's axes to the box's.
 glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
   return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z};
 }
@@ -235,7 +235,7 @@ double HitDistance(const Cuboid& box, const glm::dvec3& origin, const glm::dvec3
   const double sine = std::sin(box.heading), cosine = std::cos(box.heading);
   const glm::dvec3 from = Turned(origin - box.centre, sine, cosine), along = Turned(direction, sine, cosine);
   double enter = 0, leave = kInfinity;
-  // Intersect the ray's intervals between the box's pairs of faces.
+  // Intersect the ray with the three slabs between opposite faces of the box.
   for (int axis = 0; axis < 3; ++axis) {
     if (along[axis] == 0) {
       if (std::abs(from[axis]) > box.half_size[axis]) return kInfinity;

@@ -14,14 +14,15 @@ struct CameraEffects {
 
   // The lens (lens.h).
   double radial_distortion = 0;      ///< shift of the corner as a share of its distance from the axis; < 0 is a barrel
-  double tangential_distortion = 0;  ///< shift of the corner in a random direction, as the same share
+  double tangential_distortion = 0;  ///< shift of the corner in a random direction, as a share like radial_distortion
   double defocus_px = 0;             ///< standard deviation of the Gaussian point spread function
-  /// Vignetting: the power of the cosine of the angle from the axis, in units of 4. 1 is natural, cos⁴.
+  /// Vignetting: light decreases by cos(θ) to the power 4 · vignette, where θ is the angle from the axis. 1 is natural
+  /// (cos⁴).
   double vignette = 0;
   double dust = 0;  ///< share of the light that a speck absorbs at its centre
 
   // Tones: exposure and colours (sensor.h).
-  double exposure_ev = 0;        ///< stops brighter
+  double exposure_ev = 0;        ///< exposure in stops: > 0 is brighter
   double exposure_drift_ev = 0;  ///< largest deviation of an automatic exposure from `exposure_ev`
   /// Amplification, decibels: with gain, a picture of the same brightness needs less light and has more noise.
   double gain_db = 0;
@@ -29,7 +30,7 @@ struct CameraEffects {
   double white_balance_drift_ev = 0;  ///< largest deviation of an automatic white balance
 
   // The sensor (sensor.h) and the file (jpeg.h).
-  double bayer = 0;      ///< 1: one colour per pixel, the others interpolated; below 1: mixed with full colours
+  double bayer = 0;      ///< 1: each pixel senses one colour, the others are interpolated; < 1: mixed with full colours
   double noise = 1;      ///< multiplies the usual standard deviation of read and shot noise
   double jpeg_loss = 0;  ///< 100 − JPEG quality; 0: no JPEG at all
 };

@@ -59,7 +59,7 @@ std::vector<Shutter::Band> Shutter::BandsOf(std::size_t frame, int height) const
   for (int i = 0; i < kBands; ++i) {
     const RowRange rows{height * i / kBands, height * (i + 1) / kBands};
     if (rows.first == rows.end) continue;
-    const double middle = 0.5 * (rows.first + rows.end) / height - 0.5;  // in picture heights from the middle row
+    const double middle = 0.5 * (rows.first + rows.end) / height - 0.5;  // from the middle row, in heights of a picture
     bands.push_back({rows, TimeOf(frame) + middle * read_out_});
   }
   return bands;
@@ -91,7 +91,7 @@ CameraModel::CameraModel(const Camera& camera, const CameraEffects& effects, dou
       shutter_(MakeShutter(effects, rate_hz, identity_)),
       toning_(MakeToning(effects, identity_)),
       noise_(WebcamNoise(effects.noise, effects.gain_db)) {
-  // Without effects on light, apply noise directly to 8-bit pictures.
+  // If no effect needs linear light, apply noise directly to 8-bit pictures.
   if (!needs_light_) {
     if (!noise_.IsNone()) code_noise_.emplace(noise_);
     return;
@@ -169,7 +169,7 @@ void CameraModel::DevelopLight(double seconds, RandomStream& random, ColourImage
 }
 
 View CameraModel::Develop(std::size_t frame, const Scene& scene, Targets targets, const std::string& noise_purpose) {
-  // Render the frame in bands. A single band without effects on light needs no copy.
+  // Render the frame in bands. A single band is returned without a copy if no effect needs linear light.
   View view;
   const std::vector<Shutter::Band> bands = shutter_.BandsOf(frame, height_);
   const bool is_plain = bands.size() == 1 && !needs_light_;

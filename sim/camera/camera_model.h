@@ -35,8 +35,8 @@ class Shutter {
   std::vector<Band> BandsOf(std::size_t frame, int height) const;
   static constexpr int kBands = 8;
 
-  /// Returns the times whose pictures are averaged for a band: kSubframes times, evenly spaced over the exposure; one
-  /// time without motion blur.
+  /// Returns the times at which a band is rendered for motion blur: kSubframes times, evenly spaced over the exposure,
+  /// whose pictures are averaged. Without motion blur, there is only one time.
   std::vector<double> SubframesOf(const Band& band) const;
   static constexpr int kSubframes = 9;
 

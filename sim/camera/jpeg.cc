@@ -22,7 +22,7 @@ JSAMPROW RowOf(const ColourImage& picture, JDIMENSION y) {
 
 // libjpeg reports a damaged file only through a callback that must not return; our callback leaves by longjmp.
 struct JpegError {
-  jpeg_error_mgr errors;  // must be first: libjpeg knows only this part
+  jpeg_error_mgr errors;  // must be the first member, because libjpeg gets a pointer to it alone
   std::jmp_buf way_out;
   std::array<char, JMSG_LENGTH_MAX> words;
 };
@@ -71,7 +71,7 @@ Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t max_pixels) {
   bool is_read = DecodeUntrusted(jpeg, jpeg_error, job, nullptr);
   const std::size_t width = job.image_width, height = job.image_height;
   jpeg_destroy_decompress(&job);
-  constexpr std::size_t kMaxSide = 16'384;  // the limit of GL
+  constexpr std::size_t kMaxSide = 16'384;  // the largest side of a picture in GL
   if (is_read && (width * height > max_pixels || std::max(width, height) > kMaxSide)) {
     return Fail({}, "a JPEG picture of {} x {} pixels; allowed: at most {} in all, {} a side", width, height,
                 max_pixels, kMaxSide);

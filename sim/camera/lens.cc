@@ -98,7 +98,7 @@ LensWarp::LensWarp(const Camera& camera)
       high = glm::max(high, points.back());
     }
   }
-  // Enlarge the pinhole's picture to that box, and by one more pixel on every side for interpolation.
+  // Enlarge the pinhole's picture to the bounding box, and by one more pixel on every side for interpolation.
   const glm::dvec2 margin = glm::ceil(-low) + 1.0, beyond = glm::ceil(high - glm::dvec2(width_, height_)) + 1.0;
   pinhole_.intrinsics.width += static_cast<int>(margin.x + beyond.x);
   pinhole_.intrinsics.height += static_cast<int>(margin.y + beyond.y);
@@ -228,7 +228,7 @@ void Defocus::BlurAcross(const Light* row, std::size_t width, Light* out) {
 void Defocus::Apply(LightImage& light) {
   const int reach = static_cast<int>(weights_.size()) - 1, height = light.height, kept = 2 * reach + 1;
   const std::size_t width = static_cast<std::size_t>(light.width);
-  // Keep a ring of horizontally blurred rows, as many as one output row needs.
+  // Keep a ring buffer of horizontally blurred rows: as many as the blur of one output row needs.
   across_.resize(static_cast<std::size_t>(kept) * width);
   const auto across = [&](int y) { return across_.data() + static_cast<std::size_t>(y % kept) * width; };
   int done = 0;

@@ -25,8 +25,8 @@ class LensWarp {
   /// must be below 0.14.
   explicit LensWarp(const Camera& camera);
 
-  /// Returns the camera for which to render: without distortion, and enlarged as far as the corners need. Without
-  /// distortion this is the camera itself.
+  /// Returns the pinhole camera for which scenes are rendered. Its picture is enlarged so that every pixel of the lens
+  /// has a source in it. If the lens has no distortion, this is the camera itself.
   const Camera& pinhole() const { return pinhole_; }
   bool is_none() const { return sources_.empty(); }
 
@@ -34,13 +34,13 @@ class LensWarp {
   RowRange SourceRows(const RowRange& rows) const;
 
   /// Computes these rows of `out`: light by bilinear interpolation, labels and depths from the nearest pixel. `source`
-  /// must hold exactly the pinhole's rows SourceRows(rows). Without distortion, labels and depths are copied; light
-  /// must not be warped. Empty pictures stay empty.
+  /// must hold exactly the pinhole's rows SourceRows(rows). If the lens has no distortion, labels and depths are
+  /// copied, and light must not be passed. Empty pictures stay empty.
   void Warp(const LightImage& source, const RowRange& rows, LightImage& out) const;
   void Warp(const LabelImage& source, const RowRange& rows, LabelImage& out) const;
   void Warp(const DepthImage& source, const RowRange& rows, DepthImage& out) const;
 
-  /// Returns the lens's picture of a whole picture of the pinhole. Colour is interpolated in linear light.
+  /// Warps a whole picture of the pinhole into the lens's picture. Colour is interpolated in linear light.
   View Warp(const View& pinhole) const;
 
  private:

@@ -24,7 +24,7 @@ class CodeTable {
   static const CodeTable& Get();
   std::uint8_t operator()(float light) const { return At(StepOf(light)); }
 
-  /// Returns the index in the table. This first part of the conversion can be vectorised.
+  /// Returns the table's index for a value of light. This first part of the conversion can be vectorised.
   static std::int32_t StepOf(float light) {
     const float above = light > 0 ? light : 0;
     const float inside = above < 1 ? above : 1;

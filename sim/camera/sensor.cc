@@ -49,7 +49,7 @@ const NormalTable& Normals() {
   return kNormals;
 }
 
-/// Copies a row and adds one mirrored pixel at either end: [−1] is [1].
+/// Copies a row and adds one mirrored pixel at either end: the pixel at −1 equals the pixel at 1.
 void Pad(const float* row, int width, float* padded) {
   padded[0] = row[1];
   for (int x = 0; x < width; ++x) padded[x + 1] = row[x];
@@ -61,13 +61,13 @@ struct Colours {
   float own, green, other;
 };
 
-/// Interpolates at a pixel that holds the row's own colour.
+/// Interpolates the three colours at a pixel that senses the row's own colour.
 Colours AtOwn(const float* above, const float* here, const float* below) {
   return {here[0], 0.25f * ((here[-1] + here[1]) + (above[0] + below[0])),
           0.25f * ((above[-1] + above[1]) + (below[-1] + below[1]))};
 }
 
-/// Interpolates at a green pixel.
+/// Interpolates the three colours at a pixel that senses green.
 Colours AtGreen(const float* above, const float* here, const float* below) {
   return {0.5f * (here[-1] + here[1]), here[0], 0.5f * (above[0] + below[0])};
 }
@@ -143,7 +143,7 @@ const float* NormalRows::Next(std::size_t count) {
 
 CodeNoise::CodeNoise(const SensorNoise& noise) : outcomes_(std::size_t{256} * kTableSize) {
   const CodeTable& code_of = CodeTable::Get();
-  // Tabulate the outcomes of every code.
+  // For each of the 256 codes, tabulate the noisy code for every normal number.
   for (int code = 0; code < 256; ++code) {
     const float light = LightOfCodes()[static_cast<std::size_t>(code)];
     std::uint8_t* outcome = outcomes_.data() + static_cast<std::size_t>(code) * kTableSize;

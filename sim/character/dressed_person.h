@@ -16,12 +16,12 @@ enum class Build { kMedium, kSlim, kStout, kChild, kTall };
 struct Outfit {
   Build build = Build::kMedium;
   SurfacePaint skin, hair, top, bottom, shoes;
-  double sleeve_cm = 24;  ///< length along the arm (30 + 25 to the wrist)
-  double leg_cm = 78;     ///< length of the trousers along the leg (42 + 42 to the ankle)
+  double sleeve_cm = 24;  ///< length of the sleeves along the arm (the wrist is at 30 + 25 cm)
+  double leg_cm = 78;     ///< length of the trousers along the leg (the ankle is at 42 + 42 cm)
   bool is_skirt = false;  ///< a skirt instead of trousers
   double skirt_cm = 40;   ///< from the hips down
   bool has_long_hair = false;
-  /// If set, a suit from head to toe replaces all of these: every part of the body has one plain colour.
+  /// If set, a suit from head to toe replaces the clothes above: every part of the body has one plain colour.
   std::optional<PartColours> suit = {};
 };
 

@@ -64,7 +64,7 @@ class TubeShape {
     const auto [centre, direction] = PathAt(along);
     const glm::dvec3 forward(0, 0, 1);
     const glm::dvec3 front = glm::normalize(forward - glm::dot(forward, direction) * direction);
-    // Left must be the same direction for ascending and descending chains.
+    // Make the left side the same direction for ascending and descending chains.
     const glm::dvec3 side = glm::cross(direction, front) * (direction.y < 0 ? -1.0 : 1.0);
     const double c = std::cos(angle), s = std::sin(angle);
     glm::dvec3 position =
@@ -163,7 +163,7 @@ Piece MakePiece(const Blob& blob, const BodyPose& rest) {
   const int steps = blob.around / 2;
   add(-kPi / 2, 0);
   for (int ring = 1; ring < steps; ++ring) {
-    // Decrease the angle: the ring must run counter-clockwise as seen from the upper pole.
+    // Decrease the angle, because rings must run counter-clockwise as seen from the upper pole.
     for (int i = 0; i < blob.around; ++i) add(kPi * ring / steps - kPi / 2, -CornerAngle(i, blob.around));
   }
   add(kPi / 2, 0);
@@ -204,7 +204,7 @@ Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest) {
   // Make rings from the centre to the edge.
   add(0, 0, patch.lift_cm);
   for (int ring = 1; ring <= kRings; ++ring) {
-    // Inner rings are level; the edge goes down into the tube.
+    // The inner rings are level; the outermost ring goes down into the tube.
     const bool edge = ring == kRings;
     const double radius = edge ? 1 : 0.97 * ring / (kRings - 1);
     for (int i = 0; i < kAround; ++i) {

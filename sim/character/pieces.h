@@ -18,7 +18,7 @@ struct Piece {
   struct Vertex {
     glm::dvec3 position{0};
     std::array<Role, 2> joints{};
-    std::array<double, 2> weights{1, 0};  ///< sum to 1
+    std::array<double, 2> weights{1, 0};  ///< the weights of both joints, with sum 1
   };
   std::vector<Vertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
@@ -51,8 +51,8 @@ struct Tube {
     double ahead_cm = 0;  ///< forward offset from the chain
   };
   std::string name;
-  std::vector<Role> chain;  ///< a single joint: the tube goes straight up from it
-  std::vector<Ring> rings;  ///< in order
+  std::vector<Role> chain;  ///< the joints along the tube; from a single joint, the tube goes straight up
+  std::vector<Ring> rings;  ///< in ascending order of `along_cm`
   double blend_cm = 0;      ///< half the length over which the skin is blended between two joints
   double first_cap_cm = 0;  ///< lengths of the round ends beyond the first and last ring
   double last_cap_cm = 0;
@@ -66,7 +66,7 @@ struct Patch {
   double along_cm;        ///< centre, along the tube
   double half_along_cm;   ///< half the length
   double half_angle_deg;  ///< half the angle that it covers around the tube
-  double lift_cm;         ///< above the tube's skin
+  double lift_cm;         ///< height above the tube's skin
 };
 Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest);
 

@@ -51,7 +51,8 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   for (const Role end : AllRoles()) {
     if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
   }
-  // The position of the head joint differs between files, so only the square root of that ratio counts as size.
+  // The position of the head joint differs between files, so only the square root of its length ratio is taken as the
+  // size.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }
 
@@ -75,12 +76,11 @@ std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map) {
   MaybeParts known(skeleton.joints.size());
   const auto part_of = [&known](int joint) -> std::optional<Part>& { return known[static_cast<std::size_t>(joint)]; };
   for (const Role role : AllRoles()) {
-    // If several roles share a joint, the joint moves the part of the first of these roles. The head joint may be a
-    // tip, so heads are found below.
+    // If several roles share a joint, the joint moves the part of the first of these roles. Leave out the head: its
+    // joint may be a tip, so the joints of the head are found below.
     if (role != Role::kHead && !part_of(map[role].joint)) part_of(map[role].joint) = kPartOfRole[Index(role)];
   }
-  // Assign to the head all joints from the head down to the neck, which ends at the ancestor that carries the
-  // shoulders.
+  // Assign to the head the head joint and its ancestors, up to the joint that carries the shoulders.
   std::vector<bool> carries_shoulder(known.size());
   for (int joint = map[Role::kLeftShoulder].joint; joint >= 0; joint = skeleton.joints[joint].parent) {
     carries_shoulder[static_cast<std::size_t>(joint)] = true;

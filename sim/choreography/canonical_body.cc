@@ -87,8 +87,8 @@ glm::dvec3 SolveKnee(const BodyDimensions& body, const glm::dvec3& hip, glm::dve
 double Freedom(const Controls& controls, Side side) { return std::clamp(controls.Of(side, kLegFree), 0.0, 1.0); }
 
 /// Places the leg below `hip`. Lengths in `controls` must already be scaled to this body. A standing foot is on its
-/// spot wherever the hips are; a free leg follows its angles in the frame of the pelvis; between these cases, the ankle
-/// is interpolated. If the spot is out of reach, the leg stretches towards it.
+/// spot wherever the hips are; a free leg follows its angles in the frame of the pelvis; for a partly free leg, the
+/// ankle is interpolated. If the spot is out of reach, the leg stretches towards it.
 LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side side, const glm::dmat3& pelvis,
                    const glm::dvec3& hip) {
   const double free = Freedom(controls, side);
@@ -107,13 +107,13 @@ LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side si
 }
 
 /// Returns the greatest hip height at which the foot of the nearly straight leg still reaches its spot on the floor.
-/// The result is higher for a freer leg, because a free leg must not limit the hips. Only x and z of `hip` are used.
+/// Only x and z of `hip` are used.
 double HighestHip(const Controls& controls, const BodyDimensions& body, Side side, const glm::dvec3& hip) {
   const glm::dvec3 ankle = StandingGoal(controls, body, side).ankle;
   const double sideways = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
   const double reach = kReach * LegLength(body);
   const double height = std::sqrt(std::max(0.0, reach * reach - sideways * sideways));
-  // Add up to one metre, which is more than any leg's length.
+  // For a free leg, add up to one metre, which is more than any leg's length, so that it does not limit the hips.
   return ankle.y + height + Freedom(controls, side);
 }
 
@@ -146,7 +146,7 @@ glm::dmat3 PlaceTrunk(const Controls& controls, const BodyDimensions& body, cons
   pose[kSpine] = pose[kHipCentre] + bent(kLowerShare) * glm::dvec3(0, body.spine, 0);
   pose[kShoulderCentre] = pose[kSpine] + chest * glm::dvec3(0, body.chest, 0);
 
-  // Dancers look at the audience: let the neck compensate most of the body's turn.
+  // Let the neck turn the head back towards the audience, against most of the body's turn.
   constexpr double kGazeShare = 0.7;
   const double gaze = -kGazeShare * (controls[kHipsTurn] + controls[kTrunkTurn]);
   const glm::dmat3 neck = chest * TurnSideBend(controls[kNeckTurn] + gaze, controls[kNeckSide], controls[kNeckBend]);
@@ -200,7 +200,7 @@ glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const
   return {wanted.x, SmoothMin(wanted.y, SmoothMin(limit(Side::kLeft), limit(Side::kRight))), wanted.z};
 }
 
-/// Returns the controls; their lengths are scaled by the ratio of this body's leg length to the canonical one's.
+/// Returns the controls with their lengths scaled to this body: by its leg length divided by the canonical body's.
 Controls InProportion(const Controls& controls, const BodyDimensions& body) {
   constexpr std::array kMiddle = {kHipsSide, kHipsAhead, kHipsDrop, kJump};
   constexpr std::array kOfASide = {kFootSide, kFootAhead, kFootLift};

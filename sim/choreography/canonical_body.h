@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// The proportions of the body that performs the built-in moves, metres. It is an adult of 1.70 m with the segment
-/// lengths of Drillis and Contini (1966).
+/// The proportions of the body that performs the built-in moves, metres. The body is an adult of 1.70 m with the
+/// segment lengths of Drillis and Contini (1966).
 struct CanonicalBody {
   static constexpr double kHipHalfWidth = 0.09;
   static constexpr double kThigh = 0.4165;
@@ -61,8 +61,8 @@ struct BodyDimensions {
 /// takes a child's steps.
 BodyPose PoseOf(const Controls& controls, const BodyDimensions& body = {});
 
-/// Returns the ready stance, near which every move starts and ends: feet on their home spots, knees soft, arms hanging
-/// loosely. Controls that a choreography file does not name have the values of this stance.
+/// Returns the ready stance, in or near which every move starts and ends: feet on their home spots, knees soft, arms
+/// hanging loosely. Controls that a choreography file does not name have the values of this stance.
 Controls ReadyStance();
 
 /// Returns the canonical body at rest with straight legs and hanging arms. Bodies are calibrated, fitted and compared

@@ -13,7 +13,7 @@ namespace etude {
 /// left.
 enum class MiddleControl {
   kHipsSide,   ///< metres to the left of the point midway between the feet's home spots
-  kHipsAhead,  ///< metres forward of that point
+  kHipsAhead,  ///< metres forward of the point midway between the feet's home spots
   kHipsDrop,   ///< metres below the hips' height on straight legs
   kHipsTurn,
   kHipsTilt,  ///< positive raises the left hip
@@ -31,10 +31,10 @@ constexpr std::size_t kMiddleControlCount = 12;
 /// exchange the sides; no sign changes.
 enum class SideControl {
   kArmForward,  ///< raises the arm in the sagittal plane; 0 = hanging
-  kArmSide,     ///< away from the sagittal plane, applied first: (0, 90) is a T pose, and so is (90, 90)
+  kArmSide,     ///< away from the sagittal plane, applied before kArmForward; 90° is a T pose for every kArmForward
   kArmTwist,    ///< outward about the upper arm: in a T pose with the elbow at 90°, +90° points the hand up
   kElbow,       ///< 0 = straight
-  kWrist,       ///< flexion
+  kWrist,       ///< flexion of the wrist
   kLegFree,     ///< 0 = the foot stands on its spot; 1 = the leg follows its four angles (kLegForward to kKnee)
   kLegForward,
   kLegSide,

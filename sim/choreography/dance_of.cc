@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// A word for the values of a feature up to `up_to` degrees (Posture: on its own scale).
+/// A word for the values of a feature that are at most `up_to` degrees (for Posture, on its own scale).
 struct Word {
   double up_to;
   std::string_view word;
@@ -54,7 +54,7 @@ std::optional<double> DegreesOf(const KeyPose& pose, const std::string& feature)
   return found != pose.targets.end() ? std::optional(found->degrees) : std::nullopt;
 }
 
-/// Describes the two sides of one part; as "both …s" if their words are equal.
+/// Describes the two sides of one part of the body: if both have the same words, as "both …s".
 void SayLimb(const KeyPose& pose, const Vocabulary& vocabulary, std::vector<std::string>& said) {
   const auto word_of = [&](const char* side) {
     const auto degrees = DegreesOf(pose, side + std::string(vocabulary.feature));
@@ -191,7 +191,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     const std::string_view line = Trimmed(TakeLine(text));
     ++number;
     if (line.empty() || line.front() == '#') continue;
-    // Read its time, and compare it with the previous beat.
+    // Read the line's time, and compare it with that of the previous beat.
     const auto moment = NumberAtFront(line);
     if (!moment) return Fail({file, number, 1}, "a beat is a number of seconds, found {}", Quote(line.substr(0, 40)));
     if (*moment < 0) return Fail({file, number, 1}, "a beat at {} s; allowed: 0 or later", *moment);

@@ -4,7 +4,7 @@
 
 namespace etude {
 
-/// Returns the proportions of the body that performs all clips in the evaluation of transitions: its hips stand at 0.90
+/// Returns the proportions of the body that performs all clips in the evaluation of transitions. Its hip height is 0.90
 /// m (docs/reference/metrics.md).
 BodyProportions JudgedProportions();
 

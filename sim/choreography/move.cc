@@ -16,7 +16,8 @@
 namespace etude {
 namespace {
 
-/// The allowed range of a control: wider than for any body, but narrow enough to catch a typing error.
+/// The allowed range of a control in files: wider than the range of any body, but narrow enough to catch a typing
+/// error.
 constexpr Range kControlRange = {-200, 200};
 
 /// Reads the controls of one group of a pose ("left_arm") and passes each value to `set`.
@@ -213,7 +214,7 @@ Result<Move> ParseCurves(std::string_view yaml, const std::string& file) {
   const MoveCurves::Style style = {.overlap_beats = fields.Number("overlap_beats", 0.1, {0, 0.5}),
                                    .bounce = 0.01 * fields.Number("bounce_cm", 0, {0, 20}),
                                    .loops = move.loops};
-  // Report a missing list at the document's place.
+  // Report a missing list at the place of the whole document.
   Node missing;
   missing.place = document.place;
   const Node* poses = fields.Raw("poses");

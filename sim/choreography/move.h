@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// A pose that a recogniser searches. It is reached when all of these angles are within tolerance at once.
+/// A pose for which a recogniser searches. It is reached when all of its angles are within tolerance at once.
 struct KeyPose {
   struct Target {
     std::string feature;  ///< one of paper A's ten features: "RH", "LHE", … (engine/fuzzy)
@@ -28,7 +28,7 @@ struct Move {
   double slowest_bpm = 120;  ///< range of song tempos that suit the move (`tempo_range_bpm`); default: its own tempo
   double fastest_bpm = 120;
   double beats = 8;   ///< length of one performance
-  bool loops = true;  ///< true if the end joins the start: all moves, and acts that can repeat
+  bool loops = true;  ///< true if the last frame leads back to the first, as in all moves and in acts that can repeat
   std::vector<KeyPose> key_poses;
   std::vector<PoseKey> poses;  ///< as authored, including a mirrored half; empty in a slow demonstration
   MoveCurves curves;           ///< the same performance as curves of controls, over `beats` beats

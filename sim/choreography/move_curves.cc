@@ -23,14 +23,14 @@ double SmallerOfSameSign(double a, double b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-/// Returns true if the motion of this timing starts and ends at rest.
+/// Returns true if motion with this timing starts and ends at rest.
 bool IsBetweenRests(Ease ease) { return ease == Ease::kSnap || ease == Ease::kStep; }
 
 /// Returns the curve's parameter after a share of a segment's time. Unless the curve rests at both ends, the first two
 /// derivatives at the ends must equal those of the identity.
 double Eased(Ease ease, double share) {
-  // At both ends, the bulge and its first two derivatives are zero. The sums below increase everywhere while kStrength
-  // is below 18.6.
+  // The bulge moves the motion away from the identity. It and its first two derivatives are zero at both ends. The sums
+  // below increase everywhere while kStrength is below 18.6.
   constexpr double kStrength = 8;
   const double hump = share * (1 - share), bulge = kStrength * hump * hump * hump;
   const auto within = [share](double from, double to) { return std::clamp((share - from) / (to - from), 0.0, 1.0); };
@@ -241,8 +241,8 @@ MoveCurves::MoveCurves(const std::vector<PoseKey>& authored, double beats, Style
     : style_(style), last_beat_(authored.back().beat) {
   std::vector<PoseKey> keys = authored;
   if (!style.loops) {
-    // Add one more key in the last pose and one in the first pose: the closed curve then stops in both. Its way back is
-    // never sampled.
+    // Add a key in the last pose and a key in the first pose. Between equal neighbouring keys the curve is constant, so
+    // it rests after the last pose and before the first one. The part between the two added keys is never sampled.
     keys.push_back({last_beat_ + 1, keys.back().controls});
     keys.push_back({last_beat_ + 2, keys.front().controls});
     beats = last_beat_ + 3;

@@ -48,7 +48,8 @@ class Pauses {
   }
 
  private:
-  /// Returns the distance covered in `time` from rest: the speed rises to 1 along a smoothstep of length `ramp_`.
+  /// Returns the distance covered in `time` by a motion that starts at rest: its speed rises to 1 along a smoothstep of
+  /// length `ramp_`.
   double Gathering(double time) const {
     if (time >= ramp_) return time - 0.5 * ramp_;
     const double t = time / ramp_;

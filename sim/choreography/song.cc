@@ -43,7 +43,7 @@ Controls TurnAt(const Turn& turn, double beat) {
   return turn.move ? turn.move->curves.At(turn.pace * clock) : Waiting(clock);
 }
 
-/// Returns true if the control changes the place of a foot. A raised heel leaves the toes in place.
+/// Returns true if the control changes the place of a foot on the floor. A raised heel does not, because the toes stay.
 bool MovesAFoot(SideControl control) { return control >= SideControl::kLegFree && control != SideControl::kFootHeel; }
 
 constexpr std::size_t kMinMoves = 8, kMaxMoves = 12;
@@ -92,7 +92,7 @@ Result<std::vector<SongPart>> ReadParts(const Node& parts, double tempo_bpm, std
     part.start_beat = beat;
     part.beats = part.times * move.beats / PaceOf(part);
     beat += part.beats;
-    // Check the length so far.
+    // Check that the song up to this part is not too long.
     const double seconds = (beat + kLeadBeats) * 60 / tempo_bpm;
     if (seconds > kMaxSeconds) {
       return Fail(item.place, "the song lasts {:.0f} s up to here; at most {}", seconds, kMaxSeconds);

@@ -35,8 +35,8 @@ class Row {
     for (int x = 0; x < depth.width; ++x) SetExtent(x);
   }
 
-  /// Returns true if the surface of a nearer pixel blocks the projector's light on its way to the centre of pixel x.
-  /// Such a pixel lies to the right of x, by the difference of the disparities.
+  /// Returns true if the surface of a nearer pixel blocks the projector's light on its way to the centre of pixel x. A
+  /// blocking pixel is to the right of x, by the difference of their disparities.
   bool IsUnlit(int x) const {
     const Pixel& here = pixels_[static_cast<std::size_t>(x)];
     const double column = here.ProjectorColumn();

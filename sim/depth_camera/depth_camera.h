@@ -34,16 +34,17 @@ struct DepthCameraOptions {
   // Strengths, each ≥ 0: 1 is the sensor's value, and 0 switches the fault off.
   double axial_noise = 1;    ///< multiplies σ_z
   double lateral_noise = 1;  ///< multiplies the standard deviation of edges, in both directions of the picture
-  double steps = 1;          ///< multiplies disparity_step_px
+  double steps = 1;          ///< multiplies disparity_step_px; 0: depth is not rounded
   double shadows = 1;        ///< multiplies the shadows' width
-  double range = 1;          ///< no depth is measured below range · near_m and above far_m / range
+  double range = 1;          ///< no depth is measured below range · near_m or above far_m / range
   double grazing = 1;        ///< at most 1: moves the angle limit from a right angle (0) to largest_angle (1)
 };
 
 /// Returns the options of a structured-light camera, Microsoft's first Kinect: 0.8–4.0 m, with `near_mode` 0.4–3.0 m.
 DepthCameraOptions KinectV1Depth(bool near_mode = false);
-/// Returns the options of a time-of-flight camera, Microsoft's second Kinect: 0.5–4.5 m, without steps and shadows. Its
-/// edge noise is our assumption: as many pixels as for the first Kinect, but in its own pixels (focal length 365).
+/// Returns the options of a time-of-flight camera, Microsoft's second Kinect: 0.5–4.5 m, without steps and shadows. No
+/// source gives its edge noise; we assume as many pixels as for the first Kinect, but its own pixels (focal length
+/// 365).
 DepthCameraOptions KinectV2Depth();
 
 /// The value of a pixel without a measurement. In true depth images, it means that there is no surface.

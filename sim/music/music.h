@@ -10,7 +10,7 @@ namespace etude {
 
 /// The errors of a music player's clock, relative to the dance's own clock.
 struct MusicClockOptions {
-  double drift = 0;             ///< plays 1 + drift seconds of music per second
+  double drift = 0;             ///< music plays at 1 + drift times its speed
   double stutters_per_min = 0;  ///< mean number of interruptions
   double stutter_s = 0.2;       ///< duration of an interruption; playing continues where it stopped
 };
@@ -36,7 +36,7 @@ class MusicClock {
   RandomStream stutters_;
   double now_s_ = 0;
   bool playing_ = false;
-  int standing_ = 0;  // remaining frames of the stutter
+  int standing_ = 0;  // remaining frames of the current stutter
 };
 
 /// Makes a track with a click on every beat; the first click of every four is higher. Returns the samples of one

@@ -13,9 +13,9 @@ namespace etude {
 
 /// The faults that a person can make in one performance of a move.
 enum class Fault {
-  kAmplitude,      ///< smaller than meant
-  kWrongSide,      ///< left and right exchanged; only moves that are not their own mirror image
-  kWrongMove,      ///< another move
+  kAmplitude,      ///< the movements are smaller than meant
+  kWrongSide,      ///< left and right exchanged; impossible for a move that is its own mirror image
+  kWrongMove,      ///< another move is danced
   kSkipped,        ///< the person stands still instead
   kLate,           ///< the whole move is late
   kOffBeat,        ///< hurries or drags within the move, and is on time again at its end
@@ -68,7 +68,7 @@ enum class Truth {
 /// Returns "right", "grey" or "wrong".
 std::string_view TruthName(Truth truth);
 
-/// A stray up to `right` is right, and a stray above `wrong` is wrong (ours).
+/// A performance is right up to the stray `right`, wrong above the stray `wrong`, and grey between them (ours).
 struct StrayLimits {
   Stray right{.limb_deg = 12, .timing_beats = 0.25};
   Stray wrong{.limb_deg = 25, .timing_beats = 0.5};
@@ -82,7 +82,7 @@ Truth TruthOf(const Stray& stray, const StrayLimits& limits = {});
 double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,
                     const std::function<BodyPose(double share)>& danced);
 /// Computes `timing_beats` of a performance of `beats` beats. Each function maps the time due, in [0, 1], to the share
-/// of the performance reached at that time, clamped to [0, 1]. Both are sampled at 64 times.
+/// of the performance reached at that time, clamped to [0, 1]. Both functions are sampled at 64 times.
 double TimingStrayBeats(const std::function<double(double due)>& meant, const std::function<double(double due)>& danced,
                         double beats);
 

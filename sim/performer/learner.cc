@@ -19,7 +19,7 @@ namespace {
 // knowledge of results teaches much: this is the first finding of Salmoni, Schmidt and Walter (1984).
 constexpr double kPractice = 0.25;
 constexpr double kDemonstration = 1;
-constexpr double kCorrection = 4;  // for the faults that were made
+constexpr double kCorrection = 4;  // for each fault in the corrected performance
 constexpr double kWrongPraise = 0.5;
 
 // Feedback guides (Winstein and Schmidt 1990): errors are rarer immediately after feedback, but not permanently.
@@ -33,8 +33,8 @@ constexpr double kWrongPraiseCost = 0.06;
 constexpr double kCorrectionCost = 0.02;
 constexpr double kPraiseGain = 0.03;
 
-/// The minimum severity of a fault that happens (ours). It keeps faults that are too mild to make a performance wrong
-/// rare.
+/// The minimum severity of a fault that happens (ours). Below it, many faults would be too mild to make a performance
+/// wrong.
 constexpr double kMinSeverity = 0.35;
 
 /// For a person without any skill, the probability of each fault, in the order of Fault (ours).
@@ -118,7 +118,7 @@ struct Learner::MoveState {
 
 struct Learner::Layer {
   std::optional<Rendition> rendition;  // empty: the body stands
-  double seen_s = 0;                   // time from which it was shown
+  double seen_s = 0;                   // time from which the action was shown
   double lag_s = 0;
   double blend_s = kBlendSeconds;
   double vigour = 1;
@@ -191,7 +191,7 @@ void Learner::Notice(const Shown& shown) {
   if (goes_on) {
     if (shown.act == kDance && layers_.back().rendition) layers_.back().beats.push_back(shown.beat);
   } else {
-    // If something else is shown, end the dance; then begin the next one, or learn from the coach's act.
+    // If the coach shows something else now, end the dance; then begin the next dance, or learn from the coach's act.
     if (before_.act == kDance) End();
     if (shown.act == kDance) {
       Begin(shown);
@@ -203,7 +203,7 @@ void Learner::Notice(const Shown& shown) {
     if (shown.act == kDemonstrate && shown.move >= 0) Demonstrate(static_cast<std::size_t>(shown.move));
   }
   if (shown.praises && !before_.praises) Praise();
-  // Drop layers that a later layer covers completely.
+  // Drop layers that are hidden because a later layer has reached its full weight.
   const auto covers = [&](const Layer& layer) { return layer.Weight(time_s_) >= 1; };
   const auto top = std::find_if(layers_.rbegin(), layers_.rend(), covers);
   if (top != layers_.rend()) layers_.erase(layers_.begin(), top.base() - 1);
@@ -240,7 +240,7 @@ void Learner::Begin(const Shown& shown) {
   // Draw the performance's variation and its faults. A person who is absent or has given up stands still.
   RandomStream dice(key_, fmt::format("learner/{}/{}", move.name, performance.attempt));
   Chance chance = DrawChance(dice, person_);
-  chance.tempo = 1;  // the music keeps the time
+  chance.tempo = 1;  // the music determines the tempo
   std::size_t instead = 0;
   std::vector<GradedFault> faults = DrawFaults(dice, index, instead);
   const bool stands = HasGivenUp() || person_.kind == People::kAbsent;
@@ -277,7 +277,7 @@ void Learner::End() {
   LearnerPerformance& performance = performances_.back();
   const Move& move = moves_[static_cast<std::size_t>(performance.move)];
   MoveState& known = known_[static_cast<std::size_t>(performance.move)];
-  constexpr double kLastBeats = 0.25;  // more than one frame's length
+  constexpr double kLastBeats = 0.25;  // longer than one frame, so that a performance shown to its end is not cut
   performance.is_over = true;
   performance.is_cut = before_.beat < move.beats - kLastBeats;
   performance.event.end_s = time_s_ + performance.event.chance.lag_s;
@@ -301,14 +301,14 @@ void Learner::NoteFeedback(std::size_t move) {
 void Learner::Correct(std::size_t move) {
   MoveState& known = known_[move];
   if (HasGivenUp()) return;
-  // A correction without a mistake only costs patience.
+  // A correction that does not follow a mistake only costs patience.
   const bool follows_mistake =
       known.latest && !known.latest_was_corrected && performances_[*known.latest].event.truth != Truth::kRight;
   if (!follows_mistake) {
     SpendPatience(kNeedlessCost);
     return;
   }
-  // Learn about the faults of the mistake. After frequent feedback, less is retained.
+  // Learn to avoid the faults of the corrected performance. After frequent feedback, less is retained.
   known.latest_was_corrected = true;
   const double lasts = 1 - options_.guidance * known.feedback_frequency;
   for (const GradedFault& fault : performances_[*known.latest].event.faults) {

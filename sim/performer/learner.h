@@ -24,7 +24,7 @@ struct Shown {
     kDemonstrate,  ///< shows `move` slowly while the learner only watches
   };
   Act act = Act::kNothing;
-  int move = -1;         ///< index of the learner's moves; −1 if none
+  int move = -1;         ///< index into the learner's moves; −1 if the action has no move
   int repetition = -1;   ///< kDance: number of the dance's performance; another number means another performance
   double beat = 0;       ///< kDance: beats since that performance's first beat, up to the move's length
   bool praises = false;  ///< true if the latest finished performance is praised in this frame, in any act
@@ -37,8 +37,8 @@ struct LearnerOptions {
   /// every performance, this share of the learning from feedback is not retained. In [0, 1]; the default of 0.5 is
   /// ours.
   double guidance = 0.5;
-  /// The initial level of every skill, in [0, 1]. If empty, it depends on the kind of person and is drawn for every
-  /// fault of every move.
+  /// The initial level of every skill, in [0, 1]. If empty, it is drawn for every fault of every move, and depends on
+  /// the kind of person.
   std::optional<double> skill = {};
   /// The severity of every fault that happens, in [0, 1]; drawn if empty.
   std::optional<double> severity = {};
@@ -53,7 +53,7 @@ struct LearnerPerformance {
   bool is_over = false;  ///< true once the coach shows something else
   bool is_cut = false;   ///< true if the coach stopped it before its last beat, so it is not judged
   /// The event; its faults, stray and truth are known from its first frame on. `end_s` is an estimate until the
-  /// performance is over; `first_right_s` is set when its beat is performed.
+  /// performance is over; `first_right_s` is set when the last key beat is performed.
   SessionEvent event;
 };
 
@@ -69,7 +69,7 @@ struct LearnerPerformance {
 /// stands still. The constants are in learner.cc, with their sources or marked as ours.
 class Learner {
  public:
-  /// `moves`, `showable` (of the same moves) and the text of `key.scenario` must outlive this object.
+  /// `moves`, `showable` (for these moves) and the text of `key.scenario` must outlive this object.
   Learner(const WorldKey& key, const Person& person, std::span<const Move> moves, const ShowableFaults& showable,
           const LearnerOptions& options = {});
   ~Learner();
@@ -94,7 +94,7 @@ class Learner {
 
  private:
   struct Layer;      // one action of the body, blended over the one before
-  struct MoveState;  // skills and memory of one move
+  struct MoveState;  // the skills and the memory of one move
 
   void Notice(const Shown& shown);
   void Begin(const Shown& shown);
@@ -120,7 +120,7 @@ class Learner {
   double time_s_ = 0;    // time of this frame
   double danced_s_ = 0;  // time spent dancing so far
   double patience_ = 1;
-  Shown before_;  // what was shown in the frame before
+  Shown before_;  // what the coach showed in the previous frame
   std::vector<LearnerPerformance> performances_;
   std::optional<std::size_t> latest_;  // index of the latest performance that is over and was not cut
   std::vector<MoveState> known_;       // per move

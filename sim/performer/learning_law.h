@@ -54,8 +54,8 @@ class Skill {
   LearningLaw law_;
   LearningRates rates_;
   double start_, floor_;
-  double units_ = 0;            // exponential, power
-  double fast_ = 0, slow_ = 0;  // two-rate
+  double units_ = 0;            // learning so far under the exponential law or the power law
+  double fast_ = 0, slow_ = 0;  // states of the two-rate law
 };
 
 }  // namespace etude

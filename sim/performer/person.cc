@@ -13,19 +13,19 @@ namespace {
 /// children, which come from growth charts for six to fourteen years.
 struct Preset {
   double min_m, max_m;         // stature, drawn uniformly
-  double lag_s, lag_spread_s;  // mean of the people, and spread between one person's performances
-  double tempo, tempo_spread;  // spread between people, of the logarithm
+  double lag_s, lag_spread_s;  // mean over people, and spread between the performances of one person
+  double tempo, tempo_spread;  // typical value, and spread of its logarithm between people
   double own_tempo_spread, drift;
   double amplitude, amplitude_spread;
   double lower, lower_spread;  // gain of hips, trunk and legs relative to the arms
   double gain_spread;          // spread of each gain's logarithm
-  double asymmetry;            // spread of the logarithm of left over right
+  double asymmetry;            // spread of the logarithm of the ratio left / right
   double looseness;
   double tiring;
 };
 
 constexpr Preset kPresets[] = {
-    {},  // mixed: one of the others is used
+    {},  // mixed: another preset is drawn instead
     {1.00, 1.10, 0.55, 0.18, 0.85, 0.25, 0.14, 0.10, 0.72, 0.14, 0.70, 0.25, 0.30, 0.12, 1.55, 0.10},
     {1.10, 1.60, 0.32, 0.10, 0.92, 0.24, 0.10, 0.06, 0.82, 0.13, 0.75, 0.25, 0.26, 0.08, 1.35, 0.05},
     {1.50, 1.90, 0.24, 0.07, 0.95, 0.24, 0.08, 0.05, 0.84, 0.13, 0.70, 0.25, 0.25, 0.07, 1.25, 0.03},
@@ -73,14 +73,14 @@ Controls DrawPosture(RandomStream& random, double looseness) {
 bool IsOfTheArm(SideControl control) { return control <= SideControl::kWrist; }
 
 std::array<double, kControlCount> DrawGains(RandomStream& random, const Preset& preset) {
-  // All controls of hips, trunk and legs share one factor; every control also has its own factor.
+  // Scale all controls of hips, trunk and legs by one factor, and every control by its own factor.
   constexpr double kMinLower = 0.25;
   const double lower = std::max(kMinLower, preset.lower + preset.lower_spread * Bounded(random));
   constexpr double kMin = 0.65, kMax = 1.5;
   const auto own = [&] { return std::clamp(std::exp(preset.gain_spread * Bounded(random)), kMin, kMax); };
   std::array<double, kControlCount> gains{};
   for (std::size_t i = 0; i < kMiddleControlCount; ++i) gains[i] = lower * own();
-  // One side is stronger than the other, with one ratio for all controls.
+  // One side is stronger than the other: the ratio of left to right is the same for all controls.
   const double strong_left = std::exp(0.5 * preset.asymmetry * Bounded(random));
   for (std::size_t i = 0; i < kSideControlCount; ++i) {
     const auto control = static_cast<SideControl>(i);

@@ -17,8 +17,8 @@ namespace etude {
 enum class People {
   kMixed,        ///< drawn from toddlers, school children, adults and experts
   kToddler,      ///< 1.0–1.1 m tall; follows late and loosely, tires soon
-  kSchoolChild,  ///< 1.1–1.6 m
-  kAdult,        ///< 1.5–1.9 m
+  kSchoolChild,  ///< 1.1–1.6 m tall
+  kAdult,        ///< 1.5–1.9 m tall
   kExpert,       ///< an adult who dances nearly as taught
   kAbsent,       ///< an adult who stands still and does not take part
 };
@@ -54,11 +54,11 @@ struct Person {
   /// The gain of each control, which multiplies its distance from the ready stance. Gains determine which movements
   /// the person exaggerates or reduces, and which side is stronger.
   std::array<double, kControlCount> gains = AllGains(1);
-  /// The person's posture: offsets that are added to every control, in every move and at rest.
+  /// The person's posture: offsets that are added to the controls, in every move and at rest.
   Controls posture = {};
-  /// The size of the offsets in the person's Style; about 1 for an adult, 0 for somebody who dances exactly as taught.
+  /// The size of the offsets in the person's Style; about 1 for an adult, 0 for a person who dances exactly as taught.
   double looseness = 0;
-  std::uint64_t style = 0;  ///< the random key of the person's Style of every move
+  std::uint64_t style = 0;  ///< the key from which the random numbers of the person's Style of every move are drawn
 };
 
 /// Returns the kind of person for a number `share` in [0, 1). In the mixture, toddlers come first, then school
@@ -69,8 +69,7 @@ People KindInMixture(double share);
 /// an adult differ in the same way from the averages of their kinds.
 Person DrawPerson(const WorldKey& key, People people);
 
-/// Returns the share of the amplitude that is left after `danced_s` seconds of dancing. It decreases to 0.6 at the
-/// lowest.
+/// Returns the share of the amplitude that is left after `danced_s` seconds of dancing. It never falls below 0.6.
 double VigourAfter(const Person& person, double danced_s);
 
 /// Returns the sizes of a body with this stature, metres. `childhood` is 0 for an adult's proportions and 1 for those

@@ -18,7 +18,7 @@ constexpr double kChange = 0.25;
 // The effects of faults at severity 1 (ours).
 constexpr double kLostAmplitude = 0.8;
 constexpr double kLateBeats = 1;
-constexpr double kOffBeats = 1;  // at the largest deviation, limited by kMaxOffBeat so that the timing still increases
+constexpr double kOffBeats = 1;  // at the largest deviation; kMaxOffBeat limits it, so that the timing never goes back
 constexpr double kMaxOffBeat = 0.7 / kPi;
 constexpr double kUnstopped = 0.35;  // share danced before a person stops
 
@@ -27,7 +27,7 @@ double First(double share, double severity) {
   return 1 - Smootherstep((share - severity * (1 + kChange)) / kChange + 1);
 }
 
-/// Returns the controls of one arm or leg.
+/// Returns the controls of a leg, or of an arm.
 std::span<const SideControl> ControlsOf(bool is_leg) {
   using enum SideControl;
   static constexpr std::array kArm = {kArmForward, kArmSide, kArmTwist, kElbow, kWrist};
@@ -57,7 +57,7 @@ void LeaveOut(Controls& controls, const Controls& rest, const LimbName& limb, do
 }
 
 SmoothOffsets DrawWays(const Person& person, std::uint64_t key) {
-  constexpr double kOfStyle = 0.25;  // variation between performances ÷ variation between people (ours)
+  constexpr double kOfStyle = 0.25;  // standard deviation between performances ÷ between people (ours)
   RandomStream random(WorldKey{.suite_seed = key, .scenario = "rendition"}, "ways");
   return {random, kOfStyle * person.looseness};
 }
@@ -96,7 +96,7 @@ Controls Rendition::Reordered(double share, double vigour) const {
   static constexpr std::array<int, 4> kOrder = {0, 2, 1, 3};
   static constexpr double kQuarter = 0.25, kBorderBlend = 0.22;
   const auto moved = [](std::size_t quarter) { return kQuarter * (kOrder[quarter] - static_cast<int>(quarter)); };
-  // Near a border between quarters, both quarters continue, and one is blended into the other.
+  // Near a border between two quarters, both quarters continue, and the earlier one is blended into the later one.
   const double border = std::clamp(std::round(share / kQuarter), 1.0, 3.0);
   const auto after = static_cast<std::size_t>(border), before = after - 1;
   const double over = Smootherstep((share - kQuarter * border) / kBorderBlend + 0.5);

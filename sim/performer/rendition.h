@@ -31,14 +31,15 @@ struct Chance {
   double lag_s = 0;        ///< delay behind the coach
   double tempo = 1;        ///< multiplies the move's tempo
   double unevenness = 0;   ///< unevenness of the timing from the first beat to the last, as a share of the performance
-  std::uint64_t ways = 0;  ///< the random key of its offsets
+  std::uint64_t ways = 0;  ///< the key from which the random numbers of the performance's offsets are drawn
 };
 
 /// Draws the variation of one performance by this person.
 Chance DrawChance(RandomStream& random, const Person& person);
 
-/// One performance of a move: the body at each share of the performance, and the timing, both with the performance's
-/// faults and as meant. Shares and times run from 0 at the first beat to 1 at the last, and continue smoothly beyond.
+/// One performance of a move. At each share of the performance it gives the body, and at each time the share that is
+/// reached, both with the performance's faults and as meant. Shares and times run from 0 at the first beat to 1 at the
+/// last, and continue smoothly beyond.
 class Rendition {
  public:
   /// `meant` and `instead` must outlive this object. With the fault kWrongMove, `instead` is danced.
@@ -46,15 +47,14 @@ class Rendition {
 
   const Style& style() const { return *meant_; }
 
-  /// Returns the body at a share of the performance: Meant without the faults, Danced with them.
+  /// Return the body at a share of the performance: Meant without the faults, Danced with them.
   Controls Meant(double share, double vigour = 1) const;
   Controls Danced(double share, double vigour = 1) const;
   /// Returns the weight of the dance: 1 while the person dances, 0 while they stand still.
   double Presence(double share) const;
 
-  /// Returns the share of the performance that is reached at time `due`: MeantShare without the faults, DancedShare
-  /// with them. `due` is the share that a perfectly timed performance has reached at that time. Both functions
-  /// increase.
+  /// Return the share of the performance that is reached at time `due`: MeantShare without the faults, DancedShare with
+  /// them. `due` is the share that a perfectly timed performance has reached at that time. Both functions increase.
   double MeantShare(double due) const;
   double DancedShare(double due) const;
   /// Returns the delay of the whole performance, as a share of its length.
@@ -81,8 +81,8 @@ class Rendition {
 /// `choice` has the meaning of GradedFault::choice; `instead` is used for kWrongMove.
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead);
 
-/// For each of some moves, the faults that it can show. They are the same for everybody. The search takes some
-/// milliseconds per move.
+/// For each move, the faults that it can show. They are the same for every person. The search takes some milliseconds
+/// per move.
 class ShowableFaults {
  public:
   explicit ShowableFaults(std::span<const Move> moves);

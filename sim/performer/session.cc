@@ -121,8 +121,8 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
   std::fill_n(is_fault.begin(), std::lround(share * static_cast<double>(count)), 1);
   Shuffle(random, is_fault);
 
-  constexpr double kStandsFirst = 2.0;  // sensors and filters need this time to settle
-  constexpr double kMinRest = 1.0;      // the blends out of one move and into the next must not overlap
+  constexpr double kStandsFirst = 2.0;  // time that sensors and filters need to settle
+  constexpr double kMinRest = 1.0;      // keeps the blends out of one move and into the next apart
   SessionPlan plan;
   double time = kStandsFirst;
   const std::vector<std::size_t> asked = DrawMoves(random, moves.size(), count);

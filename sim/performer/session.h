@@ -19,7 +19,7 @@ struct SessionOptions {
   int events = 10;
   double fault_share = 0.5;             ///< share of events with a fault, rounded to whole events
   double two_faults = 0.25;             ///< probability that an event with a fault has a second one
-  std::optional<double> severity = {};  ///< of every fault, in [0, 1]; by default drawn uniformly for each
+  std::optional<double> severity = {};  ///< severity of every fault, in [0, 1]; if empty, drawn uniformly for each
   std::vector<Fault> faults = {};       ///< faults that may occur; empty: all
   double rest_s = 1.5;                  ///< minimum pause from an event's window to the next first beat; at least 1
 };
@@ -29,7 +29,7 @@ struct SessionEvent {
   std::string move;                      ///< the requested move, which the person means to dance
   std::vector<GradedFault> faults = {};  ///< empty: performed as meant
   std::string danced;                    ///< the move that is danced, fully or in part; empty: none
-  double start_s = 0;                    ///< time of the first beat asked for
+  double start_s = 0;                    ///< time of the first requested beat
   double end_s = 0;                      ///< time of the last beat as this person means to dance it
   Chance chance = {};                    ///< random variation of this performance
   Stray stray;                           ///< truth: deviation from what was meant

@@ -13,8 +13,8 @@ namespace {
 using enum MiddleControl;
 using enum SideControl;
 
-/// The standard deviation of a control's offsets at size 1, and the control's range. Ranges are an adult's (algorithms
-/// B6, table 3.1); they are reduced where a limb would touch the trunk.
+/// The standard deviation of a control's offsets at size 1, and the control's range. Ranges are an adult's (paper B,
+/// table 3.1); they are reduced where a limb would touch the trunk.
 struct ControlSpan {
   double spread, lower, upper;
 };
@@ -117,8 +117,8 @@ bool IsSwitch(std::size_t control) {
          control == Controls::SideIndex(Side::kRight, kLegFree);
 }
 
-/// The share of each term in an offset's standard deviation: first the constant, then the cosine and sine of three
-/// harmonics. The squares sum to .978; the constant has nearly half of the variance.
+/// The weights of an offset's terms: the constant, then the cosine and sine of three harmonics. The squares sum to
+/// .978, so the constant has nearly half of the variance.
 constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
 
 /// Draws a standard normal number, clamped to ±2.5, for each term, times the term's share.
@@ -151,7 +151,7 @@ SmoothOffsets::SmoothOffsets(RandomStream& random, double size) {
       const auto alone = DrawTerms(random);
       const std::size_t index = Controls::SideIndex(side, control);
       for (std::size_t k = 0; k < kTerms; ++k) {
-        const bool moves = k > 0 && IsSpot(control);  // a standing foot must not slide
+        const bool moves = k > 0 && IsSpot(control);  // a standing foot must not slide, so its offset is constant
         terms_[index][k] = moves ? 0 : size * Spans()[index].spread * (kCommon * common[k] + kAlone * alone[k]);
       }
     }

@@ -18,7 +18,7 @@ constexpr size_t kLanes = 8;
 using Word = hn::CappedTag<uint64_t, kLanes>;
 using Vec = hn::Vec<Word>;
 
-/// The high and low halves of the products of 64-bit numbers with one constant.
+/// The high and the low 64 bits of the products of 64-bit numbers with one constant.
 struct Product {
   Vec high, low;
 };
@@ -26,7 +26,7 @@ struct Product {
 HWY_INLINE Product Multiply(Vec a, uint64_t constant) {
   const Word word;
   const hn::Repartition<uint32_t, Word> half;
-  // Compute the products of the low (0) and high (1) 32-bit halves.
+  // Multiply the 32-bit halves of the factors: 0 is the low half, 1 the high half.
   const auto mask = hn::Set(word, 0xffffffffu);
   const auto a0 = hn::BitCast(half, a), a1 = hn::BitCast(half, hn::ShiftRight<32>(a));
   const auto b0 = hn::BitCast(half, hn::Set(word, constant)), b1 = hn::BitCast(half, hn::Set(word, constant >> 32));
@@ -37,7 +37,7 @@ HWY_INLINE Product Multiply(Vec a, uint64_t constant) {
           hn::Mul(a, hn::Set(word, constant))};
 }
 
-/// Philox blocks, one in every lane.
+/// Philox counter blocks, one in every lane of the vector.
 struct Blocks {
   Vec x0, x1, x2, x3;
 };
@@ -59,7 +59,8 @@ size_t FillBlocks(uint64_t first, uint64_t key0, uint64_t key1, size_t count, ui
   const Word word;
   const auto zero = hn::Zero(word);
   if (hn::Lanes(word) < kLanes) return 0;
-  // Process two vectors at a time: each round waits for the previous round, so two independent chains hide the latency.
+  // Process two vectors at a time: each round waits for the result of the previous round, so two independent chains
+  // hide the latency.
   size_t done = 0;
   for (; done + 2 * kLanes <= count; done += 2 * kLanes) {
     Blocks a{hn::Iota(word, first + done), zero, zero, zero};

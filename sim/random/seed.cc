@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kSecret = "secret ";
 constexpr std::size_t kDigitsPerWord = 16;
-/// The text "etude: digest of a secret seed" as a block.
+/// The text "etude: digest of a secret seed" as a block of the cipher.
 constexpr Words256 kDigestBlock = {0x6574'7564'653a'2064, 0x6967'6573'7420'6f66, 0x2061'2073'6563'7265,
                                    0x7420'7365'6564'0000};
 constexpr std::uint64_t kExactInJson = (std::uint64_t{1} << 53) - 1;

@@ -15,8 +15,8 @@ namespace etude {
 
 namespace {
 
-/// Derives a key for every text by a message authentication code: the cipher's blocks are chained. The text's length
-/// comes first; with it, no input is a prefix of another.
+/// Derives a key from a text by CBC-MAC. The text's length is the first block; therefore no input is a prefix of
+/// another.
 Words256 DeriveKey(const Words256& key, std::string_view text) {
   Words256 chained = Encrypt(key, {text.size()});
   while (!text.empty()) {
@@ -89,7 +89,8 @@ glm::dvec3 RandomStream::Normal3() {
 }
 
 std::uint64_t RandomStream::IndexBelow(std::uint64_t count) {
-  // Reject values beyond the last whole multiple of `count`, which makes all results equally likely.
+  // Rejection sampling: reject values beyond the last whole multiple of `count`, so that all results are equally
+  // likely.
   const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % count);
   std::uint64_t bits = Bits();
   while (bits >= limit) bits = Bits();

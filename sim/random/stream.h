@@ -10,9 +10,9 @@
 
 namespace etude {
 
-/// The key of a world's random numbers. It excludes the method: every method gets the same world. It also excludes the
-/// condition's values: a sweep changes strengths but not random numbers. Only with a secret seed does every condition
-/// have its own numbers; `scenario` then includes the condition.
+/// The key of a world's random numbers. It excludes the method, so that every method gets the same world. It also
+/// excludes the values of swept parameters, so that a sweep changes strengths but not random numbers. Only with a
+/// secret seed does every condition have its own numbers; `scenario` then includes the condition.
 struct WorldKey {
   Seed suite_seed = 1;
   std::string_view scenario;
@@ -47,7 +47,7 @@ class RandomStream {
  private:
   Words256 Block(std::uint64_t counter) const;
 
-  Words256 key_{};  ///< Philox uses the first two words
+  Words256 key_{};  ///< the key; Philox uses only the first two words
   bool is_secret_ = false;
   std::uint64_t counter_ = 0;
   Words256 block_{};

@@ -9,9 +9,9 @@
 namespace etude {
 namespace {
 
-// A body darkens the surface on which it stands up to this distance, metres.
+// Up to this distance from the body, the surface on which it stands is darkened by the contact shadow, metres.
 constexpr float kContactReach = 0.12f;
-// A margin for pixels, which are computed in single precision.
+// A margin for the rounding of pixels' positions, which are computed in single precision.
 constexpr double kFloatMargin = 1e-3;
 // Capsules farther away than this cast no shadow, metres.
 constexpr double kMaxCasterDistance = 1e4;
@@ -45,7 +45,7 @@ class Caster {
     is_near_floor_ = std::min(capsule.a.y, capsule.b.y) - radius_ < kContactReach;
   }
 
-  // Returns false only if no pixel of the tile is in the capsule's shadow. May return true without need.
+  // Returns false if certainly no pixel of the tile is in the capsule's shadow; otherwise true.
   bool MayDarken(const RoomTile& tile) const {
     if (tile.farthest < nearest_ - kFloatMargin) return false;
     const glm::dvec3 apart = tile.middle - middle_;
@@ -62,8 +62,8 @@ class Caster {
     return glm::dot(gap, gap) <= reach * reach;
   }
 
-  // Returns false only if no pixel of the tile is within kContactReach of the capsule. Used for capsules on or near the
-  // floor.
+  // Returns false if certainly no pixel of the tile is within kContactReach of the capsule; otherwise true. Used for
+  // capsules on or near the floor.
   bool MayTouch(const RoomTile& tile) const {
     if (!is_near_floor_) return false;
     const double square = glm::dot(along_, along_);
@@ -114,7 +114,7 @@ class Caster {
   glm::dvec3 start_, along_;
   double radius_;
   glm::dvec3 middle_;  // unit: the axis of a cone around the tile's directions
-  double spread_;      // RoomTile::spread
+  double spread_;      // largest deviation from `middle_`, measured as RoomTile::spread
   double nearest_, farthest_;
   bool is_near_floor_;
 };

@@ -39,7 +39,7 @@ Result<void*> MakeEglContext() {
 void MakeEglCurrent(void* context) { egl.MakeCurrent(egl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context); }
 
 void DestroyEglContext(void* context) {
-  // Release the context first: a current context would not be destroyed.
+  // Release the context first if it is current, because EGL does not destroy a current context.
   if (egl.GetCurrentContext() == context) MakeEglCurrent(EGL_NO_CONTEXT);
   egl.DestroyContext(egl.display, context);
 }
@@ -47,7 +47,7 @@ void DestroyEglContext(void* context) {
 }  // namespace
 
 Result<GlLibrary> LoadEgl() {
-  // Select Mesa's software rasteriser, even if there is a graphics card.
+  // Select Mesa's software rasteriser, even on a machine with a graphics card.
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
   ::setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   ASSIGN_OR_RETURN(void* const library, OpenGlLibrary("EGL", "libEGL.so.1"));

@@ -43,13 +43,13 @@ RoomTile MakeTile(const PixelRect& pixels, const LampView& view, int width) {
       sum += directions.back();
     }
   }
-  // Compute the cone around the directions.
+  // Compute the bounding cone of the directions.
   const double length = glm::length(sum);
   tile.middle = length > 0 ? sum / length : glm::dvec3(0, 1, 0);
   for (const glm::dvec3& direction : directions) {
     tile.spread = std::max(tile.spread, glm::distance(direction, tile.middle));
   }
-  // Compute the ball around the points.
+  // Compute the bounding ball of the points.
   tile.centre = 0.5 * (low + high);
   for (const glm::dvec3& point : points) tile.radius = std::max(tile.radius, glm::distance(point, tile.centre));
   return tile;
@@ -163,7 +163,7 @@ void KeptRooms::Drop(const Kept& kept) {
 }
 
 const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
-  // Take the kept picture, if any, and make it the most recent.
+  // If a picture of this room and camera is kept, make it the most recently used one.
   const auto found = std::ranges::find_if(kept_, [&](const Kept& kept) {
     return kept.texture_seed == room.texture_seed && SameView(kept.camera, camera) &&
            SameInterior(kept.interior, room.interior);
@@ -172,7 +172,7 @@ const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
     std::rotate(kept_.begin(), found, found + 1);
     return kept_.front().picture;
   }
-  // Otherwise drop the oldest picture and draw a new one.
+  // Otherwise drop the least recently used picture and draw a new one.
   if (kept_.size() == kMaxKept) {
     Drop(kept_.back());
     kept_.pop_back();
@@ -185,7 +185,7 @@ const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
 KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
   KeptRoom kept;
-  // Attach two float textures.
+  // Attach two float textures to a framebuffer.
   GLuint framebuffer = 0;
   gl_.GenFramebuffers(1, &framebuffer);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -200,7 +200,7 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   for (GLuint i = 0; i < 2; ++i)
     gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last draw may have masked them
 
-  // Draw the room with its rays.
+  // Draw one triangle over the whole picture; its shader casts a ray for every pixel.
   gl_.Viewport(0, 0, width, height);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_SCISSOR_TEST);
@@ -213,7 +213,7 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   gl_.BindVertexArray(empty_vertices_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 
-  // Read colours and depths, then lamp shares and labels.
+  // Read back the colours and depths, then the lamp's shares and the labels.
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
   std::vector<float> four(4 * pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);

@@ -34,7 +34,7 @@ constexpr int kRoomTileSize = 16;
 struct RoomTile {
   PixelRect pixels;
   glm::dvec3 middle{0};  ///< mean direction, unit
-  double spread = 0;     ///< maximum distance between the tips of `middle` and another direction
+  double spread = 0;     ///< maximum distance between the end points of `middle` and of a direction
   double farthest = 0;   ///< maximum distance from the lamp, metres
   glm::dvec3 centre{0};  ///< centre of a ball around the points, metres from the lamp
   double radius = 0;     ///< radius of that ball
@@ -43,15 +43,15 @@ struct RoomTile {
 /// The points of the empty room that a picture shows, relative to the lamp: one value per pixel, row by row.
 struct LampView {
   glm::dvec3 lamp{0};           ///< in the world, metres
-  std::vector<float> x, y, z;   ///< from the lamp, world axes, metres; next to the lamp without a surface
+  std::vector<float> x, y, z;   ///< relative to the lamp, world axes, metres; next to the lamp if no room is seen
   std::vector<RoomTile> tiles;  ///< the tiles in which the room is visible
 };
 
 /// One camera's picture of the empty room at brightness 1: as textures for shaders, and as numbers for computations
 /// without GL.
 struct KeptRoom {
-  GLuint room = 0;                   ///< RGB colour, A depth
-  GLuint extra = 0;                  ///< RGB share of the lamp in the light, A label
+  GLuint room = 0;                   ///< texture: RGB = colour, A = depth
+  GLuint extra = 0;                  ///< texture: RGB = the lamp's share of the light, A = label
   std::vector<float> colours;        ///< RGB, three per pixel
   std::vector<float> lamp_shares;    ///< three per pixel: share of the lamp in the light
   std::vector<float> depths;         ///< metres

@@ -63,7 +63,8 @@ void AddInstances(const Figure& figure, const glm::dvec3& eye, std::vector<Capsu
   }
 }
 
-// Metres. Below this limit, products of floats do not overflow; NaN fails the comparison, too.
+// The largest coordinate that is drawn, metres. Below it, products of floats do not overflow. NaN fails the comparison,
+// too.
 constexpr float kMaxCoordinate = 1e6f;
 
 bool IsWithin(const glm::vec3& v, float limit) {
@@ -84,7 +85,7 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
   assert(surface.normals.size() == surface.positions.size() && surface.parts.size() == surface.triangles.size());
   assert(!surface.paint || surface.rest.size() == surface.positions.size());
   assert(surface.paint || !surface.texture || surface.on_texture.size() == surface.positions.size());
-  // The corners of one vertex, one for each part that meets there, form a linked list.
+  // A vertex has one corner for each part that meets there. The corners of a vertex form a linked list.
   struct Made {
     Part part;
     std::uint32_t next;

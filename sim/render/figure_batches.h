@@ -11,8 +11,8 @@ namespace etude {
 /// One capsule as input of the vertex shader (kCapsuleBox in shaders.h). Frame E has the world's axes and its origin at
 /// the camera's centre.
 struct CapsuleInstance {
-  glm::vec4 start_and_radius;  ///< in E; for a face, the end at the chin
-  glm::vec4 end_and_label;     ///< in E
+  glm::vec4 start_and_radius;  ///< start of the axis in E, and radius; for a face, the start is at the chin
+  glm::vec4 end_and_label;     ///< end of the axis in E, and label
   glm::vec4 paint;             ///< RGB 0…1; A = 1 for a head that gets a face
   glm::vec3 front;             ///< unit direction in which the face looks
 };
@@ -48,7 +48,7 @@ struct SurfaceTriangles {
   Triangles plain;    ///< surfaces in one colour
   Triangles painted;  ///< surfaces with a paint
   Triangles textured;
-  std::vector<TexturedRun> textures;  ///< the textures of `textured`, by runs of indices
+  std::vector<TexturedRun> textures;  ///< for each run of indices of `textured`, its texture
 };
 
 /// Collects all triangles of all figures in `all`, whose memory is reused. Triangles with a corner or normal that is

@@ -56,7 +56,7 @@ vec3 SkinPaint(vec3 point) { return paint.rgb; }
 )glsl";
 
 constexpr const char* kFace = R"glsl(
-// Hair, eyes and a smile, so that a viewer sees the direction of the face.
+// Paints hair, eyes and a smile, so that a viewer sees the direction of the face.
 vec3 FacePaint(vec3 skin, vec3 point) {
   vec3 middle = 0.5 * (capsule_start.xyz + capsule_end.xyz);
   vec3 upward = capsule_end.xyz - capsule_start.xyz;
@@ -178,7 +178,7 @@ void main() {
   vec3 ray = PixelRay();
   depth = 1.0 / gl_FragCoord.w;
   if (!(depth < farthest) || IsBehindRoom(depth)) discard;
-  // Open surfaces show their back, too. The picture is drawn upside down, so GL takes backs for fronts.
+  // Open surfaces show their back side, too. The picture is drawn upside down, so GL takes back sides for front sides.
   vec3 outward = gl_FrontFacing ? -normal : normal;
   colour = LitPaint(SkinPaint(), outward / max(length(normal), 1e-6), depth * ray, ray);
   label = uint(paint.a);
@@ -200,8 +200,9 @@ void main() {
   RoomHit hit = MeetRoom(ray);
   if (hit.is_wall != onto_wall || hit.depth == kInfinity) discard;
   vec3 point = hit.depth * ray;
-  // The shadow of a ball with this normal: softer where the body turns away from the lamp, i.e. at its outline. It is
-  // less soft than that of capsules, because otherwise each ear and cheek would show in the soft edge of the head.
+  // The shadow of a surface is that of a ball with the same normal: softer where the surface turns away from the lamp,
+  // i.e. at the body's outline. It is less soft than that of capsules, because otherwise each ear and cheek would show
+  // in the soft edge of the head.
   float slant = dot(normal, normalize(lamp - eye - caster)) / max(length(normal), 1e-6);
   float inside = 1.0 - sqrt(max(1.0 - slant * slant, 0.0));
   colour = RoomInShadow(hit, point, inside, clamp(0.04 * distance(point, caster), 0.03, 0.12));

@@ -64,7 +64,7 @@ class TextureStore {
   void Bind(const SharedTexture& texture);
 
  private:
-  // The pointer is kept, because otherwise another texture could get the same address.
+  // This shared pointer keeps the texture alive; otherwise another texture could get the same address.
   struct Uploaded {
     SharedTexture texture;
     GLuint name = 0;
@@ -111,7 +111,7 @@ class FrameTargets {
   GLuint buffers_[4] = {};  // colour, labels, depth, hidden surfaces
   int capacity_width_ = 0, capacity_height_ = 0;
   Targets drawn_ = Targets::kAll;    ///< the attachments in use
-  std::vector<std::uint8_t> bytes_;  // reused
+  std::vector<std::uint8_t> bytes_;  // reused from picture to picture
   std::vector<float> depths_;
 };
 

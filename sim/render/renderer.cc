@@ -162,7 +162,7 @@ struct Renderer::State {
     gl.UseProgram(programs.shadow_mark);
     SetPixelGeometry(gl, programs.shadow_mark, camera, room);
     for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Enable(plane);
-    if (all_closed) gl.Enable(GL_CULL_FACE);  // the half that faces the lamp casts the whole shadow
+    if (all_closed) gl.Enable(GL_CULL_FACE);  // for closed surfaces, the half that faces the lamp is enough
     for (const VertexStream* stream : {&surfaces, &painted, &textured}) {
       if (!stream->IsEmpty()) stream->Draw();
     }
@@ -270,7 +270,7 @@ struct Renderer::State {
   VertexStream capsules, faces, surfaces, painted, textured;
   TextureStore textures;
   bool all_closed = false;     // true if all surfaces are closed, so no back is visible
-  SurfaceTriangles triangles;  // reused
+  SurfaceTriangles triangles;  // memory reused from picture to picture
   FrameTargets targets;
   KeptRooms rooms;
 };

@@ -25,7 +25,7 @@ void main() {
   vec2 light = RoomLight(point, RoomNormal(hit.is_wall));
   float blur = 0.7 * hit.depth * pixel_angle;
   vec3 paint = StudioPaint(hit.is_wall ? point.xy : point.xz, hit.is_wall, blur);
-  // A skirting board at the bottom of the wall.
+  // Paint a skirting board at the bottom of the wall.
   if (hit.is_wall) paint *= 1.0 - 0.35 * (1.0 - smoothstep(-blur, blur, point.y - 0.09));
   room = vec4(paint * (light.x + light.y), hit.depth);
   extra = vec4(vec3(light.y / (light.x + light.y)), 0.0);
@@ -38,13 +38,13 @@ uniform vec3 room_low;   // in the world
 uniform vec3 room_high;
 uniform int boxes;
 uniform vec4 box_centre[48];  // in the world; a = sine of its heading
-uniform vec4 box_half[48];    // a = cosine
+uniform vec4 box_half[48];    // a = cosine of its heading
 
 const int kFloor = 0, kCeiling = 1, kBack = 2, kFront = 3, kLeft = 4, kRight = 5, kBox = 6;
 
 struct Hit {
   float depth;
-  int surface;  // kBox + its index
+  int surface;  // kFloor … kRight; a box has kBox + its index
   vec3 normal;
 };
 
@@ -96,15 +96,15 @@ constexpr const char* kInteriorPaint = R"glsl(
 uniform float pixel_angle;  // the width of a pixel at depth 1
 uniform float studio;
 uniform vec3 skirting;
-uniform vec4 rug;           // middle x, z, half sizes
+uniform vec4 rug;           // x and z of the centre, half sizes along x and z
 uniform int pictures;
-uniform vec4 picture_place[8];  // along the wall, up, half sizes
+uniform vec4 picture_place[8];  // centre along the wall and above the floor, half sizes
 uniform vec4 picture_frame[8];  // rgb; a = wall + 8 * glow
 uniform vec3 key_colour;
 uniform vec3 ambient_colour;
 uniform vec3 fill_direction;
 uniform vec3 fill_colour;
-uniform vec3 window;        // in the world
+uniform vec3 window;        // centre of the window in the world
 uniform vec3 window_colour;
 
 layout(location = 0) out vec4 room;   // rgb, depth
@@ -146,7 +146,7 @@ vec3 SurfacePaint(Hit hit, vec3 point, float blur, out float glow) {
     if (within < -blur) continue;
     float lit = floor(picture_frame[i].a / 8.0) / 16.0;
     vec3 shown = Painted(4 + i, vec3(from_middle, 1.0), blur);
-    // A window has a cross of bars.
+    // Draw a cross of bars in a window.
     float bar = lit > 0.0 ? min(abs(from_middle.x), abs(from_middle.y)) - 0.02 : 1.0;
     float frame = max(1.0 - smoothstep(0.04 - blur, 0.04 + blur, within), 1.0 - smoothstep(-blur, blur, bar));
     shown = mix(shown, picture_frame[i].rgb, frame);
@@ -166,14 +166,14 @@ float LampLeft(int own, vec3 point, vec3 normal, vec3 to_lamp) {
     vec2 span = BoxSpan(i, point + 0.002 * normal, ray, near);
     float inside = min(span.y, distance_to_lamp) - max(span.x, 0.0);
     if (inside <= 0.0) continue;
-    // The lamp has a size: the shadow is softer the farther it falls.
+    // The lamp has a size: the farther a shadow falls, the softer it is.
     float softness = 0.01 + 0.05 * max(span.x, 0.0);
     left = min(left, 1.0 - smoothstep(0.0, softness, inside));
   }
   return left;
 }
 
-// Ambient occlusion: nearby boxes and walls take light that comes from all sides.
+// Returns the ambient occlusion: nearby boxes and walls take away light that comes from all sides.
 float Openness(int own, vec3 point, vec3 normal) {
   float open = 1.0;
   for (int i = 0; i < boxes; ++i) {

@@ -13,9 +13,9 @@
 
 namespace etude {
 
-/// The pattern of two colours on a surface. Patterns from kPlanks on are for rooms only; figures show them as plain.
-/// Positions are in metres in the surface's own space: the body at rest for clothes (their patterns therefore move with
-/// them), the plane of a wall or floor, the box of a piece of furniture.
+/// The pattern of two colours on a surface. Patterns from kPlanks on are for rooms only; figures show the first colour
+/// instead. Positions are in metres in the surface's own space: the body at rest for clothes (their patterns therefore
+/// move with them), the plane of a wall or floor, the box of a piece of furniture.
 enum class Pattern {
   kPlain,      ///< the first colour
   kBands,      ///< horizontal bands with period `size`
@@ -36,7 +36,7 @@ struct SurfacePaint {
   double size = 0.1;         ///< metres
   glm::dvec2 patch{0};       ///< x and y of the centre of a patch of the second colour, in front (z > 0)
   glm::dvec2 patch_half{0};  ///< half its width and height; 0: no patch
-  bool is_cloth = false;     ///< with seams and creases
+  bool is_cloth = false;     ///< true: drawn with seams and creases
   friend bool operator==(const SurfacePaint&, const SurfacePaint&) = default;
 };
 
@@ -54,9 +54,9 @@ struct Surface {
   std::optional<PartColours> by_part{};  ///< the colour of each triangle's part, instead of `colour`
   std::optional<SurfacePaint> paint{};   ///< instead of `colour`
   bool is_closed = false;                ///< true if no back side is ever visible, which makes drawing faster
-  std::vector<glm::vec3> rest{};         ///< with `paint`: one per position, on the body at rest, metres
+  std::vector<glm::vec3> rest{};         ///< for `paint`: each position's place on the body at rest, metres
   SharedTexture texture{};               ///< instead of `colour`, unless there is a paint
-  std::vector<glm::vec2> on_texture{};   ///< with `texture`: texture coordinates, one per position
+  std::vector<glm::vec2> on_texture{};   ///< for `texture`: each position's texture coordinates
 };
 
 /// A person or a moving object in the scene: capsules with the colours of their parts, or surfaces, or both.
@@ -89,7 +89,7 @@ struct FurnitureBox {
 
 /// A picture or a window: a painted rectangle on a wall. Its pixels have the wall's label.
 struct WallPicture {
-  enum class Wall { kBack, kLeft, kRight };  ///< z = low.z, x = low.x, x = high.x
+  enum class Wall { kBack, kLeft, kRight };  ///< planes z = low.z, x = low.x, x = high.x
   Wall wall = Wall::kBack;
   glm::dvec2 centre{0};     ///< metres: along the wall (x, or z for a side wall), above the floor
   glm::dvec2 half_size{0};  ///< metres, including the frame
@@ -168,7 +168,7 @@ struct Overlay {
   enum Seen : std::uint8_t { kBody = 0, kShadow = 128, kNothing = 255 };
 
   int width = 0, height = 0;
-  std::vector<std::uint8_t> bytes;  ///< four per pixel: red, green, blue (of a body), and the kind
+  std::vector<std::uint8_t> bytes;  ///< four per pixel: red, green and blue of a body, then Seen
   PixelRect drawn{};                ///< every pixel outside is kNothing
 };
 

@@ -23,7 +23,7 @@ RoomHit MeetRoom(vec3 ray) {
   return RoomHit(min(floor_depth, wall_depth), wall_depth < floor_depth);
 }
 
-// The light on a room's surface: x = the part that remains in shadow, y = the lamp's part.
+// The light on a room's surface: x = the part without the lamp, which remains in shadow; y = the lamp's part.
 vec2 RoomLight(vec3 point, vec3 normal) {
   vec3 to_lamp = lamp - point;
   float square = dot(to_lamp, to_lamp);
@@ -63,7 +63,7 @@ const char* const kRoomInFront = R"glsl(
 uniform sampler2D kept_room;
 uniform float farthest;
 
-// Returns true if the room hides that depth.
+// Returns true if the empty room hides a point at that depth in this pixel.
 bool IsBehindRoom(float depth) {
   return texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0).a / farthest <= depth / farthest;
 }
@@ -128,7 +128,7 @@ uniform vec4 wall_tiles[64];
 
 int Wrap(float tile) { return int(tile - 8.0 * floor(tile / 8.0)); }
 
-// Hues stay between 140 and 240 degrees; people have the others.
+// The studio's hues are between 140 and 240 degrees; those of people are not.
 vec3 SpotPaint(float tone, bool is_wall) {
   float pick = fract(tone * 7.0);
   if (!is_wall) return mix(vec3(0.26, 0.50, 0.62), vec3(0.34, 0.60, 0.64), pick);
@@ -213,7 +213,7 @@ float RoomPattern(int pattern, vec3 place, float size, float blur, inout float t
 }
 )glsl";
 
-// Shaders execute every branch, so the clothes' shader leaves out the patterns of rooms.
+// Shaders execute every branch, so the shader for clothes leaves out the patterns of rooms.
 const char* const kNoRoomPatterns = R"glsl(
 float RoomPattern(int pattern, vec3 place, float size, float blur, inout float tone) { return 0.0; }
 )glsl";
@@ -239,7 +239,7 @@ vec3 Painted(int index, vec3 place, float blur) {
     share = mix(share, 1.0, smoothstep(-blur, blur, min(inside.x, inside.y)));
   }
   if (patch_at.z < 0.0) {
-    // Seams along the sides and the middle, and soft creases that move with the body.
+    // Darken seams along the sides and the middle, and soft creases; both move with the body.
     tone *= 1.0 - 0.30 * max(Line(place.z, 0.0025, blur), place.z > 0.0 ? Line(place.x, 0.002, blur) : 0.0);
     tone *= 1.0 + 0.07 * sin(41.0 * place.y + 9.0 * sin(13.0 * (place.x + place.z))) *
                       sin(23.0 * (place.x - place.z) + 5.0 * place.y);

@@ -20,7 +20,7 @@ std::string InteriorFragmentShader();
 
 /// Draws a box around each capsule. The box selects the pixels to compute.
 std::string CapsuleVertexShader();
-/// Paints the surface of capsules, with or without a face (hair, eyes and a smile). Without is faster.
+/// Paints the surface of capsules. With `with_face`, the head has hair, eyes and a smile, which is slower.
 std::string CapsuleFragmentShader(bool with_face);
 
 /// The way in which a surface is coloured. The fragment shader of kColour is the fastest.

@@ -30,8 +30,8 @@ struct Extent {
 
 bool IsFinitePoint(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// The bounding rectangle of projected points. A point behind the camera may appear anywhere; the rectangle is then the
-// whole picture.
+// The bounding rectangle of projected points. The projection of a point behind the camera may be anywhere; the
+// rectangle is then the whole picture.
 class SeenRect {
  public:
   explicit SeenRect(const Camera& camera) : camera_(camera) {}
@@ -77,7 +77,7 @@ Extent ShadowOn(const Extent& extent, const glm::dvec3& lamp, int axis, double p
   const double reach = std::abs(lamp[axis] - plane), side = lamp[axis] > plane ? 1 : -1;
   for (const glm::dvec3& corner : extent.Corners()) {
     const glm::dvec3 from_lamp = corner - lamp;
-    const double fall = std::max(-side * from_lamp[axis], 0.05);  // as in the shaders
+    const double fall = std::max(-side * from_lamp[axis], 0.05);  // at least 5 cm, as in the shaders
     glm::dvec3 point = lamp + from_lamp * (reach / fall);
     point[axis] = plane;
     shadow.Add(point);
@@ -90,7 +90,7 @@ Extent ShadowOn(const Extent& extent, const glm::dvec3& lamp, int axis, double p
   return shadow;
 }
 
-// These functions return the extents of every capsule, and of every surface as a whole.
+// Return the extents of capsules, one each, and of surfaces, one each. Those with non-finite coordinates are left out.
 std::vector<Extent> ExtentsOf(const std::vector<Capsule>& shape) {
   std::vector<Extent> extents;
   for (const Capsule& capsule : shape) {
@@ -116,7 +116,7 @@ std::vector<Extent> ExtentsOf(const std::vector<Surface>& surfaces) {
 
 int Area(const PixelRect& rect) { return rect.Width() * rect.Height(); }
 
-// Merges two rectangles if their union has at most 10 % more pixels than both together.
+// Merges pairs of rectangles whose union has at most 10 % more pixels than both together.
 void Merge(std::vector<PixelRect>& rects) {
   std::erase_if(rects, [](const PixelRect& rect) { return rect.IsEmpty(); });
   for (std::size_t i = 0; i < rects.size(); ++i) {
@@ -125,7 +125,7 @@ void Merge(std::vector<PixelRect>& rects) {
       if (Area(both) > 1.1 * (Area(rects[i]) + Area(rects[k]))) continue;
       rects[i] = both;
       rects.erase(rects.begin() + static_cast<std::ptrdiff_t>(k));
-      i = static_cast<std::size_t>(-1);  // the union may merge with others, so start again
+      i = static_cast<std::size_t>(-1);  // restart, because the union may merge with other rectangles
       break;
     }
   }

@@ -85,7 +85,8 @@ void SetPoint(const GlFunctions& gl, GLuint program, const char* name, const glm
 
 void SetPixelGeometry(const GlFunctions& gl, GLuint program, const Camera& camera, const Room& room) {
   const Intrinsics& in = camera.intrinsics;
-  // The columns are those of GLM: image (u w, v w, w) = K · direction in C.
+  // GLM's constructor takes columns. K maps a direction in C to the picture in homogeneous coordinates: (u w, v w, w) =
+  // K · direction.
   const glm::dmat3 K(in.fx, 0, 0, in.skew, in.fy, 0, in.cx, in.cy, 1);
   SetMatrix(gl, program, "ray_of_pixel", glm::transpose(camera.R_CW) * glm::inverse(K));
   SetMatrix(gl, program, "image_of_direction", K * camera.R_CW);

@@ -28,7 +28,7 @@ std::vector<PlacedBoard> CalibrationTarget(const glm::dvec3& middle);
 /// Returns these boards as surfaces for the renderer.
 std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards);
 
-/// Returns the corners that were seen, each with its position in the world.
+/// Returns for each seen corner its pixel and its position in the world.
 std::vector<PointPair> PairsOf(std::span<const PlacedBoard> boards, std::span<const SeenCorner> seen);
 
 }  // namespace etude

@@ -20,11 +20,11 @@ constexpr double kHeightError = 0.03;    // metres
 constexpr double kAngleError = 2;        // degrees
 constexpr double kAimError = 0.02;       // metres
 
-// The intended place of a camera, relative to the middle of the motion.
+// The intended position of a camera, relative to the middle of the motion.
 struct Stand {
   double angle_deg = 0;
   double height = 0;
-  double aside = 0;  // metres to its own right
+  double aside = 0;  // offset to the camera's own right, metres
 };
 
 std::vector<Stand> StandsOf(const RigOptions& options) {
@@ -54,7 +54,7 @@ std::vector<Stand> StandsOf(const RigOptions& options) {
 
 glm::dvec3 OnFloor(double angle) { return {std::sin(angle), 0, std::cos(angle)}; }
 
-// Returns `wanted`, or a smaller distance from `middle` if the back wall is in the way.
+// Returns a camera's distance from `middle`: `wanted`, or less if the back wall is in the way.
 double DistanceWithin(const glm::dvec3& middle, const glm::dvec3& outwards, double wanted) {
   if (outwards.z >= 0) return wanted;
   const double to_wall = (kWallZ + kWallDistance - middle.z) / outwards.z;
@@ -95,8 +95,8 @@ Camera SetUp(const Stand& stand, const glm::dvec3& middle, double distance, Rand
 // Returns the point nearest to all optical axes in the least-squares sense. If the axes are parallel, returns a point
 // some metres in front of the cameras.
 glm::dvec3 CommonMiddle(std::span<const Camera> cameras) {
-  constexpr double kAhead = 3;          // metres
-  constexpr double kHintWeight = 1e-3;  // small, so it matters only where the axes determine nothing
+  constexpr double kAhead = 3;          // metres in front of the cameras
+  constexpr double kHintWeight = 1e-3;  // small, so the hint matters only if the axes are nearly parallel
   glm::dmat3 normal(0);
   glm::dvec3 right(0);
   for (const Camera& camera : cameras) {

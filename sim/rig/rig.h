@@ -51,8 +51,8 @@ glm::dvec3 MiddleOnFloor(std::span<const BodyPose> motion);
 /// Returns true if all twenty joints project into the camera's picture. Occlusion is ignored.
 bool IsInPicture(const Camera& camera, const BodyPose& pose);
 
-/// For each frame, returns true if at least two cameras have the whole body in their pictures. Otherwise the pose
-/// cannot be triangulated.
+/// For each frame, returns true if at least two cameras have the whole body in their pictures. In other frames, the
+/// pose cannot be triangulated.
 std::vector<bool> FramesInView(std::span<const Camera> cameras, std::span<const BodyPose> motion);
 
 }  // namespace etude

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Returns the share of its value that a first-order low pass keeps over one frame; 0 for a time constant of 0.
+/// Returns the factor by which the state of a first-order low pass decays in one frame; 0 for a time constant of 0.
 double MemoryOf(double time_s, double rate_hz) { return time_s > 0 ? std::exp(-1.0 / (rate_hz * time_s)) : 0.0; }
 
 constexpr double kLoudnessTime = 0.7;  // approximate duration of a burst, seconds (ours)
@@ -19,7 +19,7 @@ using enum Role;
 
 bool IsLeft(Role role) { return RoleName(role).starts_with("left"); }
 
-/// Returns the value that a standard normal number exceeds with this probability, in (0, 1).
+/// Returns the number that a standard normal random number exceeds with this probability, in (0, 1). Uses bisection.
 double NormalQuantileAbove(double probability) {
   double low = -9, high = 9;
   for (int i = 0; i < 60; ++i) {
@@ -34,7 +34,7 @@ PoseLengths LengthsOf(const SkeletonSensorOptions& options) {
 }
 
 constexpr double kFullSpeed = 0.5;  // m/s; at this speed the fast part has its full size
-constexpr double kSpeedCap = 1.3;   // times kFullSpeed; beyond this speed the fast part does not grow
+constexpr double kSpeedCap = 1.3;   // as a multiple of kFullSpeed; above this speed the fast part does not grow
 
 double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSensorOptions& options) {
   double body = 0;
@@ -44,10 +44,10 @@ double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSens
   return options.fast_quiet + (1 - options.fast_quiet) * activity * activity;
 }
 
-/// The line of sight to a joint, two axes across it, and the growth of errors from the reference distance to the
-/// joint's distance.
+/// The line of sight to a joint, two axes across it, and how much larger errors are at the joint's distance than at the
+/// reference distance.
 struct Sight {
-  glm::dmat3 axes;  ///< columns: across, across, along
+  glm::dmat3 axes;  ///< columns: two axes across the line of sight, then the line of sight
   double across_growth, along_growth;
 };
 
@@ -67,7 +67,7 @@ Sight SightOf(const Camera& sensor, const glm::dvec3& joint, const SkeletonSenso
           .along_growth = DepthDeviation(options.depth_law, z) / DepthDeviation(options.depth_law, z0)};
 }
 
-/// Converts unit errors (across, across, along) to metres in the world.
+/// Converts errors of unit size in the axes of `sight` to metres in the world.
 glm::dvec3 InWorld(const Sight& sight, const glm::dvec3& unit, double size, double depth_ratio) {
   const double across = size / std::sqrt(2 + depth_ratio * depth_ratio);
   return sight.axes *
@@ -81,7 +81,7 @@ struct StiffBone {
 };
 
 std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& options) {
-  const auto child = [&] { return AllRoles()[Index(role) + 1]; };  // along an arm, roles are consecutive
+  const auto child = [&] { return AllRoles()[Index(role) + 1]; };  // the roles of an arm are in order from the shoulder
   switch (GroupOf(role)) {
     case JointGroup::kShoulders:
       return {{{child(), options.arm_stretch}, {Mirrored(role), options.shoulder_stretch}}};
@@ -96,8 +96,8 @@ std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& op
   }
 }
 
-/// Multiplies a joint's own error (in the axes of `sight`) along its bones by their stretch factors, and normalises it.
-/// With one bone or perpendicular bones, the mean square is preserved exactly.
+/// Multiplies a joint's own error (in the axes of `sight`) along its bones by their stretch factors, then scales it so
+/// that the mean square stays the same. With one bone or perpendicular bones, this holds exactly.
 glm::dvec3 Stiffened(glm::dvec3 own, Role role, const BodyPose& pose, const Sight& sight,
                      const SkeletonSensorOptions& options) {
   double mean_square = 3;
@@ -144,7 +144,7 @@ glm::dvec3 BurstNoise::Next(RandomStream& dice) {
 }
 
 PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) {
-  // Choose the joint positions that are the function's arguments.
+  // Choose the joint positions on which the function depends.
   const auto depend_on = [&](Role joint, bool from_shoulders, double length) {
     points_[point_count_++] = {joint, from_shoulders, length};
   };
@@ -169,7 +169,7 @@ PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) 
   for (Wave& wave : waves_) {
     wave.direction = dice.Normal3() * std::sqrt(2.0 / kWaves);
     wave.phase = dice.Uniform(0, 2 * kPi);
-    // Draw the same number of random numbers for all joints.
+    // Draw the same number of random numbers for every joint.
     for (std::size_t i = 0; i < kMaxPoints; ++i) {
       const glm::dvec3 drawn = dice.Normal3();
       wave.per_metre[i] = i < point_count_ ? drawn / points_[i].length : glm::dvec3(0);
@@ -248,7 +248,7 @@ FrameErrors ContinuousErrors::Next(const BodyPose& pose, const FrameMotion& moti
     const glm::dvec3 white = group.white * wander_dice_.Normal3();
     const bool is_foot = GroupOf(role) == JointGroup::kFeet;
     const double size = is_foot ? glm::mix(options_.planted_feet, group.size, moves) : group.size;
-    const double rest_axis = std::sqrt(3.0);  // still and white are given per axis
+    const double rest_axis = std::sqrt(3.0);  // `still` and `white` are per axis, InWorld expects sizes over three axes
     errors[j] = options_.strength * (InWorld(sight, unit[j], size, group.depth_ratio) +
                                      InWorld(sight, wander + white, rest_axis, group.depth_ratio));
   }

@@ -41,10 +41,10 @@ class BurstNoise {
   SlowNoise noise_, loudness_;
 };
 
-/// The distances of movement over which a joint's error is correlated, metres.
+/// The correlation lengths of a joint's error: how far joints must move until the error has changed, metres.
 struct PoseLengths {
-  double own = 0.25;  ///< movement of the joint itself or of the next joint of its limb
-  double far = 0.8;   ///< movement of the arms, for joints of the trunk and legs
+  double own = 0.25;  ///< for movement of the joint itself or of the next joint of its limb
+  double far = 0.8;   ///< for movement of the arms, in errors of trunk and legs
 };
 
 /// A smooth random function of the pose for one joint, with a standard normal distribution along each axis. It is a sum

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kSpeedReach = 2;           // frames before and after, for a speed
-constexpr std::size_t kFootReach = 5;            // frames before and after, for a foot's motion
+constexpr std::size_t kSpeedReach = 2;           // a speed is measured over this many frames before and after
+constexpr std::size_t kFootReach = 5;            // a foot's motion is judged over this many frames before and after
 constexpr double kResting = 0.1, kMoving = 0.6;  // m/s; a foot rests below the first and moves above the second
 static_assert(kSpeedReach + kFootReach == MotionWindow::kAhead);
 
@@ -20,7 +20,7 @@ std::size_t Before(std::size_t frame, std::size_t by) { return frame - std::min(
 }  // namespace
 
 void MotionWindow::Push(const BodyPose& pose) {
-  assert(!ended_ && count_ - next_ <= kAhead);  // the caller takes every known frame before the next Push
+  assert(!ended_ && count_ - next_ <= kAhead);  // the caller must take every known frame before the next Push
   poses_[count_++ % kKept] = pose;
   ComputeSpeeds();
 }
@@ -44,7 +44,7 @@ std::optional<MotionWindow::Known> MotionWindow::Next() {
   Known known{PoseAt(frame), {.speeds = frame_speeds_[frame % kKept], .moves = {}}};
   known.motion.moves.fill(1);
   const std::size_t last = std::min(frame + kFootReach, count_ - 1);
-  // A foot counts as moving if it is fast in any frame within kFootReach frames.
+  // Rate each foot by its fastest frame within kFootReach frames: 0 at rest, 1 in motion.
   for (const Role role : AllRoles()) {
     if (GroupOf(role) != JointGroup::kFeet) continue;
     double fastest = 0;

@@ -29,14 +29,15 @@ class MotionWindow {
 
   /// Adds the next frame of the stream.
   void Push(const BodyPose& pose);
-  /// Ends the stream: the motion of the last frames is computed from the available frames.
+  /// Ends the stream: the motion of the last frames is computed from the frames that exist.
   void End() { ended_ = true; }
   /// A pose with its motion.
   struct Known {
     const BodyPose& pose;  ///< valid until the next Push
     FrameMotion motion;
   };
-  /// Returns the next frame whose motion is known, and advances; nullopt if more poses are needed first.
+  /// Returns the next frame whose motion is known, and moves on to the frame after it; nullopt if more poses are needed
+  /// first.
   std::optional<Known> Next();
 
  private:
@@ -58,13 +59,13 @@ class MotionWindow {
 /// A sensor that observes a body while it moves, for closed loops such as a coach and a learner.
 class LiveSensor {
  public:
-  /// The number of frames by which the body must plan ahead. A skeleton sensor's errors depend on the coming motion,
-  /// and cameras expose between frames. A frame's report never depends on later pictures or reports.
+  /// The number of frames by which the body must plan ahead. A skeleton sensor's errors depend on the body's coming
+  /// motion, and cameras expose between frames. A frame's report never depends on later pictures or reports.
   static constexpr std::size_t kAhead = MotionWindow::kAhead;
 
   virtual ~LiveSensor() = default;
 
-  /// Takes the body's next pose and returns the report of the frame `kAhead` frames before. Returns nullopt in the
+  /// Takes the body's next pose and returns the report of the frame `kAhead` frames earlier. Returns nullopt in the
   /// first `kAhead` frames.
   virtual std::optional<SensedFrame> Update(const BodyPose& pose) = 0;
 };

@@ -33,7 +33,7 @@ struct NumberKey {
 };
 const std::vector<NumberKey>& NumberKeys() {
   using Options = SkeletonSensorOptions;
-  // Each row: the key in the file, the option that it sets, and its allowed range.
+  // Each row has the key in the file, the option that it sets, and its allowed range.
   static const std::vector<NumberKey> keys = {
       {"reference_distance_m", &Options::reference_distance_m, {0.5, 10}},
       {"arm_stretch", &Options::arm_stretch, {0, 5}},
@@ -197,7 +197,7 @@ int SkeletonSensorOptions::Lag() const { return static_cast<int>(std::lround(std
 
 SkeletonSensorOptions SensorV1() {
   SkeletonSensorOptions v1;
-  v1.view = {.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};  // 57° × 43°
+  v1.view = {.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};  // view 57° × 43°
   v1.depth_law = DepthLaw::kStructuredLight;
   // The sizes of torso and head, hands and feet reproduce the published errors in a dance. The sizes of elbows and
   // knees lie between them (ours). Errors are larger in depth than across it; for a v2, published ratios are 1.2–1.8 at
@@ -214,7 +214,7 @@ SkeletonSensorOptions SensorV1() {
 
 SkeletonSensorOptions SensorV2() {
   SkeletonSensorOptions v2;
-  v2.view = {.width = 512, .height = 424, .fx = 365, .fy = 365, .cx = 256, .cy = 212, .skew = 0};  // 70° × 60°
+  v2.view = {.width = 512, .height = 424, .fx = 365, .fy = 365, .cx = 256, .cy = 212, .skew = 0};  // view 70° × 60°
   v2.depth_law = DepthLaw::kTimeOfFlight;
   // These values were fitted by `etude sensor fit`, 240 worlds, to one recording with an optical reference: for 6.6 s,
   // a seated person lifts and lowers both arms 3 m in front of a Kinect v2. The recording determines neither errors of

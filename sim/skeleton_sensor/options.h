@@ -55,7 +55,7 @@ std::span<const BoneKind, kBoneKindCount> AllBoneKinds();
 /// The sizes of a group's errors, metres. `size` is a root mean square distance in three dimensions; `still` and
 /// `white` are standard deviations per axis.
 struct GroupErrors {
-  double size = 0;         ///< in motion, at the reference distance: pose-dependent and fast part together
+  double size = 0;         ///< in motion, at the reference distance: the pose-dependent and the fast part together
   double depth_ratio = 1;  ///< ratio of errors along the line of sight to errors along each axis across it
   double still = 0;        ///< the slow drift while the body stands still
   double white = 0;        ///< the uncorrelated part
@@ -81,9 +81,9 @@ struct SkeletonSensorOptions {
   /// correctly, and all other joints are reported at their true positions.
   double strength = 1.0;
 
-  Intrinsics view;  ///< of the depth camera
+  Intrinsics view;  ///< intrinsics of the depth camera
   DepthLaw depth_law = DepthLaw::kTimeOfFlight;
-  double reference_distance_m = 2.75;  ///< the distance at which the sizes hold
+  double reference_distance_m = 2.75;  ///< the distance for which the sizes are given
 
   std::array<GroupErrors, kJointGroupCount> groups;
   /// Errors follow a linear model on the tree of the body: in units of its group's size, a joint's error is ρ times its
@@ -91,21 +91,21 @@ struct SkeletonSensorOptions {
   std::array<double, kBoneKindCount> correlation{};
   /// Factors on a joint's own error along the bones that end in the joint. Below 1, the sensor keeps limb lengths
   /// nearly constant.
-  double arm_stretch = 1;       ///< of shoulders, elbows and wrists along upper arm and forearm
-  double hand_stretch = 1;      ///< of hands along the hand
-  double shoulder_stretch = 1;  ///< of shoulders towards each other
-  /// The `size` of an ankle or foot at rest on the floor, whose noise is slow (`rest_time_s`). In motion, the size of
-  /// the group applies.
+  double arm_stretch = 1;       ///< factor for shoulders, elbows and wrists along upper arm and forearm
+  double hand_stretch = 1;      ///< factor for hands along the hand
+  double shoulder_stretch = 1;  ///< factor for shoulders towards each other
+  /// The `size` of an ankle or foot at rest on the floor, whose noise has the time constant `rest_time_s`. In motion,
+  /// the group's size applies.
   double planted_feet = 0.003;
   double rest_time_s = 0.2;  ///< time constant of the noise of resting feet (ours)
 
-  // The slow drift: its time constant, and the time constant of a second low pass (0: none, an Ornstein–Uhlenbeck
-  // process).
+  // The slow drift: its time constant, and the time constant of a second low pass. If the second is 0, there is only
+  // one low pass (an Ornstein–Uhlenbeck process).
   double wander_time_s = 0.4;
   double wander_smoothing_s = 0;
 
   // The pose-dependent part: a smooth random function of the joint positions. A second such function selects the mode:
-  // above a threshold, the sensor prefers another estimate of the body, and the error jumps.
+  // where it exceeds a threshold, the error jumps, as if the sensor preferred another estimate of the body.
   double pose_length_m = 0.25;     ///< correlation length over the joint's own position
   double far_pose_length_m = 0.8;  ///< correlation length over the arms' positions, for trunk and legs (ours)
   double mode_share = 0.12;        ///< share of all poses in the second mode (ours)
@@ -119,19 +119,19 @@ struct SkeletonSensorOptions {
 
   int lag_frames = 0;  ///< delay of the report, frames
 
-  // Occlusion: an episode lasts for a number of frames in this range, or until the limb is seen again; then a new guess
-  // is drawn.
+  // Occlusion: the guess for hidden joints is kept for an episode. An episode lasts for a number of frames in this
+  // range. After the shortest duration, it also ends when the limb is seen again.
   int shortest_episode = 3;
   int longest_episode = 40;
-  double nearest_guess_m = 0.2;  ///< range of the error of a hidden hand or foot
+  double nearest_guess_m = 0.2;  ///< smallest and largest error of a wrong guess for a hand or foot
   double farthest_guess_m = 1.1;
-  double wrong_guess_chance = 0.6;  ///< probability; a right guess is as accurate as a seen joint (ours)
+  double wrong_guess_chance = 0.6;  ///< probability; otherwise the guess is as accurate as for a seen joint (ours)
 
   double dropout_share = 0.02;    ///< share of all frames in which the whole body is lost
-  double swaps_per_minute = 1.0;  ///< of arms or legs, in profile, a third of a second each (ours)
-  bool swaps_when_facing = true;  ///< false: in proportion to 1 − cos of the body's turn from the sensor (ours)
+  double swaps_per_minute = 1.0;  ///< left and right arms or legs, in profile, for a third of a second each (ours)
+  bool swaps_when_facing = true;  ///< false: the rate is proportional to 1 − cos of the turn from the sensor (ours)
   double outlier_chance = 0.001;  ///< per joint and frame (ours; Gaussian + uniform: arXiv 1512.04134)
-  double outlier_size_m = 0.15;   ///< uniform in a cube with this half side (ours)
+  double outlier_size_m = 0.15;   ///< largest error on each axis, drawn uniformly (ours)
 
   /// Returns the lag in frames: `lag_frames` times the smaller of `strength` and 1, rounded.
   int Lag() const;
@@ -140,11 +140,11 @@ struct SkeletonSensorOptions {
   const GroupErrors& operator[](JointGroup group) const { return groups[Index(group)]; }
 };
 
-/// Returns Kinect v1 as published measurements describe it (algorithms A7, first paragraph). Tests compare the
+/// Returns the options of Kinect v1 according to published measurements (sources: options.cc). Tests compare the
 /// simulator with these measurements.
 SkeletonSensorOptions SensorV1();
-/// Returns Kinect v2, fitted to a recording with an optical reference. Values that the recording cannot determine are
-/// the v1's or ours.
+/// Returns the options of Kinect v2, fitted to a recording with an optical reference. Options that the recording cannot
+/// determine have the v1's values or ours.
 SkeletonSensorOptions SensorV2();
 /// Returns the preset "v1" or "v2"; nullopt for other names.
 std::optional<SkeletonSensorOptions> FindSensorPreset(std::string_view name);

@@ -24,7 +24,7 @@ double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<C
 
 using enum Role;
 
-/// A limb's joints from its root outwards. In this order, the error of a guess grows.
+/// A limb's joints from its root outwards, in the order in which the errors of a guess increase.
 struct Limb {
   std::array<Role, 4> joints;
 };
@@ -73,7 +73,7 @@ FrameGuesses OcclusionGuesses::Next(const BodyPose& pose, const HiddenJoints& hi
   FrameGuesses guesses;
   for (std::size_t j = 0; j < kRoleCount; ++j) guesses[j].inferred = hidden[j];
 
-  // Begin, continue or end the limb's episode.
+  // Begin, continue or end each limb's episode.
   for (std::size_t l = 0; l < kLimbs; ++l) {
     const Limb& limb = kLimbRoles[l];
     const Episode fresh = DrawEpisode();  // drawn in every frame, but used only if an episode begins
@@ -87,8 +87,7 @@ FrameGuesses OcclusionGuesses::Next(const BodyPose& pose, const HiddenJoints& hi
     if (!episode.IsRunning()) continue;
 
     ++episode.age;
-    // Wrong guesses are biased towards the body, because the sensor takes a visible part of the body for the hidden
-    // limb.
+    // Bias wrong guesses towards the body, because the sensor takes a visible part of the body for the hidden limb.
     const glm::dvec3 inwards = pose[limb.joints.front()] - pose[limb.joints.back()];
     const glm::dvec3 lean = glm::normalize(inwards + glm::dvec3(0, 1e-6, 0)) + episode.direction;
     const glm::dvec3 offset = episode.wrong ? episode.size_m * glm::normalize(lean) : glm::dvec3(0);

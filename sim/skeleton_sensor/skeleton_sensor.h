@@ -79,7 +79,7 @@ class Outliers {
   RandomStream dice_;
 };
 
-/// The swap in one frame: left and right arms, or legs, are exchanged.
+/// The swap in one frame: whether left and right arms, or legs, are exchanged.
 struct Swap {
   bool arms = false;
   bool legs = false;

@@ -135,7 +135,7 @@ std::vector<FurnitureBox> MakeTable(RandomStream& random, double share, const gl
   return std::move(builder).Take();
 }
 
-// Makes a low cabinet with a screen on it; the screen is the last box.
+// Makes a low cabinet with a screen on it. The screen is the last box.
 std::vector<FurnitureBox> MakeScreen(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.5, 0.7), low = random.Uniform(0.42, 0.55), wide = random.Uniform(0.42, 0.58);
   const SurfacePaint wood = DrawWood(random, share);
@@ -147,7 +147,7 @@ std::vector<FurnitureBox> MakeScreen(RandomStream& random, double share, const g
   return std::move(builder).Take();
 }
 
-// Makes a pot of one box; its leaves move and belong to Movers.
+// Makes a plant's pot as one box. The plant's leaves move, so they belong to Movers.
 std::vector<FurnitureBox> MakePlantPot(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.13, 0.2), height = random.Uniform(0.25, 0.42), out = random.Uniform(0.35, 0.5);
   const SurfacePaint pot = WithGrain(DrawMixed(random, share), Pattern::kPlain, 0.1);
@@ -194,7 +194,7 @@ std::vector<FurnitureBox> MakeCrate(RandomStream& random, double share, const gl
   return std::move(builder).Take();
 }
 
-// The value of `scene` from which on each piece is in the room.
+// The values of `scene` from which on the pieces are in the room.
 constexpr double kPoster1 = 0.05, kCupboard = 0.10, kPlant = 0.15, kRug = 0.20, kShelf = 0.25, kPoster2 = 0.30;
 constexpr double kWindow = 0.35, kSofa = 0.40, kScreen = 0.45, kTable = 0.50, kPoster3 = 0.55, kChair = 0.65;
 constexpr double kPile = 0.75, kCrate = 0.85;
@@ -268,7 +268,7 @@ WallPicture DrawPicture(RandomStream& random, const Interior& room, double share
 }
 
 void HangPictures(const WorldKey& key, double scene, double share, Interior& room) {
-  // Add posters; each appears from its own threshold on.
+  // Add posters, each from its own threshold of `scene` on.
   int number = 0;
   for (const double threshold : {kPoster1, kPoster2, kPoster3}) {
     RandomStream random(key, "poster-" + std::to_string(++number));
@@ -287,7 +287,7 @@ void HangPictures(const WorldKey& key, double scene, double share, Interior& roo
                   .size = random.Uniform(-0.4, 0.1)};
   window.frame = {225, 222, 214};
   window.glow = daylight;
-  // Let the window light the room.
+  // Hang the window on the wall, and let its light into the room.
   if (scene < kWindow) return;
   room.pictures.push_back(window);
   Lights& lights = room.lights;
@@ -329,14 +329,14 @@ bool StandsOn(const FurnitureBox& box, const FreeFloor& free) {
          box.centre.z - reach < free.high.y;
 }
 
-// Returns a place between the performer and a camera, at the edge of the free floor. A piece there hides a part of the
-// legs.
+// Returns a place for a piece of furniture, between the performer and a camera, at the edge of the free floor. A piece
+// there hides a part of the performer's legs.
 Slot InFrontOf(const Camera& camera, const FreeFloor& free, double aside, double turn) {
   const glm::dvec2 middle = 0.5 * (free.low + free.high), half = 0.5 * (free.high - free.low);
   glm::dvec2 towards(camera.p_WC.x - middle.x, camera.p_WC.z - middle.y);
   const double away = glm::length(towards);
   towards = away > 0 ? towards / away : glm::dvec2(0, 1);
-  // Go to the border of the rectangle, and 45 cm farther.
+  // Go from the centre of the free floor to its border, and 45 cm farther.
   const double to_border = std::min(std::abs(towards.x) > 1e-6 ? half.x / std::abs(towards.x) : 1e9,
                                     std::abs(towards.y) > 1e-6 ? half.y / std::abs(towards.y) : 1e9);
   const double distance = std::min(to_border + 0.45, 0.62 * away);
@@ -361,7 +361,7 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
   Light(key, scene, room);
   HangPictures(key, scene, colour_share, room);
 
-  // Put each piece at a random place along the walls; leave out a piece in the performer's way.
+  // Put each piece at a random place along the walls. Leave out pieces that would be on the free floor.
   const std::array<Slot, 8> slots = Shuffled(Slots(room), order);
   const auto add_piece = [&](const char* purpose, double threshold, auto make, const Slot& slot) {
     RandomStream random(key, purpose);
@@ -386,7 +386,7 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
   add_piece("table", kTable, MakeTable, slots[5]);
   add_piece("pile", kPile, MakePile, slots[6]);
 
-  // Put the last two pieces where they hide a part of the performer from the cameras.
+  // Put the last two pieces where they hide a part of the performer from a camera.
   const double chair_aside = front.Uniform(-0.35, 0.35), chair_turn = front.Uniform(-kPi, kPi);
   const double crate_aside = front.Uniform(-0.35, 0.35), crate_turn = front.Uniform(-kPi, kPi);
   const std::size_t first = front.IndexBelow(2);

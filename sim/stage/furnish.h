@@ -15,9 +15,9 @@ struct FreeFloor {
 
 /// The positions of the room's moving objects.
 struct MoverPositions {
-  glm::dvec3 plant{0};  ///< the top of the pot
+  glm::dvec3 plant{0};  ///< position of the top of the pot
   bool has_plant = false;
-  FurnitureBox screen;  ///< its front (+Z) shows the picture
+  FurnitureBox screen;  ///< the box of the screen; its front (+Z) shows the picture
   bool has_screen = false;
 };
 

@@ -15,14 +15,15 @@ struct Hsv {
 Rgb8 ToRgb(const Hsv& colour);
 Hsv ToHsv(Rgb8 colour);
 
-/// Interpolates between colour `a` (share 0) and `b` (share 1). Hues take the shorter way round.
+/// Interpolates between colour `a` (share 0) and `b` (share 1). Hues are interpolated the shorter way around the
+/// circle.
 Hsv Mixed(const Hsv& a, const Hsv& b, double share);
 
 /// Draws a colour of everyday objects, walls and clothes: often wood and leather, less often denim or green, and
 /// sometimes any hue. Always draws the same number of random numbers.
 Hsv DrawColour(RandomStream& random);
 
-/// Draws a colour of the studio's objects. Its hue is 150–230°; performers in the studio have other hues.
+/// Draws a colour of the studio's objects, with a hue of 150–230°. Performers in the studio have no such hue.
 Hsv DrawStudioColour(RandomStream& random);
 
 }  // namespace etude

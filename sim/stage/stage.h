@@ -23,12 +23,12 @@ class Movers {
   /// Returns the figures at a time, which may be before the take. They are labelled kClutter and kBystander.
   std::vector<Figure> At(double seconds) const;
 
-  /// Returns the second person's joints at a time; nullopt if there is no second person.
+  /// Returns the second person's joints at a time; nullopt if the room has no second person.
   std::optional<BodyPose> BystanderAt(double seconds) const;
 
  private:
   struct Leaf {
-    glm::dvec3 tip{0};  ///< from the pot, without sway
+    glm::dvec3 tip{0};  ///< position relative to the pot, without sway
     double phase = 0, rate_hz = 0;
   };
   struct Ball {
@@ -77,11 +77,11 @@ class StagedRoom {
   /// Returns the interior, or null for the studio. The interior belongs to this object.
   const Interior* interior() const { return furnished_ ? &furnished_->interior : nullptr; }
   bool IsPerformerDressed() const { return performer_.has_value(); }
-  /// Returns the dressed performer; at scene 0, capsules in the `studio` colours.
+  /// Returns the performer: dressed, or, at scene 0, as capsules in the `studio` colours.
   Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
   /// Returns the moving objects at `seconds` after the take's start; a negative time is before it.
   std::vector<Figure> MoversAt(double seconds) const;
-  /// Returns the second person's joints; nullopt if there is no second person.
+  /// Returns the second person's joints; nullopt if the room has no second person.
   std::optional<BodyPose> BystanderAt(double seconds) const;
   /// Returns the factor by which the 100 Hz flicker of mains-powered lamps changes the light of a picture taken at this
   /// time.

@@ -13,8 +13,8 @@ struct Admitted {
   int right = 0, wrong = 0;
 };
 
-/// Returns the numbers of admitted events for every threshold from the highest to the lowest. The first entry has no
-/// event. Events with equal scores make one step.
+/// Returns the numbers of admitted events for every threshold from the highest to the lowest. The first entry admits no
+/// event. Events with equal scores are admitted in one step.
 std::vector<Admitted> AdmitByScore(std::span<const JudgedEvent> events) {
   std::vector<JudgedEvent> sorted(events.begin(), events.end());
   std::ranges::stable_sort(sorted, std::ranges::greater{}, &JudgedEvent::score);
@@ -59,8 +59,8 @@ std::optional<double> RocAuc(std::span<const JudgedEvent> events) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const JudgedEvent& a, const JudgedEvent& b) { return a.score < b.score; });
 
-  // Walk through the groups of equal score, from the lowest score. Each right event beats the wrong events below its
-  // group and half of the wrong events in its group.
+  // Visit the groups of events with equal score, from the lowest score. Each right event beats the wrong events of
+  // lower score, and half of the wrong events in its group.
   double right = 0, wrong_below = 0, won = 0;
   for (std::size_t begin = 0; begin < sorted.size();) {
     double group_right = 0, group_wrong = 0;
@@ -84,7 +84,7 @@ std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, dou
   }
   if (scores.empty()) return std::nullopt;
   std::ranges::sort(scores, std::ranges::greater());
-  constexpr double kRounding = 1e-9;  // so that 0.9 of 10 events is exactly 9
+  constexpr double kRounding = 1e-9;  // tolerance, so that the share 0.9 of 10 events needs exactly 9
   const double needed = std::ceil(recall * static_cast<double>(scores.size()) - kRounding);
   return scores[static_cast<std::size_t>(std::max(needed, 1.0)) - 1];
 }
@@ -163,7 +163,7 @@ std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits
 }
 
 std::optional<double> KaplanMeierMedian(std::span<const Wait> waits) {
-  constexpr double kRounding = 1e-12;  // rounding may move the product of the fractions off ½
+  constexpr double kRounding = 1e-12;  // tolerance, because rounding may move the product of the fractions off ½
   for (const auto& [seconds, share] : SurvivalCurve(waits)) {
     if (share <= 0.5 + kRounding) return seconds;
   }

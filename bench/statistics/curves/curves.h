@@ -17,7 +17,7 @@ inline std::optional<double> Share(std::int64_t part, std::int64_t whole) {
 /// A scripted performance of a move, which was truly right or wrong (docs/reference/metrics.md). Grey performances are
 /// not events. "Right" is the positive class.
 struct JudgedEvent {
-  bool is_right = false;      ///< the truth
+  bool is_right = false;      ///< true if the performance was truly right
   bool called_right = false;  ///< the recogniser's call by the end of the event's window
   double score = 0;           ///< the recogniser's soft score; higher = more likely right
 };
@@ -51,7 +51,7 @@ std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, dou
 /// wrong event.
 std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> events);
 
-/// Returns the point of the ROC that belongs to the recogniser's own calls. Empty if there is no right event or no
+/// Returns the operating point on the ROC that the recogniser's own calls give. Empty if there is no right event or no
 /// wrong event.
 std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedEvent> events);
 
@@ -75,8 +75,8 @@ struct Wait {
 };
 
 /// Returns the Kaplan–Meier estimate (1958) of the share still waiting. The first point is (the earliest time, 1); then
-/// comes (time, share) after each time at which a wait ended. A censored wait counts as at risk up to and including its
-/// time. The curve is empty if there are no waits.
+/// comes (time, share) after each time at which a wait ended. A censored wait counts as at risk up to and including the
+/// time at which it was censored. The curve is empty if there are no waits.
 std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits);
 
 /// Returns the median waiting time: the first time at which the survival curve is ½ or less. Empty if the curve never

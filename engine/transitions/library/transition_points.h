@@ -36,7 +36,7 @@ std::vector<int> BridgeFramesWithin(const TaggedClip& clip, FrameWindow window);
 /// Returns true if frame `frame_a` of `a` and frame `frame_b` of `b` match under the rules.
 bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b, const MatchRules& rules);
 
-/// Searches as in paper A (algorithms A5). Each bridge frame of `playing` in the window is compared with the bridge
+/// Searches as in paper A. Each bridge frame of `playing` in the window is compared with the bridge
 /// frames of `next` that may be entered. Frames of the front half come first, because entering a clip near its end
 /// looks unnatural. Returns nullopt if no pair matches.
 std::optional<TransitionPoint> FindTransitionPoint(const TaggedClip& playing, FrameWindow window,

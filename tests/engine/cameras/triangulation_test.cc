@@ -95,7 +95,7 @@ struct Vector {
   glm::dvec3 alike, by_pixels;
 };
 
-// The points by numpy: lstsq of the rows of algorithms B3 over |h₃|, then three times over the depth, too.
+// The points by numpy: lstsq of the rows over |h₃|, then three times over the depth, too.
 const std::vector<Vector> kVectors = {
     {{
          {{{{{-948.087947, -514.157818, -1837.001172, 5065.350543}, {-266.023824, -1922.68834, -41.779107, 5182.375886}, {-3.771323, -1.606743, -0.592287, 15.82922}}}}, {285.786, 167.792}},

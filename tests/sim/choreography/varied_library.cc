@@ -18,7 +18,7 @@ using enum Role;
 /// The parts of the body whose rotations are scaled together.
 enum class Part { kTrunk, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
 constexpr std::size_t kPartCount = 5;
-/// The roles of hips and shoulders carry the other parts and are not scaled.
+/// Marks the roles of hips and shoulders: they carry the other parts and are not scaled.
 constexpr Part kNoPart{kPartCount};
 
 Part PartOf(Role child) {

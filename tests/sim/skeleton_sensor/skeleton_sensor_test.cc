@@ -10,7 +10,7 @@
 #include "tests/sim/performer/all_moves.h"
 #include "tests/sim/skeleton_sensor/whole_motion.h"
 
-// The simulated Kinect v1 against the figures it is to have (algorithms A7, first paragraph). Every band is the
+// The simulated Kinect v1 against the figures it is to have. Every band is the
 // published one. What a v2's recordings show instead is held by tests/tools/sensor_fit and docs/sensor.md.
 
 namespace etude {

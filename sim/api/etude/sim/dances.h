@@ -13,7 +13,7 @@ namespace etude::sim {
 /// Returns the names of the songs that come with Etude.
 ETUDE_API std::vector<std::string> SongNames();
 
-/// A dance that is part of Etude, with its moves as they look if danced right.
+/// A dance that is part of Etude, with its moves as a dancer without mistakes performs them.
 struct BuiltinDance {
   Dance dance;
   std::vector<TaughtMove> moves;
@@ -21,7 +21,8 @@ struct BuiltinDance {
 /// Returns the dance of a song. Throws engine::BadInput for an unknown song.
 ETUDE_API BuiltinDance DanceOfSong(const std::string& song);
 
-/// Returns the body that performs the clips of scenarios. Use it to get the results that a scenario's cells have.
+/// Returns the proportions of the body that performs the clips of scenarios. With them, a program gets the results of a
+/// scenario's cells.
 ETUDE_API engine::BodyProportions ScenarioProportions();
 
 }  // namespace etude::sim

@@ -17,7 +17,7 @@ struct StudioOptions {
   /// How furnished the room is, 0 to 1. At 0 it is a bare studio with a person of capsules in warm colours; at 1 it is
   /// a lived-in room with a dressed person.
   double scene = 0;
-  std::uint64_t seed = 1;  ///< of the room, its objects and the person's clothes
+  std::uint64_t seed = 1;  ///< determines the room, its objects and the person's clothes
 };
 
 struct Picture {
@@ -33,7 +33,8 @@ ETUDE_API std::vector<NamedCamera> StereoCameras(const BodyMotion& motion, doubl
                                                  std::uint64_t seed = 1);
 
 /// A room in which a person moves in front of ideal cameras, which take each picture in an instant and without errors.
-/// A picture always has the same bytes. Only one thread at a time may draw, even with different studios.
+/// The same arguments always give a picture with the same bytes. Only one thread at a time may draw, even with
+/// different studios.
 class ETUDE_API Studio {
  public:
   /// Throws BadInput for a motion without frames, no cameras, pictures of more than 4096 pixels a side, a lens with
@@ -45,7 +46,7 @@ class ETUDE_API Studio {
 
   /// Takes the picture of a frame of the motion. Throws BadInput if the camera or the frame does not exist.
   Picture Shoot(std::size_t camera, std::size_t frame) const;
-  /// Takes a picture before the person enters the room. Moving objects are at other positions in it.
+  /// Takes a picture of the room before the person enters it. Its moving objects have other positions than in `Shoot`.
   Picture ShootEmpty(std::size_t camera) const;
 
  private:

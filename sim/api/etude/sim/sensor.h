@@ -14,9 +14,9 @@ struct SensorOptions {
   std::string sensor = "v2";  ///< "v1", "v2", or the text of a sensor file, as `etude sensor fit` writes it
   /// Multiplies every error and probability, 0 to 10. At 0, hidden joints are inferred correctly.
   double strength = 1;
-  double distance_m = 2.75;  ///< along the floor from the middle of the body's motion; 0.5 to 10
-  double turn = 0;           ///< radians about that middle; 0 is on its +Z side, π/2 on its +X side
-  double height_m = 1;       ///< above the floor, 0.1 to 3; the sensor looks at the middle, one metre above the floor
+  double distance_m = 2.75;  ///< distance of the sensor from the middle of the motion, along the floor; 0.5 to 10
+  double turn = 0;           ///< direction of the sensor from that middle, radians; 0 is its +Z side, π/2 its +X side
+  double height_m = 1;       ///< height of the sensor; 0.1 to 3; it looks at a point one metre above the middle
   std::uint64_t seed = 1;    ///< the seed of all random numbers
 };
 
