@@ -519,30 +519,18 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
 
 TEST(Markers, OfASacrumStandForTheBackOfThePelvis) {
   using enum Role;
-  const std::vector<Role> limbs = {kLeftShoulder, kRightShoulder, kLeftElbow, kRightElbow, kLeftKnee,
-                                   kRightKnee,    kLeftAnkle,     kRightAnkle};
-  std::vector<std::string> names = {"LSHO", "RSHO", "LELB", "RELB", "LKNE", "RKNE", "LANK", "RANK",
-                                    "LWRA", "LWRB", "RWRA", "RWRB", "LASI", "RASI", "LPSI", "RPSI"};
-  const auto markers_of = [&](const BodyPose& pose) {
-    std::vector<glm::dvec3> places;
-    for (const Role role : limbs) places.push_back(pose[role]);
-    for (const Role wrist : {kLeftWrist, kLeftWrist, kRightWrist, kRightWrist}) places.push_back(pose[wrist]);
-    for (const auto& [x, z] : {std::pair(0.12, 0.07), {-0.12, 0.07}, {0.05, -0.07}, {-0.05, -0.07}}) {
-      places.push_back(pose[kHipCentre] + glm::dvec3(x, 0.08, z));
-    }
-    return places;
-  };
-  ASSERT_OK(four, FindMarkerBodies(Take(names, markers_of), "a.trc"));
-  names.pop_back();
-  names.back() = "SACR";
-  ASSERT_OK(three, FindMarkerBodies(Take(names,
-                                         [&](const BodyPose& pose) {
-                                           auto places = markers_of(pose);
-                                           places[14] = 0.5 * (places[14] + places[15]);
-                                           places.pop_back();
-                                           return places;
-                                         }),
-                                    "a.trc"));
+  std::vector<Placed> markers = {{"LSHO", kLeftShoulder}, {"RSHO", kRightShoulder}, {"LELB", kLeftElbow},
+                                 {"RELB", kRightElbow},   {"LKNE", kLeftKnee},      {"RKNE", kRightKnee},
+                                 {"LANK", kLeftAnkle},    {"RANK", kRightAnkle},    {"LWRA", kLeftWrist},
+                                 {"LWRB", kLeftWrist},    {"RWRA", kRightWrist},    {"RWRB", kRightWrist}};
+  markers.push_back({"LASI", kHipCentre, {0.12, 0.08, 0.07}});
+  markers.push_back({"RASI", kHipCentre, {-0.12, 0.08, 0.07}});
+  std::vector<Placed> with_sacrum = markers;
+  markers.push_back({"LPSI", kHipCentre, {0.05, 0.08, -0.07}});
+  markers.push_back({"RPSI", kHipCentre, {-0.05, 0.08, -0.07}});
+  with_sacrum.push_back({"SACR", kHipCentre, {0, 0.08, -0.07}});
+  ASSERT_OK(four, FindMarkerBodies(Take(markers), "a.trc"));
+  ASSERT_OK(three, FindMarkerBodies(Take(with_sacrum), "a.trc"));
   for (const Role role : AllRoles()) {
     EXPECT_LT(glm::distance(three->front().motion.poses[0][role], four->front().motion.poses[0][role]), 1e-12);
   }
