@@ -63,7 +63,7 @@ void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
 void PrintReport(const GateReport& report) {
   PrintMoves(report.comparison, "baseline", "now", kMaxRows);
   PrintWorlds("Worlds that are far worse:", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
-  PrintWorlds("Single worlds that are far worse, too few to fail:",
+  PrintWorlds("Single worlds that are far worse, but too few to fail:",
               TailLines(report, false, kMaxWorldsEach, kMaxWorlds));
   for (const GateExpectation& e : report.expectations) {
     if (e.result.outcome != ClaimOutcome::kUnmet) continue;

@@ -162,8 +162,8 @@ Result<void> Print(const LabelScores& scores, bool as_json) {
                Percent(RocAuc(performances)));
   }
   if (!scores.Points().empty()) {
-    fmt::print(stderr, "{} action points: F-score {} within {:.0f} ms, mean of the moves\n", scores.Points().size(),
-               Percent(scores.PointFScore()), 1000 * kActionPointTolerance);
+    fmt::print(stderr, "{} action points: F-score {} within {:.0f} ms, averaged over the moves\n",
+               scores.Points().size(), Percent(scores.PointFScore()), 1000 * kActionPointTolerance);
   }
   fmt::print(stderr, "{:.2f} false alarms a minute\n", scores.FalseAlarmsAMinute());
   return as_json ? PrintFacts("recognise", FactsOf(scores)) : Result<void>();
@@ -247,7 +247,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
   if (out.untaught_performances > 0)
     fmt::print("  {} of moves that nobody else performed\n", out.untaught_performances);
   if (!out.points.empty()) {
-    fmt::print("F-score of {} action points within {:.0f} ms, mean of the moves: {}\n", out.points.size(),
+    fmt::print("F-score of {} action points within {:.0f} ms, averaged over the moves: {}\n", out.points.size(),
                1000 * kActionPointTolerance, Percent(f_score));
   }
   people.End();

@@ -342,7 +342,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   text += WorldList("**Worlds that are far worse:**", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
   if (!others.empty()) {
     text += FoldedAway(fmt::format("What else changed ({})", others.size()),
-                       MoveTable(others) + WorldList("Single worlds that are far worse, too few to fail:",
+                       MoveTable(others) + WorldList("Single worlds that are far worse, but too few to fail:",
                                                      TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
   }
   // Write the claims that could not be decided (they pass), the answers of the run's own findings, what could not be

@@ -76,7 +76,7 @@ class NewFolder {
     const Place place{path.string(), 0, 0};
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (fs::exists(status) && !fs::is_directory(status)) return Fail(place, "is no folder");
+    if (fs::exists(status) && !fs::is_directory(status)) return Fail(place, "is not a folder");
     if (fs::is_directory(status) && !fs::is_empty(path, error)) {
       return Fail(place, "is not empty; choose another folder with -o");
     }

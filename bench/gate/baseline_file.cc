@@ -117,7 +117,7 @@ class BaselineReader {
       return slot.second.cells->statuses.find_first_of(kAnswers) != std::string::npos;
     };
     if (!std::ranges::any_of(slots_, has_answer)) {
-      return Fail(head.place(), "no cell is ok or unsolved: nothing could be worse");
+      return Fail(head.place(), "no cell is ok or unsolved, so no run could be worse");
     }
     RETURN_IF_ERROR(CheckSeal(json, head));
     return std::move(snapshot_);
@@ -257,7 +257,7 @@ class BaselineReader {
     const bool skipped = statuses.find_first_not_of('s') == std::string::npos;  // skipped cells are not judged
     if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
     return Fail(place,
-                "all {} cells of {} failed: nothing could be worse; allowed: a baseline in which each method has "
+                "all {} cells of {} failed, so no run could be worse; allowed: a baseline in which each method has "
                 "a cell that is ok or unsolved, or is skipped",
                 cells.trials, name);
   }

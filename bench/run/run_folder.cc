@@ -77,7 +77,7 @@ Result<FolderState> LookAtFolder(const fs::path& path) {
   const Place place{path.string(), 0, 0};
   std::error_code error;
   if (!fs::exists(path, error)) return FolderState::kFree;
-  if (!fs::is_directory(path, error)) return Fail(place, "is no folder");
+  if (!fs::is_directory(path, error)) return Fail(place, "is not a folder");
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
     const fs::path name = entry->path().filename();
     if (!IsPartOfRun(name)) {

@@ -151,8 +151,8 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
   const LengthUnit* likely = LikelyUnit(file_units);
   if (likely == nullptr) {
     return Fail({},
-                "the person is {:.4g} units tall, which is no person's height in m, cm, mm, inch or foot; for one of "
-                "{:g} m use --rig-unit {:.4g}",
+                "the person is {:.4g} units tall, which is not a person's height in m, cm, mm, inch or foot; for one "
+                "of {:g} m use --rig-unit {:.4g}",
                 file_units, kUsualStature, factor);
   }
   told = fmt::format("lengths in {} (found: by the legs, a person of about {:.2f} m; in {} it would be {:.4g} m)", likely->name,

@@ -289,8 +289,9 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     const bool is_inside = std::ranges::any_of(std::span(frames).first(begin), IsWhole) ||
                            std::ranges::any_of(std::span(frames).subspan(end), IsWhole);
     body.changes.push_back(fmt::format("only frames {} to {} of {} ({})", begin + 1, end, frames.size(),
-                                       is_inside ? fmt::format("elsewhere joints are lost for over {:g} s", kMaxGap_s)
-                                                 : "before the first and after the last, joints are lost"));
+                                       is_inside
+                                           ? fmt::format("elsewhere joints are missing for over {:g} s", kMaxGap_s)
+                                           : "joints are missing before and after these"));
   }
   if (!centres.empty()) body.changes.push_back(centres);
   std::vector<std::string> guessed;

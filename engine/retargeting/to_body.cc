@@ -336,7 +336,7 @@ std::string DescribeImpossibleHeight(std::span<const BodyPose> poses) {
   if (poses.empty()) return "";
   const double stature = MedianStature({poses.begin(), poses.end()});
   if (stature >= kLeast_m && stature <= kMost_m) return "";
-  return fmt::format("the body is {:.3g} m tall, as no person is: is its unit right?", stature);
+  return fmt::format("the body is {:.3g} m tall, which is not a person's height; is its unit right?", stature);
 }
 
 bool IsTPose(const BodyPose& pose) {

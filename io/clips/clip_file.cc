@@ -204,7 +204,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       ASSIGN_OR_RETURN(auto clip, ReadKimodo(arrays, path));
       file = FileOfOne(ClipFormat::kNpz, std::move(clip));
       file.roles = JointMapOverrides{.joints = {}, .metres_per_unit = 1, .up = UpAxis::kY};
-      file.remarks.push_back("Kimodo's arrays, which state no rate: 30 Hz, as its model has");
+      file.remarks.push_back("Kimodo's arrays state no rate; 30 Hz is taken, its model's rate");
       return file;
     }
     if (const auto joints = JointsOfSam(arrays)) {

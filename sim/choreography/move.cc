@@ -128,7 +128,7 @@ Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
     const Controls controls = ReadControls(pose);
     // Check that the pose comes after the previous pose and is held within the loop.
     if (!keys.empty() && beat <= keys.back().beat) {
-      pose.Complain(item.place, fmt::format("beat {} does not come after the pose before it, which lasts to beat {}",
+      pose.Complain(item.place, fmt::format("beat {} is too early: the previous pose lasts until beat {}",
                                             beat, keys.back().beat));
     }
     if (beat + hold >= beats) pose.Complain(item.place, fmt::format("the pose is held beyond beat {}", beats));

@@ -138,8 +138,8 @@ class Machine(EtudeCase):
         nobody = {"user": 65534} if os.getuid() == 0 else {}  # nothing limits root's processes
         self.folder.chmod(0o777)
         settings = [
-            ("TMPDIR is not there", self.outside, "no folder for temporary files", {"environment": {"TMPDIR": "/nonexistent"}}),
-            ("TMPDIR is a file", self.outside, "no folder for temporary files",
+            ("TMPDIR is not there", self.outside, "not a folder for temporary files", {"environment": {"TMPDIR": "/nonexistent"}}),
+            ("TMPDIR is a file", self.outside, "not a folder for temporary files",
              {"environment": {"TMPDIR": str(self.folder / "file")}}),
             ("TMPDIR cannot be written", self.outside, "TMPDIR=/proc: takes no temporary files",
              {"environment": {"TMPDIR": "/proc"}}),

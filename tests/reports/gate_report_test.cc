@@ -110,7 +110,7 @@ TEST(GateMarkdown, ShowsFarWorseWorldsThatAreTooFewToFailAmongWhatElseMoved) {
   report.comparison.moves = {TailMove(Movement::kUnclear)};
   const std::string text = WriteGateMarkdown(report);
   EXPECT_THAT(text, Not(HasSubstr("**Worlds that are far worse:**")));
-  EXPECT_LT(text.find("<details>"), text.find("Single worlds that are far worse, too few to fail:"));
+  EXPECT_LT(text.find("<details>"), text.find("Single worlds that are far worse, but too few to fail:"));
   EXPECT_LT(text.find("trial 7, adaptive"), text.find("</details>"));
 }
 

@@ -269,8 +269,9 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
   if (reference) {
     ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options, told));
     RETURN_IF_ERROR(TellColumns(
-        fmt::format("Distance of the joints from {}, median, mm. It is error, as far as the reference itself is right.",
-                    options.reference),
+        fmt::format(
+            "Distance of the joints from {}, median, mm. It is the error only if the reference itself is right.",
+            options.reference),
         columns, views, options));
   }
   return options.report.empty() ? true : WriteUnmarkedReport(options, views, person, clocks, told.lines);

@@ -197,10 +197,11 @@ ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
     return start_s + static_cast<double>(motion.FrameCount() - 1) / motion.rate_hz;
   };
   const bool overlap = answer_s <= end_of(truth, truth_s) && truth_s <= end_of(answer, answer_s);
-  if (!truth.start_s || !answer.start_s || !overlap) return {0, both + ": their first frames are taken as one time"};
+  if (!truth.start_s || !answer.start_s || !overlap)
+    return {0, both + ": their first frames are taken as simultaneous"};
   const bool is_whole = HaveSameRate(truth, answer) && std::abs(frames - std::round(frames)) < kSame;
   if (is_whole) return {std::round(frames) / answer.rate_hz, both + ": judged by these clocks"};
-  return {frames / truth.rate_hz, both + ": judged by these clocks, the answer interpolated linearly"};
+  return {frames / truth.rate_hz, both + ": judged by these clocks, and the answer is interpolated linearly"};
 }
 
 /// Returns "the answer is 40.2 ms late (39.8 to 40.6), taken out".
@@ -228,14 +229,14 @@ std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
 std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::string& clock,
                    const MatchedMotions& matched) {
   std::string note = fmt::format("{} joints", matched.joints.size());
-  if (!matched.lacking.empty()) note += fmt::format(" (one of both lacks {})", SomeOf(matched.lacking));
+  if (!matched.lacking.empty()) note += fmt::format(" (the truth or the answer lacks {})", SomeOf(matched.lacking));
   note += NoteOnRoots(truth, answer);
   const bool is_resampled = !HaveSameRate(truth, answer) || matched.lag;
   note += fmt::format(", {} frames at {:g} Hz", matched.pair.truth.FrameCount(), truth.rate_hz);
   if (is_resampled) note += fmt::format(", the answer's {:g} Hz interpolated linearly", answer.rate_hz);
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
   if (!clock.empty()) note += ", " + clock;
-  if (matched.uncovered > 0) note += fmt::format(", {} of them outside the answer", matched.uncovered);
+  if (matched.uncovered > 0) note += fmt::format(", {} frames of the truth outside the answer", matched.uncovered);
   for (const RawMotion* motion : {&truth, &answer}) {
     if (motion->notes.empty()) continue;
     note += fmt::format("; {}: {}", motion == &truth ? "truth" : "answer", Join(motion->notes, "; "));

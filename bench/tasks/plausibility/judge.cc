@@ -60,9 +60,9 @@ double ValueOf(const FaultMetric& metric, const std::vector<MotionFault>& faults
 }
 
 std::string FloorWords(const MotionFaults& found, const PlausibilityOptions& options) {
-  if (options.floor_m) return fmt::format("floor at {:g} m, as told", found.floor_m);
+  if (options.floor_m) return fmt::format("floor at {:g} m, as given", found.floor_m);
   if (!found.is_floor_found) return "floor at height 0";
-  return fmt::format("no floor at height 0: found at {:.2f} m, where the feet rest", found.floor_m);
+  return fmt::format("floor not at height 0 but at {:.2f} m, where the feet rest", found.floor_m);
 }
 
 std::string DigestOf(const BodyMotion& motion) {

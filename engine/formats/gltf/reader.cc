@@ -80,7 +80,8 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
   fetcher.bytes_left -= static_cast<double>(bytes->size());
   if (fetcher.bytes_left < 0) {
     return fetcher.Complain(
-        Fail(place, "names files of over {:.0f} MB; {} is one too many", kMaxGltfBytes / 1e6, Quote(uri)).value());
+        Fail(place, "names files of more than {:.0f} MB in all; {} exceeds the limit", kMaxGltfBytes / 1e6, Quote(uri))
+            .value());
   }
   out->assign(bytes->begin(), bytes->end());
   return true;

@@ -50,8 +50,8 @@ std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool
                        point.distance.value, rules.threshold, survey.matching, survey.nearer);
   }
   return fmt::format("smallest distance{}: {}, d = {:.2f} < {:g}, of {} matching pairs",
-                     is_rear ? ", in the rear half as none matches in the front half" : " in the front half", pair,
-                     point.distance.value, rules.threshold, survey.matching);
+                     is_rear ? ", in the rear half because no pair matches in the front half" : " in the front half",
+                     pair, point.distance.value, rules.threshold, survey.matching);
 }
 
 std::string WhyNone(const MotionLibrary& library, const TransitionRequest& request, const PairSurvey& survey,

@@ -80,7 +80,7 @@ TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
   const auto child = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 350.0; }), kPlaceRate, {});
   EXPECT_DOUBLE_EQ(child.value().scale, 0.001) << "0.6 m tall: nobody else's unit makes that";
   EXPECT_THAT(testing::Message(PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 1e5; }), kPlaceRate, {})),
-              HasSubstr("1.7e+05 units tall, which is no person's height in m, cm, mm, inch or "
+              HasSubstr("1.7e+05 units tall, which is not a person's height in m, cm, mm, inch or "
                         "foot; for one of 1.7 m use --rig-unit 1e-05"));
 }
 

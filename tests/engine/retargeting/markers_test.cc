@@ -564,7 +564,7 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   EXPECT_EQ(bodies->front().motion.poses.size(), 25u);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the sway is straight";
   EXPECT_EQ(bodies->front().Note(),
-            "Etude's joints; 4 positions interpolated in gaps; only frames 1 to 25 of 40 (elsewhere joints are lost "
+            "Etude's joints; 4 positions interpolated in gaps; only frames 1 to 25 of 40 (elsewhere joints are missing "
             "for over 1 s)");
 }
 
@@ -572,7 +572,7 @@ TEST(Markers, LostAtTheBeginningAndTheEndAreNotSaidToBeLostForLong) {
   MarkerMotion take = OwnJoints();
   for (const std::size_t t : {0, 1, 39}) take.frames[t][Index(Role::kLeftWrist)].reset();
   EXPECT_EQ(FindMarkerBodies(take, "a.trc")->front().Note(),
-            "Etude's joints; only frames 3 to 39 of 40 (before the first and after the last, joints are lost)");
+            "Etude's joints; only frames 3 to 39 of 40 (joints are missing before and after these)");
 }
 
 TEST(Markers, OfTwoPeopleAreTwoBodies) {

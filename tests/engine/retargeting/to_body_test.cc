@@ -474,7 +474,7 @@ TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {
   EXPECT_THAT(Convert(AtRest(testing::PersonSkeleton(), 3, 30.00003))->Note(), Not(HasSubstr("resampled")));
   for (const auto& [unit, is_said] : {std::pair(0.01, false), {0.0025, true}, {0.0029, false}, {0.018, true}}) {
     ASSERT_OK(body, Convert(AtRest(testing::PersonSkeleton()), {.metres_per_unit = unit}));
-    EXPECT_EQ(body->Note().find("m tall, as no person is") != std::string::npos, is_said) << unit;
+    EXPECT_EQ(body->Note().find("m tall, which is not a person's height") != std::string::npos, is_said) << unit;
     EXPECT_EQ(body->doubts.empty(), !is_said) << unit;
   }
 }

@@ -61,7 +61,7 @@ TEST(Match, AnAnswerThatEndsEarlyIsJudgedWhereItIs) {
   const CellResult result = Judged(Gliding(30, 60), Gliding(30, 45));
   EXPECT_NEAR(ValueIn(result, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_NEAR(ValueIn(result, "seen_share"), 0.75, 1e-12);
-  EXPECT_THAT(result.reason, HasSubstr("15 of them outside the answer"));
+  EXPECT_THAT(result.reason, HasSubstr("15 frames of the truth outside the answer"));
 }
 
 TEST(Match, ABodyOfAnotherSizeIsRightOnceScaled) {
@@ -270,8 +270,8 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   EXPECT_NEAR(ValueIn(later, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_EQ(ValueIn(later, "seen_share"), 0.5);
   EXPECT_THAT(later.reason,
-              HasSubstr("the truth begins at 10 s, the answer begins at 11 s: judged by these clocks, 30 of "
-                        "them outside the answer"));
+              HasSubstr("the truth begins at 10 s, the answer begins at 11 s: judged by these clocks, 30 frames of "
+                        "the truth outside the answer"));
   // It begins before the truth, by a fraction of a frame, and at another rate.
   EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(9.5, 90), -0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   const CellResult between = Judged(truth, moved(begins(10.01, 60), 0.01));
@@ -286,7 +286,7 @@ TEST(Match, TimesOfOneClockBelongTogether) {
                         "as one time"));
   const CellResult apart = Judged(truth, begins(0, 60));
   EXPECT_NEAR(ValueIn(apart, "mpjpe_unaligned_mm"), 0, 1e-9);
-  EXPECT_THAT(apart.reason, HasSubstr("begins at 0 s: their first frames are taken as one time"));
+  EXPECT_THAT(apart.reason, HasSubstr("begins at 0 s: their first frames are taken as simultaneous"));
   // Clocks that agree, as far as they were printed, are not worth a word.
   for (const RawMotion& same : {begins(10, 60), begins(10.003, 60)}) {
     const CellResult result = Judged(truth, same);
