@@ -49,7 +49,7 @@ class LiveStream {
   std::optional<StreamRecording> meaning_;  // without frames
   StreamLevel level_;
   std::optional<StreamMaker> maker_;
-  std::optional<JointCsvColumns> columns_;  // of CSV, from its first row after the start
+  std::optional<JointCsvColumns> columns_;  // of CSV
 };
 
 }  // namespace etude
