@@ -9,13 +9,14 @@
 namespace etude {
 
 /// Returns the median extent of a frame's joints along an axis, in the file's unit. A NaN is a missing joint. Points
-/// four times as far from the median point as usual, such as a ball or a camera, do not count.
+/// four times as far from the median point as usual, such as a ball or a camera, do not count, unless they are more than
+/// a quarter of a frame's points.
 double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints);
 
 /// Returns the unit in which this extent is that of a person, 0.8 to 2.3 m; nothing if there is none.
 std::optional<double> UnitOfSpread(double spread);
 
-/// The axis along which a body stands, which is not Y.
+/// How a body stands if it does not stand upright along Y.
 enum class Standing { kNotTold, kAlongMinusY, kOnHands, kAlongZ };
 /// Returns how the shoulders lie over the knees in three of four frames that show them. A body that is upside down
 /// stands on its hands if its wrists are near the lowest joint, which stays at one height.
