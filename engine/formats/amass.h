@@ -13,8 +13,9 @@ namespace etude {
 /// numbers per frame, which are joint rotations as rotation vectors; `trans` in metres, Z up; `mocap_framerate` or
 /// `mocap_frame_rate`. The clip has SMPL's 22 body joints; fingers, jaw and eyes are left out. The body model and its
 /// shapes may not be distributed. Limbs therefore have our own lengths, for a height of 1.70 m: rotations are those of
-/// the recorded person, but positions are not accurate to the centimetre. Returns an error if arrays are missing or have another
-/// shape, if numbers are not finite, or if the rate is missing or out of range. `told_hz` replaces the file's rate.
+/// the recorded person, but positions are not accurate to the centimetre. Returns an error if arrays are missing or
+/// have another shape, if numbers are not finite, or if the rate is missing or out of range. `told_hz` replaces the
+/// file's rate.
 Result<Clip> ReadAmass(const Npz& arrays, const std::string& file, std::optional<double> told_hz = {});
 
 }  // namespace etude

@@ -163,7 +163,8 @@ Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns&
   RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));
   for (const auto& [column, text] : table.texts) {
     if (std::ranges::count(columns.texts, column) > 0) continue;
-    return Fail({file, table.lines.front()}, "value {}: {}; allowed: a number, or nan for a missing one", column + 1, Quote(text));
+    return Fail({file, table.lines.front()}, "value {}: {}; allowed: a number, or nan for a missing one", column + 1,
+                Quote(text));
   }
   RETURN_IF_ERROR(CheckPlaces(table.Row(0), columns, {file, table.lines.front()}));
   return RowOf(table.Row(0), columns);

@@ -31,12 +31,13 @@ struct RowGrid {
 
 /// Places rows on an even grid of frames by their times, which may be rounded to some decimals. The rate fits the steps
 /// between neighbouring rows; a whole rate, or `told_hz` (from the file's header, if any), is preferred if it is within
-/// their rounding. Rows are evenly spaced if times are printed so coarsely that neighbours share one. Rows that span less than half a second get the rate `told_hz`, or have no clock if their steps
-/// differ from it by more than 5 %. A frame takes the row whose time is within a tenth of a frame of the frame's time
-/// (or within the rounding of times). Without such a row, the frame is interpolated between two rows, or it is a hole
-/// if a row is missing. Of rows with equal times only the last is used. Returns nullopt if there is no clock: fewer
-/// than two rows, no time, or equal times. Fails, naming the row's line (`lines` may be empty), for a missing time,
-/// falling times, steps over ten minutes, and holes of more than ten million values in total, `width` values per frame.
+/// their rounding. Rows are evenly spaced if times are printed so coarsely that neighbours share one. Rows that span
+/// less than half a second get the rate `told_hz`, or have no clock if their steps differ from it by more than 5 %. A
+/// frame takes the row whose time is within a tenth of a frame of the frame's time (or within the rounding of times).
+/// Without such a row, the frame is interpolated between two rows, or it is a hole if a row is missing. Of rows with
+/// equal times only the last is used. Returns nullopt if there is no clock: fewer than two rows, no time, or equal
+/// times. Fails, naming the row's line (`lines` may be empty), for a missing time, falling times, steps over ten
+/// minutes, and holes of more than ten million values in total, `width` values per frame.
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 
@@ -53,8 +54,8 @@ struct MarkerRows {
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
   std::string time_name = "the column Time";  ///< what holds the times
 };
-/// Places markers on frames by their times (FindTimeScale); in a hole, no marker was seen. The remark says what was changed. Fails like
-/// GridOfRows.
+/// Places markers on frames by their times (FindTimeScale); in a hole, no marker was seen. The remark says what was
+/// changed. Fails like GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 
 /// Places the joints of a CSV on frames by their times; without times, by their frame numbers at kJudgedRateHz.

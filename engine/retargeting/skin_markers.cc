@@ -71,7 +71,8 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
 /// Returns the inward direction: blends from `rough`, which is always known, to the normal of the bend, which is the
 /// more reliable the stronger the bend is. A marker that is `depth` beside a straight limb makes it seem bent; this
 /// apparent bend is subtracted.
-glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
+glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign,
+                  double depth) {
   constexpr double kCertain = 1.2, kRange = 0.25;  // of sines
   const double a = std::max(glm::length(upper), 1e-9), b = std::max(glm::length(lower), 1e-9);
   const glm::dvec3 normal = sign * glm::cross(upper, lower);
@@ -97,11 +98,13 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
       const auto width = size((is_left ? "L" : "R") + std::string(joint.size));
       const bool is_offset = joint.left == kLeftShoulder;
       const double radius = 0.5 * size("MARKERDIAMETER").value_or(kUsualMarker);
-      if (width) depths.metres[Index(is_left ? joint.left : Mirrored(joint.left))] = (is_offset ? *width : *width / 2) + radius;
+      if (width)
+        depths.metres[Index(is_left ? joint.left : Mirrored(joint.left))] = (is_offset ? *width : *width / 2) + radius;
       is_of_file = is_of_file && width.has_value();
       for (JointPositions& places : frames) {
         const SideOf side(places, is_left);
-        if (side.Has({joint.left, joint.before})) lengths.push_back(glm::distance(*side[joint.left], *side[joint.before]));
+        if (side.Has({joint.left, joint.before}))
+          lengths.push_back(glm::distance(*side[joint.left], *side[joint.before]));
       }
     }
     const double share = lengths.empty() ? 0 : joint.share * LowerPercentile(std::move(lengths), 0.5);
