@@ -332,7 +332,8 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
         return Fail(lines.At(), "the skeleton has no bone {}", Quote(lines.words.front().text));
       }
       if (clip.frames.empty()) return Fail(lines.At(), "a bone precedes the first frame's number");
-      ASSIGN_OR_RETURN(clip.frames.back()[joint->second], ReadTransform(lines, skeleton, joint->second, in_degrees, read.largest));
+      ASSIGN_OR_RETURN(clip.frames.back()[joint->second],
+                       ReadTransform(lines, skeleton, joint->second, in_degrees, read.largest));
     }
   }
   if (clip.frames.empty()) return Fail({file}, "no frames");

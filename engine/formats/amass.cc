@@ -83,11 +83,12 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   for (const auto& [name, array] : npz.arrays) names.push_back(name);
   for (const std::string& name : npz.skipped) names.push_back(name + " (no plain numbers)");
   if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3) {
-    return Fail({file},
-                "arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans (frames × 3) and "
-                "mocap_framerate or mocap_frame_rate, or of Kimodo with posed_joints and global_rot_mats; use a .npy file "
-                "for positions of joints",
-                names.empty() ? "none" : Join(names));
+    return Fail(
+        {file},
+        "arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans (frames × 3) and "
+        "mocap_framerate or mocap_frame_rate, or of Kimodo with posed_joints and global_rot_mats; use a .npy file "
+        "for positions of joints",
+        names.empty() ? "none" : Join(names));
   }
   // Check frames, rate and values.
   const std::size_t frames = poses->shape[0];
@@ -96,10 +97,11 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
     return Fail({file}, "trans has {} frames; poses has {}", places->shape[0], frames);
   }
   if (!told_hz && (rate == nullptr || rate->values.size() != 1)) {
-    return Fail({file},
-                "arrays {}; allowed: beside them one number, mocap_framerate or mocap_frame_rate, the frames a second, or "
-                "`--rate` (`rate: 60` in a joint map)",
-                Join(names));
+    return Fail(
+        {file},
+        "arrays {}; allowed: beside them one number, mocap_framerate or mocap_frame_rate, the frames a second, or "
+        "`--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
+        Join(names));
   }
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;
   const double rate_hz = told_hz ? *told_hz : rate->values.front();
@@ -120,7 +122,8 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
       const double* turn = &poses->values[t * width + 3 * joint];
       const double angle = glm::length(glm::dvec3(turn[0], turn[1], turn[2]));
       if (angle <= kMaxAngle) continue;
-      return Fail({file}, "poses of frame {} rotates {} by {:.4g} radians; allowed: at most 12.57 (4π); are they degrees?", t,
+      return Fail({file},
+                  "poses of frame {} rotates {} by {:.4g} radians; allowed: at most 12.57 (4π); are they degrees?", t,
                   kSmpl[joint].name, angle);
     }
   }

@@ -392,9 +392,10 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   // If all angles are small numbers, they may be radians that were read as degrees.
   constexpr double kMaxRadians = 6.2832, kMoves = 1.2;
   if (const double largest = LargestRotation(clip.frames); largest > kMoves && largest < kMaxRadians) {
-    remark(fmt::format("no joint rotates by more than {:.2g} degrees: if the file's angles are radians, convert them to "
-                       "degrees, which BVH files have",
-                       largest));
+    remark(
+        fmt::format("no joint rotates by more than {:.2g} degrees: if the file's angles are radians, convert them to "
+                    "degrees, which BVH files have",
+                    largest));
   }
   // A joint with positions and an OFFSET of 0 has no rest position in the file.
   if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {

@@ -130,7 +130,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   }
   read.markers.metres_per_unit = *metres;
   // Frame 1 has time 0.
-  read.markers.start_s = std::max(TrialField(parameters, kStartField).value_or(all.Word(6)) - 1, 0.0) / rate;
+  read.markers.start_s = std::max(0.0, TrialField(parameters, kStartField).value_or(all.Word(6)) - 1) / rate;
   constexpr double kSameRate = 0.01;
   if (const double header_hz = all.Float(20); header_hz > 0 && std::abs(header_hz / rate - 1) > kSameRate) {
     read.markers.remark =

@@ -14,6 +14,8 @@
 namespace etude {
 namespace {
 
+constexpr double kMaxTime = 1e19;  // nanoseconds since 1970
+
 std::string HeadingOf(Role role, int axis) { return fmt::format("{}_{}_m", RoleName(role), "xyz"[axis]); }
 
 /// Returns the rate from the median of the positive time steps; steps of 0 occur if times are printed with few
@@ -32,8 +34,8 @@ Result<void> CheckTimes(const NumberRows& table, std::size_t time_column, const 
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     const double time = table.Row(t)[time_column];
     if (time < last) {
-      return Fail({file, table.lines[t]}, "time {:.6g} s after {:.6g} s; allowed: a clock that does not run backwards",
-                  time, last);
+      return Fail({file, table.lines[t]},
+                  "time {:.13g} s after {:.13g} s; allowed: a clock that does not run backwards", time, last);
     }
     if (!std::isnan(time)) last = time;
   }
@@ -60,7 +62,7 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
     for (int axis = 0; axis < 3; ++axis) known.push_back(HeadingOf(role, axis));
   }
   // Assign each column.
-  JointCsvColumns columns{.count = headings.size()};
+  JointCsvColumns columns{.heading = table.heading, .count = headings.size()};
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const auto found = std::ranges::find(known, headings[i]);
     const auto text = std::ranges::find(table.texts, i, &std::pair<std::size_t, std::string>::first);
@@ -70,6 +72,7 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
     }
     if (text != table.texts.end()) {
       left_out.push_back(headings[i]);
+      columns.texts.push_back(i);
       continue;
     }
     if (found == known.end()) return Fail({file, 1}, "{}", UnknownName("heading", headings[i], known));
@@ -130,7 +133,6 @@ std::string WriteJointCsv(const BodyMotion& motion) {
 }
 
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
-  constexpr double kMaxTime = 1e19;  // large enough for nanoseconds since 1970
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTime, true));
   JointCsv csv;
   std::vector<std::string> left_out;
@@ -157,10 +159,16 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
 }
 
 Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file) {
-  // Parse the row below a dummy heading: otherwise a word in the row's first column would make the row itself a
-  // heading.
-  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file));
+  // Below their heading, values are separated as in the file, and a word in the first column is no heading.
+  ASSIGN_OR_RETURN(const NumberRows table,
+                   ReadNumberRows(columns.heading + "\n" + std::string(row), file, kMaxTime, true));
   RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));
+  for (const auto& [column, text] : table.texts) {
+    if (std::ranges::count(columns.texts, column) > 0) continue;
+    return Fail({file, table.lines.front()}, "value {}: {}; allowed: a number, or nan for a missing one", column + 1,
+                Quote(text));
+  }
+  RETURN_IF_ERROR(CheckPlaces(table.Row(0), columns, {file, table.lines.front()}));
   return RowOf(table.Row(0), columns);
 }
 

@@ -20,10 +20,12 @@ std::string WriteJointCsv(const BodyMotion& motion);
 
 /// The columns of a joint CSV file, found by their headings.
 struct JointCsvColumns {
+  std::string heading;  ///< their line; it also decides what separates the values of a row
   std::size_t count = 0;
   std::optional<std::size_t> time = {}, number = {};
   /// The columns of x, y and z for each joint; nullopt if the file lacks the joint.
   std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount> joints = {};
+  std::vector<std::size_t> texts = {};  ///< the columns of text, which are left out
 };
 
 /// The contents of a joint CSV file. It may lack joints, and a joint may be missing in some frames.
@@ -47,8 +49,7 @@ struct JointCsvRow {
   double time_s = 0;  ///< in the file's own unit and origin; NaN if unknown
   std::array<std::optional<glm::dvec3>, kRoleCount> places = {};
 };
-/// Reads one more row of a file with known columns. Returns an error for anything that `ReadNumberRows` refuses, or if
-/// the number of values differs from the number of columns.
+/// Reads one more row of a file with known columns. Returns an error for anything that `ReadJointCsv` refuses in a row.
 Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file);
 
 }  // namespace etude

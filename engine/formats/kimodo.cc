@@ -16,7 +16,8 @@ using SomaSkeleton = std::vector<SomaJoint>;
 
 /// Adds joints in a chain: the first one is the child of `parent`, each other one the child of the joint before it.
 /// Returns the last one.
-int AddChain(SomaSkeleton& joints, int parent, const std::string& prefix, std::initializer_list<std::string_view> names) {
+int AddChain(SomaSkeleton& joints, int parent, const std::string& prefix,
+             std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
     joints.push_back({prefix + std::string(name), parent});
     parent = static_cast<int>(joints.size()) - 1;

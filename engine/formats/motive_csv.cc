@@ -69,7 +69,8 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   const Place first{file, line, 0};
   const std::string_view unit = ValueBehind(facts, "Length Units"), space = ValueBehind(facts, "Coordinate Space");
   const auto metres = MetresOfUnit(unit);
-  if (!metres) return Fail(first, "Length Units {}; allowed: Meters, Centimeters, Millimeters, Inches, Feet", Quote(unit));
+  if (!metres)
+    return Fail(first, "Length Units {}; allowed: Meters, Centimeters, Millimeters, Inches, Feet", Quote(unit));
   if (!space.empty() && space != "Global") return Fail(first, "Coordinate Space {}; allowed: Global", Quote(space));
   auto rate = ParseFinite(ValueBehind(facts, "Export Frame Rate"));
   if (!rate) rate = ParseFinite(ValueBehind(facts, "Capture Frame Rate"));

@@ -13,6 +13,7 @@ namespace etude {
 namespace {
 
 constexpr double kMaxPosition = 1e9;  // in any unit
+constexpr std::size_t kMaxTextColumns = 100;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool IsRowBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
@@ -40,8 +41,13 @@ std::vector<std::string_view> WordsOf(std::string_view line, char separator) {
     if (by_comma || !word.empty()) words.push_back(word);
     start = i + 1;
   }
-  if (by_comma && !words.empty() && words.back().empty()) words.pop_back();  // a comma at the end: "1,2,3,"
   return words;
+}
+
+/// Removes the empty word behind a separator that ends a line ("1,2,3,"), unless the line has no more words than
+/// `columns`: then its last value is missing.
+void DropEmptyEnd(std::vector<std::string_view>& words, std::size_t columns) {
+  if (words.size() > std::max<std::size_t>(columns, 1) && words.back().empty()) words.pop_back();
 }
 
 bool MeansMissing(std::string_view word) {
@@ -78,15 +84,18 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
   text = WithoutByteOrderMark(text);
   NumberRows table;
   char separator = 0;
+  std::size_t headings = 0;
   for (int line_number = 1; !text.empty(); ++line_number) {
     const char* const line_start = text.data();
     const std::string_view whole = TakeLine(text), line = Trimmed(whole);
     if (IsRemark(line)) continue;
-    const std::vector<std::string_view> words = WordsOf(separator == '\t' ? whole : line, separator);
+    std::vector<std::string_view> words = WordsOf(separator == '\t' ? whole : line, separator);
+    DropEmptyEnd(words, table.columns > 0 ? table.columns : headings);
     // The first line may be a heading.
     if (table.columns == 0 && table.heading.empty() && !NumberOf(words.front())) {
       table.heading = line;
       separator = SeparatorOf(line);
+      headings = HeadingsOf(line).size();
       continue;
     }
     // Every row must have as many numbers as the first.
@@ -103,7 +112,8 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
         table.has_decimal_commas = table.has_decimal_commas || value;
       }
       // A column of texts.
-      if (!value && is_first && allows_texts) table.texts.emplace_back(i, words[i]);
+      const bool may_be_text = is_first && allows_texts && table.texts.size() < kMaxTextColumns;
+      if (!value && may_be_text) table.texts.emplace_back(i, words[i]);
       const auto is_here = [i](const auto& column) { return column.first == i; };
       if (std::ranges::any_of(table.texts, is_here)) value = kMissing;
       if (!value || std::abs(*value) > largest) {
@@ -123,7 +133,9 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
 
 std::vector<std::string> HeadingsOf(std::string_view heading) {
   std::vector<std::string> headings;
-  for (const std::string_view word : WordsOf(heading, SeparatorOf(heading))) {
+  std::vector<std::string_view> words = WordsOf(heading, SeparatorOf(heading));
+  DropEmptyEnd(words, 0);
+  for (const std::string_view word : words) {
     headings.emplace_back(word);
     std::erase_if(headings.back(), [](char c) { return c == ' ' || c == '"'; });
   }

@@ -107,9 +107,9 @@ void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules
   }
 }
 
-/// Returns true if the ground can have thrown the body into the air at frame `from`, i.e. if the acceleration of the mass
-/// centre in the frame before and in `from` needs a force of at most SupportRules::max_push. Also true if fewer than two
-/// frames come before `from`, because the acceleration is then unknown.
+/// Returns true if the ground can have thrown the body into the air at frame `from`, i.e. if the acceleration of the
+/// mass centre in the frame before and in `from` needs a force of at most SupportRules::max_push. Also true if fewer
+/// than two frames come before `from`, because the acceleration is then unknown.
 bool IsThrown(std::span<const BodyPose> poses, int from, double rate_hz, const SupportRules& rules) {
   constexpr double kGravity = 9.81;
   if (from < 2 || from + 1 >= static_cast<int>(poses.size())) return true;

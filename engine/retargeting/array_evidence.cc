@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "engine/base/order_statistics.h"
 #include "engine/motion/raw_motion.h"
@@ -48,7 +49,10 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints) {
     for (const glm::dvec3& place : positions.subspan(begin, joints)) {
       if (IsSeen(place)) distances.push_back(glm::distance(place, middle));
     }
-    const double limit = kTimesUsual * Median(std::move(distances));
+    double limit = kTimesUsual * Median(distances);
+    // If more than a quarter are so far away, they belong to the body: hands of many points may be held together.
+    const auto far = std::ranges::count_if(distances, [&](double distance) { return distance > limit; });
+    if (4 * static_cast<std::size_t>(far) > distances.size()) limit = std::numeric_limits<double>::infinity();
     // Measure the extent of the points that are not too far from the median point.
     glm::dvec3 low(1e300), high(-1e300);
     for (const glm::dvec3& place : positions.subspan(begin, joints)) {

@@ -9,7 +9,8 @@
 namespace etude {
 
 /// Returns the median extent of a frame's joints along an axis, in the file's unit. A NaN is a missing joint. Points
-/// four times as far from the median point as usual, such as a ball or a camera, are ignored.
+/// four times as far from the median point as usual, such as a ball or a camera, are ignored, unless they are more than
+/// a quarter of a frame's points.
 double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints);
 
 /// Returns the unit in which this extent is that of a person, 0.8 to 2.3 m; nullopt if there is none.

@@ -60,7 +60,8 @@ UpSamples SamplesForUp(const Clip& clip, BodySampler& sampler) {
   const auto apart = static_cast<std::size_t>(kInterval_s * clip.rate_hz);
   const std::size_t step = std::max({std::size_t{1}, apart, 1 + clip.frames.size() / kMaxSamples});
   UpSamples samples{.poses = {}, .rate_hz = clip.rate_hz / static_cast<double>(step)};
-  for (std::size_t i = 0; i < clip.frames.size(); i += step) samples.poses.push_back(sampler.At(static_cast<double>(i)));
+  for (std::size_t i = 0; i < clip.frames.size(); i += step)
+    samples.poses.push_back(sampler.At(static_cast<double>(i)));
   return samples;
 }
 

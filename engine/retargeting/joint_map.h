@@ -53,8 +53,8 @@ struct JointMapOverrides;
 /// of the file's names), hips without a common ancestor, a knee that does not descend from its hip and similar errors,
 /// hips that are not on opposite sides of the joint that carries them, and joints of `taught` that do not exist (with
 /// their line in the joint-map file). ToBodyMotion checks on the moving body that left and right are not exchanged.
-Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const JointMapOverrides* taught = nullptr,
-                              std::span<const LocalPose> frames = {});
+Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file,
+                              const JointMapOverrides* taught = nullptr, std::span<const LocalPose> frames = {});
 
 /// The roles found in a skeleton, even if some are missing.
 struct PartialRoles {

@@ -43,9 +43,10 @@ std::vector<std::string> MarkerSetKeys();
 using MarkerColumns = std::map<std::string, std::size_t, std::less<>>;
 
 /// The joints that a body needs.
-inline constexpr std::array kNeededJoints = {Role::kLeftShoulder, Role::kLeftElbow,  Role::kLeftWrist, Role::kRightShoulder,
-                                Role::kRightElbow,   Role::kRightWrist, Role::kLeftHip,   Role::kLeftKnee,
-                                Role::kLeftAnkle,    Role::kRightHip,   Role::kRightKnee, Role::kRightAnkle};
+inline constexpr std::array kNeededJoints = {Role::kLeftShoulder,  Role::kLeftElbow,  Role::kLeftWrist,
+                                             Role::kRightShoulder, Role::kRightElbow, Role::kRightWrist,
+                                             Role::kLeftHip,       Role::kLeftKnee,   Role::kLeftAnkle,
+                                             Role::kRightHip,      Role::kRightKnee,  Role::kRightAnkle};
 
 /// Returns true if a person has all of these markers.
 bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);

@@ -97,11 +97,13 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
       const auto width = size((is_left ? "L" : "R") + std::string(joint.size));
       const bool is_offset = joint.left == kLeftShoulder;
       const double radius = 0.5 * size("MARKERDIAMETER").value_or(kUsualMarker);
-      if (width) depths.metres[Index(is_left ? joint.left : Mirrored(joint.left))] = (is_offset ? *width : *width / 2) + radius;
+      if (width)
+        depths.metres[Index(is_left ? joint.left : Mirrored(joint.left))] = (is_offset ? *width : *width / 2) + radius;
       is_of_file = is_of_file && width.has_value();
       for (JointPositions& places : frames) {
         const SideOf side(places, is_left);
-        if (side.Has({joint.left, joint.before})) lengths.push_back(glm::distance(*side[joint.left], *side[joint.before]));
+        if (side.Has({joint.left, joint.before}))
+          lengths.push_back(glm::distance(*side[joint.left], *side[joint.before]));
       }
     }
     const double share = lengths.empty() ? 0 : joint.share * LowerPercentile(std::move(lengths), 0.5);

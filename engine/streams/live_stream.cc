@@ -17,6 +17,15 @@ bool IsEmptyOrComment(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos || line.starts_with('#') || line.starts_with("//");
 }
 
+/// Returns true if more rows may show that the clock of a CSV counts milliseconds or less: FindTimeScale judges five
+/// steps of more than a second.
+bool MayCountLessThanSeconds(const StreamRecording& recording) {
+  constexpr std::size_t kRows = 6;
+  const std::size_t rows = recording.frames.size();
+  return recording.records_times && rows > 1 && rows < kRows &&
+         recording.frames.back().time_s - recording.frames.front().time_s > static_cast<double>(rows - 1);
+}
+
 bool ShowsTrunk(const RecordedFrame& frame) {
   return frame.places[Index(Role::kHipCentre)] && frame.places[Index(Role::kShoulderCentre)];
 }
@@ -70,6 +79,11 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
                 StreamFormatName(StreamFormat::kKinectV2));
   }
   ASSIGN_OR_RETURN(StreamRecording recording, ReadFormat(*format, first_lines_, name_, reading_));
+  if (*format == StreamFormat::kEtudeCsv) {
+    if (!at_end && MayCountLessThanSeconds(recording)) return {};
+    ASSIGN_OR_RETURN(const JointCsv csv, ReadJointCsv(first_lines_, name_));
+    columns_ = csv.columns;
+  }
   const auto wanted = static_cast<std::ptrdiff_t>(kJudgedRateHz);
   const auto shown = std::ranges::count_if(recording.frames, ShowsTrunk);
   if (!recording.is_level && shown < (at_end ? 1 : wanted / 2)) {
@@ -109,10 +123,6 @@ Result<RecordedFrame> LiveStream::Read(std::string_view line) {
       if (place) *place *= meaning_->metres_per_unit;
     }
     return frame;
-  }
-  if (!columns_) {
-    ASSIGN_OR_RETURN(const JointCsv csv, ReadJointCsv(heading_ + "\n" + std::string(line), name_));
-    columns_ = csv.columns;
   }
   ASSIGN_OR_RETURN(const JointCsvRow row, ReadJointCsvRow(line, *columns_, name_));
   RecordedFrame frame{.places = row.places};

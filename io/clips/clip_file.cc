@@ -169,8 +169,9 @@ Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
-  constexpr std::array kNames = {"BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim", "AMASS",     "C3D",
-                                 "TRC", "CSV",  "NPZ", "NPY", "Motive",    "MOT",     "Motion-BIDS", "recording", "built-in"};
+  constexpr std::array kNames = {"BVH",    "glTF", "GLB",         "FBX",       "DeepMimic", "Acclaim",
+                                 "AMASS",  "C3D",  "TRC",         "CSV",       "NPZ",       "NPY",
+                                 "Motive", "MOT",  "Motion-BIDS", "recording", "built-in"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -229,7 +230,8 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   }
   // Try markers, and recordings of runs.
   if (auto markers = ReadMarkers(bytes, path, options)) return *std::move(markers);
-  if (options.recorded != nullptr && options.recorded->IsRecording(bytes)) return options.recorded->Read(bytes, path, options);
+  if (options.recorded != nullptr && options.recorded->IsRecording(bytes))
+    return options.recorded->Read(bytes, path, options);
   // Try text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
     std::string note = "angles of the model in the file's header";
@@ -277,7 +279,8 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     return Fail(
         scanner.At(first),
         "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
-        "C3D, TRC, joint CSV, Motive's CSV, _motion.tsv of Motion-BIDS, .npy of joints, .mot of ours, DeepMimic's motions",
+        "C3D, TRC, joint CSV, Motive's CSV, _motion.tsv of Motion-BIDS, .npy of joints, .mot of ours, DeepMimic's "
+        "motions",
         DescribeOtherFile(bytes, first.text));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));

@@ -69,8 +69,8 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
-/// Adds the user's edits to the list of changes. `from_hz` is the clip's rate if the clip is resampled here, otherwise the
-/// wanted rate.
+/// Adds the user's edits to the list of changes. `from_hz` is the clip's rate if the clip is resampled here, otherwise
+/// the wanted rate.
 void AddEdits(double from_hz, const ConvertOptions& options, std::vector<std::string>& changes) {
   if (options.trim) changes.emplace_back("trimmed");
   if (std::string said = DescribeResampling(from_hz, options.rate_hz.value_or(from_hz)); !said.empty()) {

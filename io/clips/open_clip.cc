@@ -131,9 +131,10 @@ std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
   const auto second = FindJointMap(others, "");
   if (!second) return "";
   const auto at = std::ranges::find(place, (*second)[Role::kLeftHip].joint) - place.begin();
-  return fmt::format("the file contains a second body, with the left hip {}; the body with {} is used (--map chooses another)",
-                     Quote(skeleton.joints[static_cast<std::size_t>(at)].name),
-                     Quote(skeleton.joints[static_cast<std::size_t>(map[Role::kLeftHip].joint)].name));
+  return fmt::format(
+      "the file contains a second body, with the left hip {}; the body with {} is used (--map chooses another)",
+      Quote(skeleton.joints[static_cast<std::size_t>(at)].name),
+      Quote(skeleton.joints[static_cast<std::size_t>(map[Role::kLeftHip].joint)].name));
 }
 
 /// Opens a clip of our own skeleton, which has one joint for every role; the joint's name is the role's name.

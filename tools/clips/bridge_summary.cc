@@ -172,7 +172,8 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
   text += WaysAsText(loaded, coverage);
   if (coverage.ClipCount() == 1) return text + "It is the only clip: there is no other to lead into.\n";
   text += fmt::format(
-      "From any frame into {} other clip within {} s: {:.0f} % directly, {:.0f} % through an in-between, made of {} key\n"
+      "From any frame into {} other clip within {} s: {:.0f} % directly, {:.0f} % through an in-between, made of {} "
+      "key\n"
       "poses; an in-between takes at most {:.1f} s.\n",
       coverage.HasPairs() ? "any" : "some", wait_s, 100 * (1 - total.in_between_share), 100 * total.in_between_share,
       loaded.library.in_betweens.keys.size(), LongestInBetween(loaded.library.in_betweens.tween, kJudgedRateHz));

@@ -217,8 +217,8 @@ std::string BodyLines(const BodyFacts& body) {
   // The unit or the marker set is printed beside the stature; every other change gets its own line.
   std::string changes;
   for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
-  return Line("body", fmt::format("{:.2f} m tall along its joints; {}; {} up ({})", motion.stature_m, body.changes.front(),
-                                  AxisName(body.up.axis), DescribeEvidence(body.up))) +
+  return Line("body", fmt::format("{:.2f} m tall along its joints; {}; {} up ({})", motion.stature_m,
+                                  body.changes.front(), AxisName(body.up.axis), DescribeEvidence(body.up))) +
          changes +
          Line("motion",
               fmt::format("travels {:.1f} m; fastest joint: median {:.2f}, 95 % {:.2f}, peak {:.2f} m/s ({}); {}",

@@ -355,7 +355,8 @@ class ClipReader {
     const std::string base = given.empty() ? fmt::format("animation_{}", index) : given;
     std::string name = base;
     for (int number = 2; !names_.insert(name).second; ++number) name = fmt::format("{}_{}", base, number);
-    if (name != base) remarks_.push_back(fmt::format("another animation is called {}, too: it is {} here", base, name));
+    if (name != base)
+      remarks_.push_back(fmt::format("another animation is called {}, too: it is {} here", Quote(base), Quote(name)));
     return name;
   }
 

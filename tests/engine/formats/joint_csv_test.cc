@@ -1,7 +1,10 @@
 #include "engine/formats/joint_csv.h"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -55,6 +58,28 @@ TEST(JointCsv, TakesFewerJointsInAnyOrderAndMissingPlaces) {
   EXPECT_FALSE(read->frames[1][Index(Role::kHead)]);
   EXPECT_FALSE(read->frames[2][Index(Role::kHead)]);
   EXPECT_FALSE(read->frames[0][Index(Role::kSpine)]);
+  // A last value may be missing, too; a separator behind all values ends the line.
+  for (const char* separator : {",", ";", "\t"}) {
+    std::string text = "head_x_m,head_y_m,head_z_m\n1,2,\n1,2,3\n1,2,3,\n";
+    std::ranges::replace(text, ',', *separator);
+    ASSERT_OK(ends, ReadJointCsv(text, "m.csv"));
+    EXPECT_FALSE(ends->frames[0][Index(Role::kHead)]);
+    EXPECT_EQ(ends->frames[1][Index(Role::kHead)], glm::dvec3(1, 2, 3));
+    EXPECT_EQ(ends->frames[2][Index(Role::kHead)], glm::dvec3(1, 2, 3));
+  }
+}
+
+TEST(JointCsv, RowsAreReadOneByOneAsInTheFile) {
+  const std::string heads = "time_s;head_x_m;head_y_m;head_z_m;label\n";
+  const JointCsvColumns columns = ReadJointCsv(heads + "0;1;2;3;walk\n", "m.csv")->columns;
+  ASSERT_OK(row, ReadJointCsvRow("1600000000,5;1,5;2;3;", columns, "m.csv"));
+  EXPECT_EQ(row->time_s, 1600000000.5);
+  EXPECT_EQ(row->places[Index(Role::kHead)], glm::dvec3(1.5, 2, 3));
+  EXPECT_TRUE(ReadJointCsvRow("1;1;2;3;run", columns, "m.csv")) << "the control";
+  EXPECT_EQ(testing::Refusal(ReadJointCsvRow("1;1;far;3;run", columns, "m.csv")),
+            "m.csv:2: value 3: 'far'; allowed: a number, or nan for a missing one");
+  EXPECT_EQ(testing::Refusal(ReadJointCsvRow("1;2e9;2;3;run", columns, "m.csv")),
+            "m.csv:2: value 2: 2000000000; allowed: a number within ±1e+09, or nan for a missing one");
 }
 
 TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
@@ -79,6 +104,17 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
             "semicolons or tabs");
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n1,far,2\n"),
             "m.csv:2: head_y_m: 'far'; allowed: a number, or nan for a missing one");
+  // A hundred columns of texts are left out; more are no table of ours.
+  const auto texts = [&](int count) {
+    std::string text = "head_x_m,head_y_m,head_z_m", row = "\n1,2,3";
+    for (int i = 0; i < count; ++i) {
+      text += fmt::format(",note_{}", i);
+      row += ",x";
+    }
+    return read(text + row + "\n");
+  };
+  EXPECT_EQ(texts(100), "accepted");
+  EXPECT_THAT(texts(101), ::testing::HasSubstr("value 104: 'x'"));
   EXPECT_NE(read("head_x_m,head_y_m,head_z_m\n1,2e9,2\n").find("within ±1e+09"), std::string::npos);
 }
 

@@ -10,6 +10,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
+#include "engine/retargeting/array_evidence.h"
 #include "engine/retargeting/joint_arrays.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
@@ -370,6 +371,11 @@ TEST(BodyNpz, IsMeasuredWithoutABallAndLeftInNoUnitThatMakesItTiny) {
   ASSERT_OK(raw, ReadRawNpz(arrays, "a.npz"));
   EXPECT_THAT(raw->notes, ::testing::IsEmpty());
   EXPECT_EQ(raw->At(0, kRoleCount), glm::dvec3(5, 0.1, 5));
+  // Two hands of 42 points together do not make head and feet strays.
+  std::vector<glm::dvec3> hands;
+  for (int i = 0; i < 42; ++i) hands.emplace_back(0.001 * i, 1, 0.3);
+  for (int i = 0; i < 28; ++i) hands.emplace_back(0, 1.7 * i / 27, 0);
+  EXPECT_NEAR(SpreadOf(hands, hands.size()), 1.7, 1e-12);
 }
 
 TEST(BodyNpz, OnItsHandsStaysAHandstandAndAFootAlwaysAtZeroIsNotSeen) {

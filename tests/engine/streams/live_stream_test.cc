@@ -1,6 +1,10 @@
 #include "engine/streams/live_stream.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <sstream>
+#include <utility>
 
 #include "engine/formats/joint_csv.h"
 #include "tests/engine/streams/small_files.h"
@@ -59,6 +63,26 @@ TEST(LiveStream, HearsWhatARecordingSays) {
   // Of a Kinect the level is estimated: by a trunk that stands still, from any part alike.
   ExpectAsRecorded(KinectV1Text(WavingMotion(90), "2"));
   ExpectAsRecorded(WithClock(KinectV1Text(WavingMotion(90), "1", 0.1), 44155936, 1e6 / 30));
+}
+
+TEST(LiveStream, TakesTheClocksTextsAndCommasOfTables) {
+  for (const auto& [start, per_second] : {std::pair(0.0, 1e3), {1.6e9, 1.0}, {1.6e9, 1e3}}) {
+    std::string csv, marked, line;
+    std::istringstream text(WriteJointCsv(WavingMotion(40)));
+    for (int k = -1; std::getline(text, line); ++k) {
+      const std::size_t first = line.find(','), second = line.find(',', first + 1);
+      const std::string time = fmt::format("{:.3f}", (start + k / 30.0) * per_second);
+      line = k < 0 ? line : line.substr(0, first + 1) + time + line.substr(second);
+      csv += line + "\n";
+      // The same between semicolons, with decimal commas and a text that is missing in some rows.
+      line += k < 0 ? ",label" : k % 3 > 0 ? "," : ",walk";
+      for (char& c : line) c = c == ',' ? ';' : c == '.' ? ',' : c;
+      marked += line + "\n";
+    }
+    ExpectAsRecorded(csv);
+    ExpectAsRecorded(marked);
+    EXPECT_EQ(Listen(marked).frames.size(), 40u);
+  }
 }
 
 TEST(LiveStream, ASensorUpsideDownIsTurnedBackAndSaid) {
