@@ -96,9 +96,9 @@ void Print(const Preferences& found) {
                InPerCent(metric.interval), metric.decided);
   }
   fmt::print(
-      "Agrees: of the pairs in which most raters prefer one side and the metric's values differ, those in which both "
-      "prefer the same side; interval over pairs (Wilson). A coin agrees in 50 %. The best of {} metrics looks better "
-      "here than it will on other films.\n",
+      "Agrees: of the pairs in which more raters prefer one side than the other and the metric's values differ, those "
+      "in which both prefer the same side; interval over pairs (Wilson). A coin agrees in 50 %. The best of {} metrics "
+      "looks better here than it will on other films.\n",
       found.metrics.size());
   for (const OneSidedRater& rater : found.one_sided) {
     fmt::print(stderr,

@@ -1,9 +1,11 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <span>
 
 #include "bench/results/folder.h"
 #include "cli/arguments.h"
@@ -11,6 +13,7 @@
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/machine.h"
+#include "engine/base/names.h"
 #include "io/drawing/numbers.h"
 #include "io/files/files.h"
 #include "reports/blind_page.h"
@@ -43,10 +46,28 @@ Result<int> ReportCommand(const std::string& folder, const std::vector<std::stri
   return code;
 }
 
+/// Fails if the run has no such method, or if a method is named twice.
+Result<void> CheckBlindMethods(const RunData& run, std::span<const std::string> methods) {
+  std::vector<std::string> known;
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    if (scenario.task == "transition") known.insert(known.end(), scenario.methods.begin(), scenario.methods.end());
+  }
+  std::ranges::sort(known);
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  for (auto name = methods.begin(); name != methods.end(); ++name) {
+    if (!std::ranges::binary_search(known, *name)) return Fail({"--blind"}, "{}", UnknownName("method", *name, known));
+    if (std::find(methods.begin(), name, *name) != name) {
+      return Fail({"--blind"}, "method '{}' is named twice; allowed: each method once", *name);
+    }
+  }
+  return {};
+}
+
 Result<int> BlindPageCommand(const std::string& folder, BlindOptions options, Sealing sealing, int jobs) {
   ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
   TellUnsealed(run.unsealed);
   RETURN_IF_ERROR(CheckRowsAgainstSummary(folder, run));
+  RETURN_IF_ERROR(CheckBlindMethods(run, options.methods));
   const Interrupt interrupt;
   options.watch = WatchFilms(interrupt, jobs);
   auto trial = MakeBlindTrial(run, options);

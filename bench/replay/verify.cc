@@ -33,13 +33,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Computes the summary of a run from its rows.
+/// Computes the summary of a run from its rows. The rows are read once, not once for each scenario.
 Result<Json> SummaryOf(const FinishedRun& run, int jobs) {
+  std::vector<ScenarioTable> tables;
+  for (const FinishedScenario& scenario : run.scenarios) tables.emplace_back(scenario.study);
+  ForEachRow(run.data, [&](const Row& row, std::size_t) {
+    for (ScenarioTable& table : tables) table.Add(row);
+  });
   std::vector<ScenarioSummary> summaries;
-  for (const FinishedScenario& scenario : run.scenarios) {
-    ScenarioTable table(scenario.study);
-    ForEachRow(run.data, [&](const Row& row, std::size_t) { table.Add(row); });
-    ASSIGN_OR_RETURN(auto summary, SumUp(scenario.study, table, scenario.seed, jobs));
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const FinishedScenario& scenario = run.scenarios[i];
+    ASSIGN_OR_RETURN(auto summary, SumUp(scenario.study, tables[i], scenario.seed, jobs));
     summaries.push_back(std::move(summary));
   }
   return EncodeSummaries(summaries);

@@ -75,6 +75,9 @@ double NormalTail(const std::vector<int>& ranks, double w) {
 constexpr std::size_t kMaxEnumerated = 16;
 constexpr int kDraws = 9999;
 
+/// The share of the largest difference that counts as rounding.
+constexpr double kRounding = 1e-12;
+
 /// The signs of the differences, one bit each: 1 = negative.
 using Signs = std::vector<std::uint64_t>;
 
@@ -204,10 +207,13 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   const double largest = sizes.back();
   // If all differences have the same sign, only two sign vectors, all plus and all minus, give a mean as far from zero.
   // Drawn sign vectors could not show how small this p is, so it would not pass Holm's correction among many
-  // comparisons.
-  constexpr std::size_t kMaxExponent = 1000;
-  if (aggregate == Aggregate::kMean && (negatives == 0 || negatives == differing) && differing <= kMaxExponent) {
-    return {SmallestP(static_cast<int>(differing)), "exact"};
+  // comparisons. Differences within rounding do not move the mean, so their signs do not count.
+  const double rounding = kRounding * largest;
+  const auto real = std::ranges::find_if(ordered, [&](double d) { return std::abs(d) > rounding; });
+  const auto below = std::count_if(real, ordered.end(), [](double d) { return d < 0; }), count = ordered.end() - real;
+  constexpr std::ptrdiff_t kMaxExponent = 1000;
+  if (aggregate == Aggregate::kMean && (below == 0 || below == count) && count <= kMaxExponent) {
+    return {SmallestP(static_cast<int>(count)), "exact"};
   }
   if (aggregate == Aggregate::kMean && sizes[zeros] == largest) {
     const auto more = static_cast<int>(std::max(negatives, differing - negatives));
@@ -217,7 +223,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   if (static_cast<int>(differing) > kMaxResampled) return ManyFlips(sizes, observed, aggregate);
   const FlippedSample sample(std::move(sizes), aggregate);
   // Allow a small tolerance, because sums that are equal in exact arithmetic may differ by rounding.
-  const double reached = std::abs(sample.AggregateUnder(observed)) - 1e-12 * largest;
+  const double reached = std::abs(sample.AggregateUnder(observed)) - rounding;
   Signs signs(sample.words());
   if (differing <= kMaxEnumerated) {
     // If few differences are non-zero, enumerate all sign vectors. A vector and its negative give aggregates equally

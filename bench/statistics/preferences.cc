@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <span>
@@ -197,7 +198,7 @@ Preferences MeasurePreferences(const BlindFiles& files, std::uint64_t seed) {
     if (metric.decided > 0) metric.interval = WilsonInterval(metric.agreed, metric.decided);
   }
   std::ranges::stable_sort(found.metrics, [](const MetricAgreement& a, const MetricAgreement& b) {
-    return a.agreed * std::max(b.decided, 1) > b.agreed * std::max(a.decided, 1);
+    return std::int64_t{a.agreed} * std::max(b.decided, 1) > std::int64_t{b.agreed} * std::max(a.decided, 1);
   });
   return found;
 }

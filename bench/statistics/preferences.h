@@ -26,8 +26,8 @@ struct PreferredMethod {
   std::optional<Interval> interval;  ///< over raters; nothing below kMinSample raters
 };
 
-/// How often a metric's better film of a pair is the one that most raters prefer. A pair counts if most raters prefer
-/// one side and the metric's two values differ.
+/// How often a metric's better film of a pair is the one that more raters prefer. A pair counts if one side has more
+/// votes than the other (answers "no difference" are no votes) and the metric's two values differ.
 struct MetricAgreement {
   std::string metric;
   int agreed = 0, decided = 0;

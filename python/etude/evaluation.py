@@ -78,11 +78,12 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
 
 
 def _free_folder(overwrite):
-    """Returns the first of out/evaluate-1, … that holds no run; with overwrite, the first."""
-    numbers = itertools.count(1)
-    while (folder := pathlib.Path(f"out/evaluate-{next(numbers)}")).exists() and not overwrite:
-        pass
-    return folder
+    """Returns the first of out/evaluate-1, … that holds neither a run nor arrays, which a call that failed leaves; with
+    overwrite, the first."""
+    for number in itertools.count(1):
+        folder = pathlib.Path(f"out/evaluate-{number}")
+        if overwrite or not (folder.exists() or pathlib.Path(f"{folder}.motions").exists()):
+            return folder
 
 
 def _npz(positions, names, rate_hz, said, title):

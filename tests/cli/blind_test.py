@@ -77,9 +77,16 @@ class Blind(EtudeCase):
             self.assertIn(words, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
 
-    def test_methods_without_recordings_are_refused(self):
-        done = self.ends(2, "report", self.run_folder, "--blind", "abrupt-one", "nobody")
-        self.assertIn("no world kept transitions of two of abrupt-one, nobody", done.stderr)
+    def test_methods_that_cannot_be_compared_are_refused(self):
+        for methods, words in [(["abrupt-one", "faded-one", "fadedone"], "unknown method 'fadedone'; did you mean 'faded-one'?"),
+                               (["abrupt-one", "faded-one", "abrupt-one"], "'abrupt-one' is named twice; allowed: each")]:
+            self.refusal("report", self.run_folder, "--blind", *methods, says=["--blind", words])
+
+    def test_a_run_without_recordings_is_refused(self):
+        bare = self.folder / "bare"
+        self.ends(0, "run", self.write("bare.yaml", SCENARIO.rsplit("video", 1)[0]), "-o", bare)
+        self.refusal("report", bare, "--blind", "abrupt-one", "faded-one",
+                     says="no world kept transitions of two of abrupt-one, faded-one")
 
     @unittest.skipUnless(CHROMIUM, "without chromium")
     def test_a_rater_watches_answers_by_keyboard_and_saves_a_file_that_is_read(self):
@@ -88,6 +95,10 @@ class Blind(EtudeCase):
             page.open(self.page)
             self.assertTrue(page.ask("[...document.querySelectorAll('[data-answer]')].every((b) => b.disabled)"))
             page.press("ArrowLeft")  # nothing is answered before the film was seen
+            self.assertEqual(page.ask("document.getElementById('place').textContent"), "Pair 1 of 2")
+            page.ask("document.querySelector('.pair:not([hidden]) video').dispatchEvent(new Event('ended'))")
+            for held in "repeat", "altKey", "ctrlKey", "metaKey":
+                page.ask(f"document.dispatchEvent(new KeyboardEvent('keydown', {{key: 'ArrowLeft', {held}: true}}))")
             self.assertEqual(page.ask("document.getElementById('place').textContent"), "Pair 1 of 2")
             for key in ["ArrowLeft", "ArrowDown"]:
                 page.ask("document.querySelector('.pair:not([hidden]) video').dispatchEvent(new Event('ended'))")

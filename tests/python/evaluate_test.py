@@ -54,6 +54,12 @@ class Evaluate(PythonCase):
                 continue
             shutil.rmtree(self.folder / "out" / "evaluate-2")
             shutil.rmtree(self.folder / "out" / "evaluate-2.motions")
+        # A call that failed leaves arrays without a run.
+        given = {"truth": standing(9), "mine": standing(9), "names": NAMES, "rate_hz": 30, "progress": False}
+        with self.assertRaises(etude.EtudeError):
+            etude.evaluate(**given, joints="nobody")
+        etude.evaluate(**given)
+        self.assertTrue((self.folder / "out" / "evaluate-3" / "cells.jsonl").exists())
 
     def test_joints_of_any_names_are_judged_by_name(self):
         names = [f"Gelenk {i} ü" for i in range(len(NAMES))]

@@ -270,8 +270,12 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   matched.pair.truth = Columns(truth, of_truth, frames);
   const ClockOffset clock = OffsetOf(truth, answer);
   if (lag == Lag::kFind) {
-    const RawMotion shifted = Sampled(answer, answer.rate_hz, -clock.seconds, answer.FrameCount());
-    const PointTracks found = Columns(shifted, of_answer, answer.FrameCount());
+    // Move the answer to the truth's clock. Frames before its beginning are added, so that its end is kept.
+    const std::size_t count =
+        answer.FrameCount() + static_cast<std::size_t>(std::ceil(std::max(clock.seconds, 0.0) * answer.rate_hz));
+    RawMotion moved;
+    if (clock.seconds != 0) moved = Sampled(answer, answer.rate_hz, -clock.seconds, count);
+    const PointTracks found = Columns(clock.seconds != 0 ? moved : answer, of_answer, count);
     matched.lag = FindTimeShift(matched.pair.truth, rate_hz, found, answer.rate_hz);
     if (!matched.lag) {
       return Fail({answer.name},

@@ -304,6 +304,13 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   const auto found = Match(dancing, late, "roles", Lag::kFind);
   ASSERT_TRUE(found) << ToString(found.error());
   EXPECT_NEAR(found->lag->shift_s, 0.1, 0.005);
+  // So it is if the answer is the last three seconds of a long truth.
+  RawMotion whole = begins(10, 600), part = begins(27, 90);
+  for (std::size_t f = 0; f < 600; ++f) whole.positions[f * joints + hand].y += wave(static_cast<double>(f) / 30);
+  for (std::size_t f = 0; f < 90; ++f) part.positions[f * joints + hand].y += wave(static_cast<double>(f) / 30 + 16.9);
+  const auto of_part = Match(whole, part, "roles", Lag::kFind);
+  ASSERT_TRUE(of_part) << ToString(of_part.error());
+  EXPECT_NEAR(of_part->lag->shift_s, 0.1, 0.005);
 }
 
 TEST(JudgeMotion, ReportsEveryMetricOfTheTask) {
