@@ -37,8 +37,8 @@ Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::st
 /// Reads an AMC file for a skeleton of ReadAcclaimSkeleton. The file has no frame rate; 120 Hz is assumed, the rate of
 /// CMU's recordings. Angles have the unit that the file states, otherwise the skeleton's unit. Angles beyond 4π radians
 /// are read as degrees. This, and degrees that may be radians, are appended to `remarks` (may be null). Returns an
-/// error for bones that the skeleton lacks, a wrong number of values, frames that are not numbered consecutively, or no
-/// frames.
+/// error for bones that the skeleton lacks, a wrong number of values, frames that are not numbered consecutively, no
+/// frames, or frames of more than 1 GB.
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
                                std::vector<std::string>* remarks = nullptr);
 

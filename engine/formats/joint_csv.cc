@@ -14,7 +14,8 @@
 namespace etude {
 namespace {
 
-constexpr double kMaxTime = 1e19;  // nanoseconds since 1970
+constexpr std::size_t kMaxRows = 1'000'000;  // nine hours at 30 Hz
+constexpr double kMaxTime = 1e19;            // nanoseconds since 1970
 
 std::string HeadingOf(Role role, int axis) { return fmt::format("{}_{}_m", RoleName(role), "xyz"[axis]); }
 
@@ -132,6 +133,7 @@ std::string WriteJointCsv(const BodyMotion& motion) {
 
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTime, true));
+  if (table.RowCount() > kMaxRows) return Fail({file}, "{} rows; allowed: {}", table.RowCount(), kMaxRows);
   JointCsv csv;
   std::vector<std::string> left_out;
   ASSIGN_OR_RETURN(csv.columns, FindColumns(table, file, left_out));

@@ -37,7 +37,7 @@ struct MarkerRows;
 /// Reads a TRC file in m, cm, mm, in or ft (`Units`), without changing its axes. A marker counts as not seen if a cell
 /// is empty, "nan" or beyond ±10⁶ m. The rows are placed on frames (`LayOnClock`) by the times in the column Time, else
 /// in Frame#, as in OpenSim; the remark says what was changed. Returns an error with the line if there is no header,
-/// the number of frames or columns is wrong, a cell is not a number, or there are more than 1,000 markers or 64 MiB;
+/// the number of frames or columns is wrong, a cell is not a number, or there are more than 1,000 markers, 64 MiB or 1 GB of frames;
 /// also returns the errors of GridOfRows.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
 /// Reads a TRC file like ReadTrc, but keeps the rows as they are in the file, without placing them on frames.
