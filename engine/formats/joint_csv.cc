@@ -153,7 +153,12 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   std::vector<std::string> said;
   if (!csv.scale.remark.empty()) said.push_back(csv.scale.remark);
   if (table.has_decimal_commas) said.emplace_back("its numbers have decimal commas");
-  if (!left_out.empty()) said.push_back("columns of texts are left out: " + Join(left_out));
+  if (!left_out.empty()) {
+    constexpr std::size_t kListed = 8;
+    const bool has_more = left_out.size() > kListed;
+    left_out.resize(std::min(left_out.size(), kListed));
+    said.push_back("columns of texts are left out: " + Join(left_out) + (has_more ? ", …" : ""));
+  }
   csv.remark = Join(said, "; ");
   return csv;
 }
