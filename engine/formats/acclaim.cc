@@ -325,6 +325,14 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
         return Fail(lines.At(), "frame {} after frame {}; allowed: the next one", number, last);
       }
       last = number;
+      // A frame may leave out bones, so that it is far larger in memory than in the file.
+      constexpr double kMaxFrameBytes = 1e9;
+      const double bytes = static_cast<double>(clip.frames.size() + 1) *
+                           static_cast<double>(clip.skeleton.joints.size() * sizeof(LocalTransform));
+      if (bytes > kMaxFrameBytes) {
+        return Fail(lines.At(), "{} frames of {} joints take {:.0f} MB; allowed: {:.0f} MB", clip.frames.size() + 1,
+                    clip.skeleton.joints.size(), bytes / 1e6, kMaxFrameBytes / 1e6);
+      }
       clip.frames.push_back(RestPose(clip.skeleton));
     } else {
       const auto joint = joint_of.find(lines.words.front().text);

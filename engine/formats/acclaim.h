@@ -39,7 +39,7 @@ Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::st
 /// CMU's recordings. Angles have the unit that the file states, otherwise the skeleton's unit. Angles beyond 4π radians
 /// are read as degrees. `remarks` (may be null) receives a sentence if this happens, and if angles that are read as
 /// degrees may be radians. Returns an error for bones that the skeleton lacks, a wrong number of values, frames that
-/// are not numbered consecutively, or no frames.
+/// are not numbered consecutively, no frames, or frames of more than 1 GB.
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
                                std::vector<std::string>* remarks = nullptr);
 

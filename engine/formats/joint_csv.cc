@@ -14,7 +14,8 @@
 namespace etude {
 namespace {
 
-constexpr double kMaxTime = 1e19;  // nanoseconds since 1970
+constexpr std::size_t kMaxRows = 1'000'000;  // nine hours at 30 Hz
+constexpr double kMaxTime = 1e19;            // nanoseconds since 1970
 
 std::string HeadingOf(Role role, int axis) { return fmt::format("{}_{}_m", RoleName(role), "xyz"[axis]); }
 
@@ -134,6 +135,7 @@ std::string WriteJointCsv(const BodyMotion& motion) {
 
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTime, true));
+  if (table.RowCount() > kMaxRows) return Fail({file}, "{} rows; allowed: {}", table.RowCount(), kMaxRows);
   JointCsv csv;
   std::vector<std::string> left_out;
   ASSIGN_OR_RETURN(csv.columns, FindColumns(table, file, left_out));
@@ -153,7 +155,12 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   std::vector<std::string> said;
   if (!csv.scale.remark.empty()) said.push_back(csv.scale.remark);
   if (table.has_decimal_commas) said.emplace_back("its numbers have decimal commas");
-  if (!left_out.empty()) said.push_back("columns of texts are left out: " + Join(left_out));
+  if (!left_out.empty()) {
+    constexpr std::size_t kListed = 8;
+    const bool has_more = left_out.size() > kListed;
+    left_out.resize(std::min(left_out.size(), kListed));
+    said.push_back("columns of texts are left out: " + Join(left_out) + (has_more ? ", …" : ""));
+  }
   csv.remark = Join(said, "; ");
   return csv;
 }

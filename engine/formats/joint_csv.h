@@ -41,7 +41,7 @@ struct JointCsv {
 };
 /// Reads a file of `WriteJointCsv`, or any file with some of its columns in any order. Returns an error with the line
 /// for anything that `ReadNumberRows` refuses, unknown headings over numbers, a joint without all three coordinates,
-/// positions beyond ±10⁹, and decreasing times. Other columns of text are left out.
+/// positions beyond ±10⁹, decreasing times, and more than a million rows. Other columns of text are left out.
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file);
 
 /// One row of a joint CSV file.

@@ -237,7 +237,7 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
                                           rows.rate_name, *told, rows.time_name, grid->rate_hz));
   }
   markers.rate_hz = grid->rate_hz;
-  if (rows.has_clock) markers.start_s = rows.times_s[grid->frames.front().row];
+  if (rows.has_clock) markers.start_s = scale.first * scale.seconds + rows.times_s[grid->frames.front().row];
   AddRemark(markers.remark, grid->remark);
   if (grid->is_even) return std::move(markers);
   // Interpolate each marker that both rows show. Some programs write zeros for a gap, so zeros are only interpolated
@@ -265,7 +265,9 @@ Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file) {
   for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
   rows.has_clock = csv.rate_hz.has_value();
   if (!rows.has_clock) rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
-  return LayOnClock(std::move(rows), file);
+  ASSIGN_OR_RETURN(auto laid, LayOnClock(std::move(rows), file));
+  if (laid.start_s) *laid.start_s += csv.scale.first * csv.scale.seconds;
+  return laid;
 }
 
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "engine/base/names.h"
 #include "engine/base/text.h"
 #include "engine/formats/length_units.h"
 #include "engine/formats/row_clock.h"
@@ -108,7 +109,7 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
       const std::size_t at = 2 + 3 * marker + axis;
       const std::string_view cell = at < cells.size() ? cells[at] : std::string_view{};
       const auto value = NumberIn(cell);
-      if (!cell.empty() && !value) return Fail(place, "'{}' is not a number", cell);
+      if (!cell.empty() && !value) return Fail(place, "{} is not a number", Quote(cell));
       constexpr double kMaxCoordinate = 1e9;  // in millimetres, the unit of written files
       is_seen =
           is_seen && value && std::abs(*value) * (kMillimetres * header.metres) <= kMaxCoordinate;  // false for "nan"
@@ -165,6 +166,14 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   }
   TakeLine(text, line);  // skip the line X1 Y1 Z1 …
   if (text.find(',') != std::string_view::npos) motion.remark = "its numbers have decimal commas";
+  // Check the size before any frame is stored: a row may leave out the cells of its last markers.
+  constexpr double kMaxFrameBytes = 1e9;
+  const auto line_ends = static_cast<double>(std::ranges::count(text, '\n'));
+  const double bytes = line_ends * static_cast<double>(header.markers * sizeof(std::optional<glm::dvec3>));
+  if (bytes > kMaxFrameBytes) {
+    return Fail({file, line, 0}, "{} rows of {} markers take {:.0f} MB; allowed: {:.0f} MB", line_ends, header.markers,
+                bytes / 1e6, kMaxFrameBytes / 1e6);
+  }
   // Read the frames, their numbers and their times.
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> numbers;

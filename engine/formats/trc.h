@@ -38,7 +38,7 @@ struct MarkerRows;
 /// is empty, "nan" or beyond ±10⁶ m. The rows are placed on frames (`LayOnClock`) by the times in the column Time or,
 /// if it is empty, by the numbers in Frame#, as in OpenSim; the remark says what was changed. Returns an error with the
 /// line if there is no header, the number of frames or columns is wrong, a cell is not a number, or there are more than
-/// 1,000 markers or 64 MiB; also returns the errors of GridOfRows.
+/// 1,000 markers, 64 MiB of text or 1 GB of frames; also returns the errors of GridOfRows.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
 /// Reads a TRC file like ReadTrc, but keeps the rows as they are in the file, without placing them on frames.
 Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file);

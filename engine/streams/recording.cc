@@ -242,7 +242,9 @@ Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& 
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, markers.rate_hz, markers.names.size(), file));
   StreamRecording recording{.format = StreamFormat::kTrc, .records_times = true, .is_level = true};
   recording.rate_hz = grid ? grid->rate_hz : markers.rate_hz;
-  if (!scale.remark.empty()) recording.remarks.push_back(scale.remark);
+  for (const std::string& remark : {markers.remark, scale.remark}) {
+    if (!remark.empty()) recording.remarks.push_back(remark);
+  }
   const bool is_even = !grid || grid->is_even;
   for (std::size_t t = 0; t < markers.frames.size(); ++t) {
     RecordedFrame& frame = recording.frames.emplace_back();

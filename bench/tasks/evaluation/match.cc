@@ -190,7 +190,9 @@ ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   const double frames = (answer_s - truth_s) * truth.rate_hz;
   if (std::abs(frames) < kSame) return {};
   const auto told = [](const RawMotion& motion) {
-    return motion.start_s ? fmt::format("begins at {:.6g} s", *motion.start_s) : std::string("states no clock");
+    // To the millisecond, also of times since 1970.
+    return motion.start_s ? fmt::format("begins at {:.13g} s", std::round(1000 * *motion.start_s) / 1000)
+                          : std::string("states no clock");
   };
   const std::string both = fmt::format("the truth {}, the answer {}", told(truth), told(answer));
   const auto end_of = [](const RawMotion& motion, double start_s) {

@@ -126,7 +126,10 @@ TEST(RowClock, TimesSince1970AndInSmallerUnitsCountFromTheFirstRow) {
     EXPECT_EQ(laid->frames.size(), 90u);
     EXPECT_THAT(laid->remark, HasSubstr("its times begin at 1600000000 s: they are counted from its first row"));
     EXPECT_THAT(laid->remark, HasSubstr(unit));
+    EXPECT_NEAR(laid->start_s.value_or(0), 1.6e9, 1e-3) << "the file's own clock";
   }
+  ASSERT_OK(csv, ReadJointCsv("time_s,head_x_m,head_y_m,head_z_m\n1600000000.5,1,2,3\n1600000000.75,1,2,3\n", "a"));
+  EXPECT_EQ(LayOnClock(*csv, "a")->start_s, 1600000000.5);
 }
 
 TEST(RowClock, ARowAtAWrongTimeChangesNoRate) {

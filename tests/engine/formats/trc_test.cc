@@ -90,6 +90,16 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
   EXPECT_EQ(brief->remark, "");
 }
 
+TEST(ReadTrc, RefusesShortRowsOfMoreMarkersThanFitIntoMemory) {
+  std::string text = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tNumFrames\tNumMarkers\tUnits\n50\t40000\t1000\tm\n";
+  text += "Frame#\tTime";
+  for (int i = 0; i < 1000; ++i) text += fmt::format("\tM{}\t\t", i);
+  text += "\n\n";
+  for (int t = 0; t < 40'000; ++t) text += "1\t0\n";
+  EXPECT_EQ(testing::Refusal(ReadTrc(text, "a.trc")),
+            "a.trc:5: 40000 rows of 1000 markers take 1280 MB; allowed: 1000 MB");
+}
+
 TEST(ReadTrc, TakesTimesInMillisecondsWhereOnlyTheyAgreeWithDataRate) {
   ASSERT_OK(read, ReadTrc(AtFiftyHertz(50, 60, 0.001), "a.trc"));
   EXPECT_EQ(read->rate_hz, 50);

@@ -121,6 +121,11 @@ TEST(Streams, TablesMayCountMillisecondsOrSince1970) {
     EXPECT_LT(FurthestFrom(motion, read), 0.01);
     EXPECT_EQ(ReadStreamRecording(csv, "s")->remarks.size(), 1u);
   }
+  // TRC with decimal commas.
+  std::string trc = WriteTrc(motion, "a");
+  std::replace(trc.begin() + static_cast<std::ptrdiff_t>(trc.find("\n1\t")), trc.end(), '.', ',');
+  EXPECT_LT(FurthestFrom(motion, Made(trc).stream), 1e-5);
+  EXPECT_EQ(ReadStreamRecording(trc, "s")->remarks, std::vector<std::string>{"its numbers have decimal commas"});
 }
 
 TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
