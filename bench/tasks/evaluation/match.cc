@@ -190,7 +190,10 @@ ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   const double frames = (answer_s - truth_s) * truth.rate_hz;
   if (std::abs(frames) < kSame) return {};
   const auto told = [](const RawMotion& motion) {
-    return motion.start_s ? fmt::format("begins at {:.6g} s", *motion.start_s) : std::string("states no clock");
+    constexpr double kLong_s = 1e5;  // six digits would hide the fractions of clocks that count from 1970
+    if (!motion.start_s) return std::string("states no clock");
+    return *motion.start_s < kLong_s ? fmt::format("begins at {:.6g} s", *motion.start_s)
+                                     : fmt::format("begins at {:.3f} s", *motion.start_s);
   };
   const std::string both = fmt::format("the truth {}, the answer {}", told(truth), told(answer));
   const auto end_of = [](const RawMotion& motion, double start_s) {
