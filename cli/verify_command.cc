@@ -112,8 +112,8 @@ Json FactsOf(const CellChoice& choice) {
           {"missed", std::move(missed)}};
 }
 
-/// Adds the checks of the report and of the files that a gate left in its folder, if they exist. Only a report needs all
-/// rows in memory, as when it was made.
+/// Adds the checks of the report and of the files that a gate left in its folder, if they exist. Only a report needs
+/// all rows in memory, as when it was made.
 Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, std::vector<std::string>& not_verified) {
   if (!Exists(Inside(folder) / "report") && !Exists(Inside(folder) / "video")) return {};
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, Sealing::kIgnored));

@@ -21,7 +21,8 @@
 namespace etude {
 namespace {
 
-// A film shows a second before the request, and two after the later of the last transition points.
+// A film shows a second before the request, and two after the later of the last transition points, as far as it is
+// recorded.
 constexpr int kBefore = kFilmRate, kAfter = 2 * kFilmRate, kLongest = 20 * kFilmRate;
 constexpr int kSide = 480, kGap = 16;
 
@@ -60,23 +61,39 @@ std::vector<BlindKey::Metric> MetricsOf(const RecordedRequest& request, const Sh
   return metrics;
 }
 
-/// Films both paths side by side. Returns an empty text if it was stopped.
+/// Returns true if the world shows two methods, and both of their transitions within a film of kLongest.
+bool CanBeCompared(const TransitionRace& race) {
+  const auto is_in_time = [](const TransitionPath& path) {
+    return path.LastPoint() >= 0 && path.LastPoint() <= kLongest - kAfter;
+  };
+  return race.paths.size() == 2 && std::ranges::all_of(race.paths, is_in_time);
+}
+
+/// Films both paths side by side. A side is empty while its path is not recorded: a body that stands still meanwhile
+/// would look as if it froze. Returns an empty text if it was stopped.
 Result<std::string> FilmPair(const TransitionRace& race, Renderer& renderer, const FilePath& path,
                              const FilmWatch& watch) {
-  const int last = std::max(race.paths[0].LastPoint(), race.paths[1].LastPoint());
-  const int frames = kBefore + std::clamp(last + kAfter, 0, kLongest);
-  const TransitionStage stage(race, -kBefore, frames - kBefore, kSide, kSide);
+  const auto begin_of = [](const TransitionPath& shown) { return shown.TimeOf(0); };
+  const auto end_of = [](const TransitionPath& shown) {
+    return shown.TimeOf(static_cast<int>(shown.motion.poses.size()));
+  };
+  const auto &one = race.paths[0], &other = race.paths[1];
+  const int first = std::max(-kBefore, std::min(begin_of(one), begin_of(other)));
+  const int end = std::min(std::max(one.LastPoint(), other.LastPoint()) + kAfter, std::max(end_of(one), end_of(other)));
+  const TransitionStage stage(race, first, end, kSide, kSide);
   const auto draw = [&](int frame) {
+    const int time = first + frame;
     Canvas canvas(2 * kSide + kGap, kSide);
     canvas.FillBox({0, 0, 2.0 * kSide + kGap, kSide}, kBackdrop);
     for (std::size_t side = 0; side < 2; ++side) {
       const TransitionPath& shown = race.paths[side];
-      const auto picture = stage.Picture(renderer, shown, side, shown.FrameAt(frame - kBefore), std::nullopt);
+      if (time < begin_of(shown) || time >= end_of(shown)) continue;
+      const auto picture = stage.Picture(renderer, shown, side, shown.FrameAt(time), std::nullopt);
       canvas.Put(picture, static_cast<int>(side) * (kSide + kGap), 0);
     }
     return canvas;
   };
-  ASSIGN_OR_RETURN(const bool is_whole, EncodeFrames(path, frames, kFilmRate, draw, watch));
+  ASSIGN_OR_RETURN(const bool is_whole, EncodeFrames(path, end - first, kFilmRate, draw, watch));
   return is_whole ? ReadWholeFile(path) : Result<std::string>("");
 }
 
@@ -92,9 +109,10 @@ std::string PageOf(const RunData& run, const std::string& digest, const std::str
       digest, films_html);
   return WriteToolPage({.kind = "comparison",
                         .title = "Which body moves more naturally?",
-                        .verdict = "In each film both bodies change from one motion to another. Watch it to the end at "
-                                   "least once, then choose the more natural side. Save your answers at the end, and "
-                                   "send the file to whoever gave you this page.",
+                        .verdict = "In each film both bodies change from one motion to another. A side is empty where its "
+                                   "motion begins later or ends earlier. Watch the film to the end at least once, then "
+                                   "choose the more natural side. Save your answers at the end, and send the file to "
+                                   "whoever gave you this page.",
                         .version = run.program_version,
                         .command = "",
                         .script = BlindJs()},
@@ -121,7 +139,7 @@ Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const Blind
     auto methods = pairs[i % pairs.size()];
     if (dice.Chance(0.5)) std::swap(methods[0], methods[1]);
     TransitionRace race = RaceIn(worlds[i].second, *worlds[i].first, methods);
-    if (race.paths.size() == 2) {
+    if (CanBeCompared(race)) {
       shown.push_back({worlds[i].first, &worlds[i].second, std::move(race)});
     } else {
       ++trial.key.left_out;

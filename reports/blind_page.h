@@ -26,9 +26,9 @@ struct BlindOptions {
 };
 
 /// Makes the page from a run's recorded transitions. Both films of a pair are one film, aligned at the request, so that
-/// they play together. The page needs no other file, and neither its text nor its films name a method, a metric or the
-/// seed. Returns nullopt if `watch` stopped it. Fails if no recorded world shows two of the methods, or if films cannot
-/// be encoded.
+/// they play together; a side is empty while its motion is not recorded. The page needs no other file, and neither its
+/// text nor its films name a method, a metric or the seed. Returns nullopt if `watch` stopped it. Fails if no recorded
+/// world shows two of the methods, or if films cannot be encoded.
 Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const BlindOptions& options);
 
 }  // namespace etude

@@ -211,9 +211,9 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   const double rounding = kRounding * largest;
   const auto real = std::ranges::find_if(ordered, [&](double d) { return std::abs(d) > rounding; });
   const auto below = std::count_if(real, ordered.end(), [](double d) { return d < 0; }), count = ordered.end() - real;
-  constexpr std::ptrdiff_t kMaxExponent = 1000;
-  if (aggregate == Aggregate::kMean && (below == 0 || below == count) && count <= kMaxExponent) {
-    return {SmallestP(static_cast<int>(count)), "exact"};
+  constexpr std::ptrdiff_t kMaxExponent = 1000;  // 2 / 2ⁿ must not underflow; for more differences, p is even smaller
+  if (aggregate == Aggregate::kMean && (below == 0 || below == count)) {
+    return {SmallestP(static_cast<int>(std::min(count, kMaxExponent))), "exact"};
   }
   if (aggregate == Aggregate::kMean && sizes[zeros] == largest) {
     const auto more = static_cast<int>(std::max(negatives, differing - negatives));

@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 """People compare films without knowing the methods: the page in a browser, its key, and what their answers say."""
+import base64
 import json
 import pathlib
+import re
+import shutil
+import subprocess
 import time
 import unittest
 
@@ -87,6 +91,34 @@ class Blind(EtudeCase):
         self.ends(0, "run", self.write("bare.yaml", SCENARIO.rsplit("video", 1)[0]), "-o", bare)
         self.refusal("report", bare, "--blind", "abrupt-one", "faded-one",
                      says="no world kept transitions of two of abrupt-one, faded-one")
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "without ffmpeg")
+    def test_a_side_is_empty_where_its_motion_is_not_recorded(self):
+        run = self.folder / "waiting"
+        self.ends(0, "run", self.write("waiting.yaml", SCENARIO.replace("choice: now, join: cut", "choice: wait-for-end, join: cut")), "-o", run)
+        self.ends(0, "report", run, "--blind", "abrupt-one", "faded-one", "--pairs", "2")
+        [page] = (run / "blind").glob("*.html")
+        pairs = json.loads(page.with_suffix(".key.json").read_text())["pairs"]
+        width, height, half, empty = 976, 480, 480, 0
+        for pair, film in zip(pairs, re.findall(r"base64,([^\"]+)\"", page.read_text()), strict=True):
+            recorded = {}
+            for side in "left", "right":
+                cell = f"change~-~{int(pair['world'].split()[-1]):03}~{pair[side]}.json"
+                recording = json.loads((run / "recordings" / cell).read_text())
+                begin = -recording["extras"]["request_frame"]
+                recorded[side] = range(begin, begin + len(recording["tracks"][0]["poses"]))
+            first = max(-30, min(times.start for times in recorded.values()))
+            file = self.folder / "pair.mp4"
+            file.write_bytes(base64.b64decode(film))
+            raw = subprocess.run(["ffmpeg", "-v", "error", "-i", file, "-f", "rawvideo", "-pix_fmt", "gray", "-"],
+                                 capture_output=True, check=True).stdout
+            for frame in range(0, len(raw) // (width * height), 5):
+                for side, x in ("left", 20), ("right", width - half + 20):
+                    begin = frame * width * height + height // 2 * width + x
+                    row = raw[begin:begin + half - 40]
+                    self.assertEqual(max(row) - min(row) > 20, first + frame in recorded[side], (pair["world"], side, frame))
+                    empty += first + frame not in recorded[side]
+        self.assertGreater(empty, 0)
 
     @unittest.skipUnless(CHROMIUM, "without chromium")
     def test_a_rater_watches_answers_by_keyboard_and_saves_a_file_that_is_read(self):

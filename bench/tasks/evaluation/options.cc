@@ -107,8 +107,8 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
            .WhenAbsent("(`pairs` names them)"),
        Key::Flag("control", &Method::is_control,
                  "The answer is the truth with the errors that the other keys add, in this order. If all methods are "
-                 "controls, contacts are found from the motion, and the truth gives rotations, beats and statistics that "
-                 "files lack."),
+                 "controls, contacts are found from the motion, and the truth gives rotations, beats and statistics "
+                 "that files lack."),
        Key::Number("noisy_mm", part(&Spoiler::noisy_mm), {0, 1000},
                    "Standard deviation of white noise, independent for each joint and axis."),
        Key::Number("smoothed_ms", part(&Spoiler::smoothed_ms), {0, 10'000}, "Length of a centred moving mean."),

@@ -272,6 +272,8 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   EXPECT_THAT(later.reason,
               HasSubstr("the truth begins at 10 s, the answer begins at 11 s: judged by these clocks, 30 frames of "
                         "the truth outside the answer"));
+  EXPECT_THAT(Judged(begins(1.7e9, 60), begins(1.7e9 + 1.25, 30)).reason,
+              HasSubstr("the truth begins at 1700000000 s, the answer begins at 1700000001.25 s: judged by"));
   // It begins before the truth, by a fraction of a frame, and at another rate.
   EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(9.5, 90), -0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   const CellResult between = Judged(truth, moved(begins(10.01, 60), 0.01));
