@@ -25,8 +25,8 @@ PairedTest SignedRankTest(std::span<const double> differences);
 double RankBiserial(std::span<const double> differences);
 
 /// Computes the sign-flip permutation test (Fisher 1935) of the differences' median or mean. Up to 16 non-zero
-/// differences, all sign vectors are enumerated, and p is exact. For a mean, p is also exact for n
-/// differences of one sign (2 / 2ⁿ, with n ≤ 1000; differences within rounding do not count), and for differences of equal size by the
+/// differences, all sign vectors are enumerated, and p is exact. For a mean, p is also exact for n differences of one
+/// sign (2 / 2ⁿ, with n ≤ 1000; differences within rounding do not count), and for differences of equal size by the
 /// binomial distribution (for shares this is McNemar's exact test). Otherwise m = 9,999 sign vectors are drawn from a
 /// stream keyed by `seed` and `purpose`. b of them have an aggregate at least as far from zero as the observed one, and
 /// p = (b + 1) / (m + 1) (Phipson & Smyth 2010). Above kMaxResampled differences, p comes from a normal approximation;
