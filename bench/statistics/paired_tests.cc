@@ -201,7 +201,6 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
     negatives += ordered[i] < 0;
     if (ordered[i] < 0) observed[i / 64] |= std::uint64_t{1} << (i % 64);
   }
-  // If all differences have the same size, the binomial distribution gives the exact p of the mean.
   const std::size_t differing = sizes.size() - zeros;
   if (differing == 0) return {1.0, "exact"};
   const double largest = sizes.back();
@@ -215,6 +214,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
   if (aggregate == Aggregate::kMean && (below == 0 || below == count)) {
     return {SmallestP(static_cast<int>(std::min(count, kMaxExponent))), "exact"};
   }
+  // If all differences have the same size, the binomial distribution gives the exact p of the mean.
   if (aggregate == Aggregate::kMean && sizes[zeros] == largest) {
     const auto more = static_cast<int>(std::max(negatives, differing - negatives));
     return {std::min(1.0, KeepThirtyBits(2 * FairCoinUpperTail(more, static_cast<int>(differing)))), "exact"};
