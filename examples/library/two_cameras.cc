@@ -31,8 +31,7 @@ int main(int count, char** names) try {
       for (int i = 0; i < 12; ++i) seen[c][f][0].keypoints[5 + i] = see(Role(left[i / 2] + i % 2 * 4));
     }
   }
-  const std::optional<glm::dvec2> noses[] = {seen[0][0][0][Landmark::kNose].pixel,
-                                             seen[1][0][0][Landmark::kNose].pixel};
+  const std::optional<glm::dvec2> noses[] = {seen[0][0][0].keypoints[0].pixel, seen[1][0][0].keypoints[0].pixel};
   const TriangulatedPoint nose = Triangulate(rig, noses);
   std::fprintf(stderr, "off by %.2g m\n", glm::distance(nose.position, truth.poses[0][Role::kHead]));
   std::fputs(Capture(rig, seen, {.rate_hz = truth.rate_hz}).bvh.c_str(), stdout);

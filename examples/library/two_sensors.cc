@@ -14,7 +14,6 @@ int main(int count, char** names) try {
   if (count != 2) throw engine::BadInput("two_sensors CLIP.bvh");
   std::ifstream file(names[1], std::ios::binary);
   const BodyMotion truth = engine::ReadMotion(std::string(std::istreambuf_iterator<char>(file), {}), names[1]);
-  // Simulate a Kinect, and compare its joints with the truth.
   double squares = 0, tracked = 0, seen = 0;
   const SkeletonStream reports = sim::SenseSkeleton(truth, {.sensor = "v2", .seed = 7});
   for (std::size_t f = 0; f < reports.frames.size(); ++f) {
@@ -26,7 +25,6 @@ int main(int count, char** names) try {
   }
   std::printf("%zu frames, %.1f %% of the joints tracked, off by %.1f mm\n", reports.frames.size(),
               100 * tracked / seen, 1000 * std::sqrt(squares / tracked));
-  // Draw the pictures of two cameras.
   const auto cameras = sim::StereoCameras(truth);
   const sim::Studio studio(truth, cameras, {.scene = 0.5});
   for (std::size_t c = 0; c < cameras.size(); ++c) {

@@ -208,7 +208,7 @@ class Evaluate(EtudeCase):
             return path
         truth = from_ten("t/clap.trc", self.frames)
         for name, answer, error, words in (
-                ("cut", from_ten("cut.trc", self.frames[20:], 20 / 30), 0, "the answer begins at 10.6667 s: judged by these clocks, 20 frames of"),
+                ("cut", from_ten("cut.trc", self.frames[20:], 20 / 30), 0, "the answer begins at 10.667 s: judged by these clocks, 20 frames of"),
                 ("bvh", self.shared / "clap.bvh", 1, "the truth begins at 10 s, the answer states no clock: their first frames"),
                 ("same", from_ten("same.trc", self.frames), 0, "")):
             self.evaluate(truth, answer, out=self.folder / name)

@@ -278,14 +278,14 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(9.5, 90), -0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   const CellResult between = Judged(truth, moved(begins(10.01, 60), 0.01));
   EXPECT_NEAR(ValueIn(between, "mpjpe_unaligned_mm"), 0, 1e-9);
-  EXPECT_THAT(between.reason, HasSubstr("by these clocks, the answer interpolated linearly"));
+  EXPECT_THAT(between.reason, HasSubstr("by these clocks, and the answer is interpolated linearly"));
   EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(10.5, 50, 50), 0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   // Where a clock is missing, or the two never show one time, the first frames belong together.
   const CellResult none = Judged(truth, Gliding(30, 60));
   EXPECT_NEAR(ValueIn(none, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_THAT(none.reason,
               HasSubstr("the truth begins at 10 s, the answer states no clock: their first frames are taken "
-                        "as one time"));
+                        "as simultaneous"));
   const CellResult apart = Judged(truth, begins(0, 60));
   EXPECT_NEAR(ValueIn(apart, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_THAT(apart.reason, HasSubstr("begins at 0 s: their first frames are taken as simultaneous"));
