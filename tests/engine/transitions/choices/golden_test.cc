@@ -70,7 +70,7 @@ TEST(ChoicesGolden, OfPlansInLibrariesOfEveryKind) {
       }
     }
   }
-  EXPECT_TRUE(print.Is(537011, -68307.4011833));
+  EXPECT_TRUE(print.Is(434421, -81919.432069));
   EXPECT_TRUE(testing::AreKept(told, "tests/engine/transitions/choices/why.txt"));
 }
 
