@@ -21,8 +21,8 @@
 namespace etude {
 namespace {
 
-// A film shows a second before the request, and two after the later of the last transition points, as far as it is
-// recorded.
+// A film begins one second before the request and ends two seconds after the last transition point of either path. It
+// is shorter if less was recorded.
 constexpr int kBefore = kFilmRate, kAfter = 2 * kFilmRate, kLongest = 20 * kFilmRate;
 constexpr int kSide = 480, kGap = 16;
 
@@ -69,8 +69,8 @@ bool CanBeCompared(const TransitionRace& race) {
   return race.paths.size() == 2 && std::ranges::all_of(race.paths, is_in_time);
 }
 
-/// Films both paths side by side. A side is empty while its path is not recorded: a body that stands still meanwhile
-/// would look as if it froze. Returns an empty text if it was stopped.
+/// Films both paths side by side. While a path is not recorded, its side is empty, because a body that is shown without
+/// motion would seem to have frozen. Returns an empty text if filming was stopped.
 Result<std::string> FilmPair(const TransitionRace& race, Renderer& renderer, const FilePath& path,
                              const FilmWatch& watch) {
   const auto begin_of = [](const TransitionPath& shown) { return shown.TimeOf(0); };

@@ -163,7 +163,8 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   const auto worse_by = [&](double times) { return [=](std::optional<double>& value) { *value += times * worse; }; };
   const auto present = static_cast<int>(DrawTrials(TargetOf(first, target), SIZE_MAX, seed).size());
   const int needed = WorldsThatFail(present, rule);
-  // Make worlds worse by twice `rule.times`. The gate must find them if the tail rule counts that many as a regression.
+  // Make worlds worse by 2 × `rule.times` practical thresholds. The gate must find them if the tail rule regards that
+  // many worlds as a regression.
   std::set<int> counts = {1, 2, 3, 5, 10};
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {
@@ -172,8 +173,8 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
                       kBeyondRule * rule.times),
           needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kBeyondRule)));
   }
-  // Make worlds worse by 0.9 × `rule.times`: the gate must not find them. Remove a value: the gate must find it if
-  // `rule.lost` is 1.
+  // Make worlds worse by 0.9 × `rule.times` practical thresholds: the gate must not find them. Remove a value: the gate
+  // must find it if `rule.lost` is 1.
   if (needed > 0 && needed <= present) {
     Count(fmt::format("{} in {} of {} worlds worse by {} × the difference that matters", target, needed, present,
                       kWithinRule * rule.times),

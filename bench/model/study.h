@@ -14,7 +14,7 @@ namespace etude {
 struct Expectation {
   std::string metric;
   std::string of;            ///< the method that is judged
-  std::string below, above;  ///< the method with which `of` is compared in the same worlds; at most one is set
+  std::string below, above;  ///< the method that `of` must be below (or above) in the same worlds; at most one is set
   std::optional<double> at_most, at_least;  ///< the bound of `statistic`, if `of` is not compared with a method
   std::string statistic = "median";         ///< median, mean or p95; only for bounds
   double confidence = 0.95;  ///< confidence level of a comparison's interval; the level of its test is 1 − confidence

@@ -159,10 +159,10 @@ struct ErrorBudget {
 struct ConditionSummary {
   std::vector<SweptValue> condition;
   std::vector<MethodSummary> methods;
-  std::vector<Comparison> comparisons;     ///< every method with its baseline, on the headline metrics
-  std::vector<Comparison> rivals;          ///< every method with the strongest other method, on the headline metrics
-  std::vector<Answer> answers = {};        ///< every method with its baseline
-  std::vector<Answer> rival_answers = {};  ///< every method with the strongest other method
+  std::vector<Comparison> comparisons;     ///< every method against its baseline, on the headline metrics
+  std::vector<Comparison> rivals;          ///< every method against the strongest other one, on the headline metrics
+  std::vector<Answer> answers = {};        ///< every method against its baseline
+  std::vector<Answer> rival_answers = {};  ///< every method against the strongest other one
   /// Error budgets of the first headline metric, for methods that differ only in their oracles.
   std::vector<ErrorBudget> budgets = {};
 };

@@ -48,7 +48,8 @@ struct BlindFiles {
 /// damaged, and if the same key, or answers of the same rater to the same page, were read before.
 Result<void> AddBlindFile(const std::string& text, const std::string& file, BlindFiles& files);
 
-/// Fails if answers are to a page without a key, or if their number is not that of the pairs.
+/// Fails if there are no answers, if the key of an answered page is missing, or if a person did not give one answer for
+/// each pair.
 Result<void> CheckBlindFiles(const BlindFiles& files);
 
 }  // namespace etude

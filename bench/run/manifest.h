@@ -44,7 +44,7 @@ struct JsonDifference {
 std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now);
 /// Describes the first few differences in words: "seed was 1 and is 2; …".
 std::string InWords(std::span<const JsonDifference> differences);
-/// Returns true if all differences are builds of libraries.
+/// Returns true if only libraries differ: every path begins with "libraries.".
 bool AreOfLibraries(std::span<const JsonDifference> differences);
 /// Reads the differences of libraries that are recorded in a run's folder.
 Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path& folder);

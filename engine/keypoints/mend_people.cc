@@ -142,7 +142,8 @@ class Mender {
             least = *other;
             best = &candidate;
           }
-          // Prefer a camera whose picture shows a better-fitting person over a camera whose picture shows none.
+          // The worst camera is the one with the greatest misfit. However, every camera whose picture shows a
+          // better-fitting person comes before the cameras whose pictures show none.
           if (has_better ? best == nullptr || *misfit <= most : best == nullptr && *misfit <= most) continue;
           worst = c;
           most = *misfit;

@@ -71,7 +71,7 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 }
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
-  constexpr double kNeverAsStill = 0.003;  // a mean speed of the joints, metres per second
+  constexpr double kNeverAsStill = 0.003;  // stricter limit of the joints' mean speed near a freeze, metres per second
   constexpr double kGentle = 0.6;          // speed of the last step before rest, as a share of the step before
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;

@@ -51,7 +51,7 @@ double ReferenceOffset(const GroundView& ground, const std::vector<Level>& level
   return reference;
 }
 
-/// The frames that were reported as displaced, and the offset of the level at the right height.
+/// The frames that were reported as displaced, and the vertical offset, metres, of the frames at the right height.
 struct Told {
   std::vector<bool> frames;
   double reference = 0;

@@ -49,8 +49,8 @@ struct SplitReference {
 };
 SplitReference Split(const std::string& reference);
 
-/// Returns the file that a reference without an animation names: the file of a package's clip, else the reference
-/// itself.
+/// Returns the file of a reference that has no "#animation": for a package's clip, its file in the package's folder;
+/// otherwise the reference itself.
 std::string FileOf(const std::string& reference);
 
 }  // namespace etude

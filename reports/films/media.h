@@ -28,7 +28,7 @@ struct Media {
   Film film;
   /// Moments of the capture: pictures of both cameras with mask and recovered skeleton.
   std::vector<Picture> strip;
-  std::vector<Still> stills;                 ///< the middle frame of the same capture as the cameras took it
+  std::vector<Still> stills;                 ///< the middle frame of the capture, as each camera filmed it
   std::string strip_scenario;                ///< the scenario whose card shows the strip and the stills
   std::vector<ScenarioPicture> plates;       ///< for captures: all stages of some moments
   std::vector<ScenarioFilm> scenario_films;  ///< films of single scenarios: methods side by side, and sessions

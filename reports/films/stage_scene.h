@@ -45,7 +45,7 @@ class CoachPanel {
   std::string method_;
 };
 
-/// The film of a run that recorded a coach without cameras: the coach changes moves.
+/// The film of a run that recorded a coach but no capture by cameras. It shows the coach changing moves.
 class StageScene : public Scene {
  public:
   /// The maximum number of frames of the motion that is shown.

@@ -254,8 +254,8 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
-/// Returns the figure that decides the verdict for other units: " Middle of 8 clips 2.39 cm (−6.3 to 11.0)."; "" if
-/// worlds are the units.
+/// Returns the difference, with its interval, that decides the verdict for other clips or people: " Middle of 8 clips
+/// 2.39 cm (−6.3 to 11.0).". Returns "" if worlds are the units, or if difference or interval is missing.
 std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
   if (WorldsAreUnits(unit) || !c.beyond.low || !c.beyond.difference) return "";
   return fmt::format(" Middle of {} {} ({}).", CountUnits(c.beyond.units, unit), Amount(*c.beyond.difference, words),

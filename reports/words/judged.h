@@ -80,7 +80,7 @@ std::string_view OtherUnits(SamplingUnit unit);
 struct BeyondFinding {
   bool on_these_only = true;            ///< no condition has a verdict for other units
   bool as_on_these = false;             ///< every condition has a verdict for other units, as on these worlds
-  std::optional<Verdict> verdict = {};  ///< the common verdict of all conditions that have one for other units
+  std::optional<Verdict> verdict = {};  ///< the verdict for other units, if all conditions that have one agree
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);

@@ -56,7 +56,8 @@ class Seed {
 
 /// Writes the seed for people and manifests: "7", or "secret" and the digest.
 std::string ToString(const Seed& seed);
-/// Reads the output of ToString. A secret seed read in this way is not open. Fails for any other text.
+/// Reads the output of ToString. A secret seed read in this way has only its digest and is not open (IsOpen). Fails for
+/// any other text.
 Result<Seed> ParseSeed(std::string_view text);
 /// Reads 64 hexadecimal digits. Fails for any other text.
 Result<Words256> ParseWords256(std::string_view digits);

@@ -224,7 +224,8 @@ namespace {
 // Range of the factor that multiplies the damping (Nielsen's rule). With a smaller factor, steps would be too long
 // where the residual stays large.
 constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9;
-// After the first rejected step, this factor is multiplied by kFirstGrowth.
+// The damping's factor is multiplied by kFirstGrowth after a rejected step. The multiplier doubles with each further
+// step that is rejected in succession.
 constexpr double kFirstGrowth = 2;
 // Minimum damping. Without it, JJᵀ is singular when limbs are at their limits.
 constexpr double kMinMu = 1e-9;

@@ -25,7 +25,7 @@ struct ThroughClip {
 };
 
 constexpr double kRunUp_s = 2.5;     // a clip may be entered at most this long before it changes its stance
-constexpr double kRunOut_s = 2.5;    // a clip may be left at most this long after the change
+constexpr double kRunOut_s = 2.5;    // a clip may be left at most this long after it has changed its stance
 constexpr double kMinShown_s = 0.3;  // minimum time that a clip is shown: the shortest join
 
 /// Finds the frames of a library clip that can be joined to the allowed frames of a request, before or after the clip.
