@@ -9,25 +9,27 @@
 
 namespace etude {
 
-/// Returns a verdict as an HTML label: its word on a coloured background, so that no meaning depends on colour alone.
-/// nullopt means that the verdict depends on the condition.
+/// Returns a verdict as an HTML label: the verdict's name on a coloured background, so that no meaning depends on
+/// colour alone. nullopt stands for conditions with different verdicts.
 std::string VerdictBadge(const std::optional<Verdict>& verdict);
 
-/// Returns both verdicts of a finding as HTML labels: the verdict on these worlds and the verdict for others like them.
-/// If every world is its own unit and the verdicts agree, one label stands for both.
+/// Returns a finding's two verdicts as HTML labels: the verdict on the worlds of this run, and the verdict generalised
+/// to other clips, people or libraries. If every world is its own sampling unit and the verdicts agree, returns one
+/// label for both.
 std::string VerdictBadges(const MethodFinding& finding);
 
-/// Returns the sign of a verdict: "▲" better, "▼" worse, "=" equivalent, "?" inconclusive; "±" if the verdict depends
+/// Returns the symbol of a verdict: "▲" better, "▼" worse, "=" equivalent, "?" inconclusive, "±" if the verdict depends
 /// on the condition.
 std::string_view VerdictSign(const std::optional<Verdict>& verdict);
 
-/// Returns the sign of a comparison's verdict: "▲". The sign is in brackets if the verdict holds on these worlds only:
-/// "(▲)".
+/// Returns the symbol of a comparison's verdict, such as "▲". The symbol is in brackets, "(▲)", if the verdict on the
+/// worlds of this run does not generalise to other clips or people.
 std::string ComparisonSign(const Comparison& comparison);
-/// Returns the sign of a comparison as HTML in the label's colour, with words for screen readers.
+/// Returns the symbol of a comparison (ComparisonSign) as HTML in the verdict's colour, with the verdict's name for
+/// screen readers.
 std::string ComparisonMark(const Comparison& comparison, SamplingUnit unit);
-/// Returns the sign of a finding over all its conditions as an HTML label, followed by `words`; "" if nothing was
-/// compared.
+/// Returns the symbol of a finding over all its conditions as an HTML label, followed by `words`. Returns "" if the
+/// method was not compared.
 std::string FindingBadge(const MethodFinding& finding, std::string_view words);
 
 }  // namespace etude

@@ -21,19 +21,19 @@
 namespace etude {
 namespace {
 
-// A film begins one second before the request and ends two seconds after the last transition point of either path. It
-// is shorter if less was recorded.
+// A film begins one second before the request and ends two seconds after the last transition point of either path. The
+// film is shorter if the recordings are.
 constexpr int kBefore = kFilmRate, kAfter = 2 * kFilmRate, kLongest = 20 * kFilmRate;
 constexpr int kSide = 480, kGap = 16;
 
-/// A world in which two methods can be shown, the left one first.
+/// One film of the page: a world, and the transitions of two methods in it. The left side shows the first method.
 struct ShownPair {
   const ScenarioSummary* scenario;
   const RecordedRequest* request;
   TransitionRace race;
 };
 
-/// Shuffles by Fisher and Yates.
+/// Shuffles the items with the Fisher–Yates algorithm.
 template <typename Item>
 void Shuffle(std::vector<Item>& items, RandomStream& dice) {
   for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[dice.IndexBelow(i)]);
@@ -56,12 +56,14 @@ std::vector<BlindKey::Metric> MetricsOf(const RecordedRequest& request, const Sh
   for (const MetricValue& value : row_of(0)->result.metrics) {
     const MetricInfo* info = FindMetric(value.id);
     if (info == nullptr || info->direction == Direction::kNeither) continue;
-    metrics.push_back({value.id, info->direction == Direction::kHigherIsBetter, value.value, ValueOf(*row_of(1), value.id)});
+    metrics.push_back(
+        {value.id, info->direction == Direction::kHigherIsBetter, value.value, ValueOf(*row_of(1), value.id)});
   }
   return metrics;
 }
 
-/// Returns true if the world shows two methods, and both of their transitions within a film of kLongest.
+/// Returns true if two methods made a transition in this world, and both transitions end early enough for a film of at
+/// most kLongest frames.
 bool CanBeCompared(const TransitionRace& race) {
   const auto is_in_time = [](const TransitionPath& path) {
     return path.LastPoint() >= 0 && path.LastPoint() <= kLongest - kAfter;
@@ -107,16 +109,17 @@ std::string PageOf(const RunData& run, const std::string& digest, const std::str
       "[aria-pressed=true] {{ outline: 3px solid var(--accent); }} .blind video {{ width: auto; max-width: "
       "100%; max-height: 56vh; }}</style>",
       digest, films_html);
-  return WriteToolPage({.kind = "comparison",
-                        .title = "Which body moves more naturally?",
-                        .verdict = "In each film both bodies change from one motion to another. A side is empty where its "
-                                   "motion begins later or ends earlier. Watch the film to the end at least once, then "
-                                   "choose the more natural side. Save your answers at the end, and send the file to "
-                                   "whoever gave you this page.",
-                        .version = run.program_version,
-                        .command = "",
-                        .script = BlindJs()},
-                       content);
+  return WriteToolPage(
+      {.kind = "comparison",
+       .title = "Which body moves more naturally?",
+       .verdict = "In each film both bodies change from one motion to another. A side is empty where its "
+                  "motion begins later or ends earlier. Watch the film to the end at least once, then "
+                  "choose the more natural side. Save your answers at the end, and send the file to "
+                  "whoever gave you this page.",
+       .version = run.program_version,
+       .command = "",
+       .script = BlindJs()},
+      content);
 }
 
 }  // namespace
@@ -125,11 +128,12 @@ Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const Blind
   // Collect the recorded worlds and put them in a random order.
   std::vector<std::pair<const ScenarioSummary*, RecordedRequest>> worlds;
   for (const ScenarioSummary& scenario : run.scenarios) {
-    for (RecordedRequest& request : RecordedRequestsOf(run, scenario)) worlds.emplace_back(&scenario, std::move(request));
+    for (RecordedRequest& request : RecordedRequestsOf(run, scenario))
+      worlds.emplace_back(&scenario, std::move(request));
   }
   RandomStream dice({options.seed, "blind", 0}, "order and sides");
   Shuffle(worlds, dice);
-  // Choose pairs of methods in turn, and their sides.
+  // Give each world the next pair of methods, and draw which of the two is shown on the left.
   BlindTrial trial;
   trial.key.seed = fmt::format("{}", options.seed);
   trial.key.worlds = static_cast<int>(worlds.size());
@@ -149,14 +153,14 @@ Result<std::optional<BlindTrial>> MakeBlindTrial(const RunData& run, const Blind
     return Fail({}, "no world kept transitions of two of {} (etude run --keep motions, or the key 'video', keeps them)",
                 fmt::join(options.methods, ", "));
   }
-  // Film them, and write the key.
+  // Film the pairs, and write into the key which method each side shows.
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("blind"));
   std::string films_html;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const ShownPair& pair = shown[i];
-    ASSIGN_OR_RETURN(const auto film, FilmPair(pair.race, *renderer, folder.path() / fmt::format("pair-{}.mp4", i + 1),
-                                               options.watch));
+    ASSIGN_OR_RETURN(const auto film,
+                     FilmPair(pair.race, *renderer, folder.path() / fmt::format("pair-{}.mp4", i + 1), options.watch));
     if (film.empty()) return std::nullopt;
     films_html += fmt::format(
         "<figure class=\"pair film\" hidden><video controls muted playsinline preload=\"none\" "

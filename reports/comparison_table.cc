@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-// The name, in words, of the file with the comparisons that the page leaves out.
+// The page names the file with the omitted comparisons by these words.
 constexpr std::string_view kAllComparisons = "the CSV file of comparisons in report/tables";
 
 /// The texts of one comparison's table cells, not yet escaped.
@@ -47,7 +47,7 @@ std::string Notes(const Comparison& c) {
 
 std::string BothNotes(const Comparison& c, SamplingUnit unit) {
   std::string text = Notes(c);
-  // If worlds are the units, `Notes` has already written the reason for the open verdict.
+  // If every world is its own sampling unit, `Notes` has already written why the verdict is inconclusive.
   if (c.beyond.why_open.empty() || WorldsAreUnits(unit)) return text;
   return text + fmt::format("{}for {}: {}", text.empty() ? "" : "; ", OtherUnits(unit), c.beyond.why_open);
 }
@@ -74,7 +74,7 @@ TableRow RowOf(const ScenarioSummary& scenario, const Shown& shown, bool swept) 
   const Comparison& c = *shown.comparison;
   const Line line = LineOf(*shown.condition, c, scenario.unit);
   const std::string place = fmt::format("{}/{}/000/", scenario.name, CompactLabel(shown.condition->condition));
-  std::string cells = place + c.method;  // identities of the first trial's cells, one per line
+  std::string cells = place + c.method;  // identities of the compared methods' cells in trial 0, one per line
   for (const std::string& baseline : BaselinesOf({&c, shown.condition})) cells += "\n" + place + baseline;
   const auto& beyond = c.beyond.verdict;
   TableRow row{.cells = {line.methods}, .attributes = fmt::format(" data-ids=\"{}\"", EscapeMarkup(cells))};
@@ -101,8 +101,8 @@ std::string Legend(const ScenarioSummary& scenario) {
       with_baselines, FormatCount(static_cast<long long>(rivals)));
 }
 
-/// Calls `visit` for every comparison of every condition: first the comparisons with baselines, then those with the
-/// strongest other method.
+/// Calls `visit` for every comparison of every condition: first for the comparisons with baselines, then for the
+/// comparisons with the strongest other method.
 template <typename Visit>
 void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -111,8 +111,9 @@ void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   }
 }
 
-/// Returns every comparison once, ordered by metric, then by baseline or rival, then by method and condition. Leaves
-/// out a comparison with a rival if a comparison with a baseline has the same two methods, in either order.
+/// Returns every comparison once, ordered by metric, then by kind (with the baseline, with the strongest other method),
+/// then by method and condition. If a comparison with a baseline and one with the strongest other method have the same
+/// two methods, in either order, only the former is returned.
 std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   std::vector<Shown> all;
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
@@ -167,7 +168,8 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   return TableHtml(table);
 }
 
-/// Returns "holds" if the conditions have a common verdict, else the reason why they have none.
+/// Returns "holds" if all conditions have the same verdict. Otherwise returns how the verdicts differ: "turns round" if
+/// one is better and another worse.
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;
@@ -181,7 +183,7 @@ std::string WhatHolds(const AcrossVerdict& across) {
 
 std::string MethodsOf(const AcrossVerdict& across) { return across.method + " − " + across.baseline; }
 
-/// Returns one condition's difference: "3.10 pp better".
+/// Returns the difference and the verdict under one condition: "3.10 pp better".
 std::string EachText(const AcrossVerdict& across, const AcrossVerdict::Each& each) {
   if (!each.difference) return std::string(VerdictName(each.verdict));
   const MetricWords words = WordsFor(across.metric);
@@ -265,8 +267,8 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
 }
 
 std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
-  // Write the headings: first those of the comparison on these worlds, then those of the comparison for other units
-  // (clips, people, …).
+  // Write the headings: first those of the comparison on the worlds of this run, then those of the comparison
+  // generalised to other sampling units (clips, people, …).
   Table table;
   for (const char* head : {"scenario",        "condition",        "metric",        "baseline",        "method",
                            "pairs",           "differing",        "only_baseline", "only_method",     "neither",

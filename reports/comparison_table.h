@@ -32,20 +32,21 @@ inline constexpr std::string_view kComparisonLegend =
 /// Counts the comparisons in the tables below: each pair of methods under one metric and condition counts once.
 std::size_t CountComparisons(const ScenarioSummary& scenario);
 
-/// Returns every comparison of one scenario once as an HTML table, one row each: the difference with its interval, both
-/// verdicts, the number of worlds, corrected p, effect size and caveats. Comparisons by metrics other than the first
-/// are folded away. Returns "" if no methods are compared.
+/// Returns every comparison of one scenario once as an HTML table, one row each: the difference with its interval, the
+/// verdict on the worlds of this run and the generalised verdict, the number of worlds, corrected p, effect size and
+/// caveats. Comparisons by metrics other than the first are folded away. Returns "" if no methods are compared.
 std::string ComparisonTableHtml(const ScenarioSummary& scenario);
 
 /// Returns the comparisons of ComparisonTableHtml as a folded Markdown table.
 std::string ComparisonTableMarkdown(const ScenarioSummary& scenario);
 
-/// Returns all comparisons as CSV with full precision and both tests; fields of missing values are empty.
+/// Returns all comparisons as CSV with full precision, with the test on worlds and the test on sampling units. Fields
+/// of missing values are empty.
 std::string ComparisonTableCsv(const ScenarioSummary& scenario);
 
 /// Returns a table of the verdicts that must hold under every value of some parameters (scenario key `across`). Each
-/// comparison has one row with the common verdict, or with the values under which it differs. Returns "" if the
-/// scenario has no such key.
+/// comparison has one row: the verdict if all values agree, else the values under which the verdict differs. Returns ""
+/// if the scenario has no such key.
 std::string AcrossTableHtml(const ScenarioSummary& scenario);
 
 /// Returns the verdicts of AcrossTableHtml as a Markdown table.

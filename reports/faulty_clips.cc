@@ -12,11 +12,12 @@ namespace {
 
 constexpr std::string_view kTask = "plausibility", kWithin = "within_limits";
 
-/// The clips that show faults, and the clips that could not be judged.
+/// The clips that show faults, and the clips whose answers could not be judged.
 struct FaultyClips {
-  Table table;           ///< clips beyond their limits first, clips that could not be judged last
-  std::string sentence;  ///< the number of faulty and of unjudged clips in words; empty if the run has no clips
-  std::size_t rows = 0;  ///< the number of rows that the table would have without the limit `most`
+  Table table;  ///< clips that exceed their fault limits come first, clips that could not be judged last
+  /// says how many clips are faulty and how many could not be judged; empty if the run judged no clips
+  std::string sentence;
+  std::size_t rows = 0;  ///< the number of clips to list, even if the table shows only the first `most`
 };
 
 /// Collects the faulty clips of a run; the table has at most `most` rows.
@@ -24,7 +25,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
   FaultyClips found;
   std::vector<TableRow> beyond, others, unjudged;
   std::size_t judged = 0;
-  // Sort the clips into those beyond their limits, other faulty clips, and clips that could not be judged.
+  // Sort the clips into those that exceed their fault limits, other faulty clips, and clips that could not be judged.
   ForEachRow(run, [&](const Row& row, std::size_t) {
     if (row.task != kTask || row.result.status == Status::kSkipped) return;
     if (row.result.status != Status::kOk) {
@@ -41,7 +42,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
     (is_beyond ? beyond : others).push_back(std::move(line));
   });
   if (judged + unjudged.size() == 0) return found;
-  // Count the clips of each kind in a sentence.
+  // Write a sentence that counts the clips of each kind.
   found.rows = beyond.size() + others.size() + unjudged.size();
   found.sentence = fmt::format("{} of {} show what no person does{}.", beyond.size() + others.size(),
                                Plural(static_cast<long long>(judged), "clip"),

@@ -8,15 +8,15 @@
 
 namespace etude {
 
-/// Returns the section of faulty clips, for scenarios whose motions have no truth. Clips beyond their limits come
-/// first; each fault is in words. Returns "" for other runs.
+/// Returns the section of faulty clips, for scenarios whose motions have no ground truth. Clips that exceed their fault
+/// limits come first; each fault is described in words. Returns "" for other runs.
 std::string FaultyClipsSection(const RunData& run);
 
 /// Returns the table of FaultyClipsSection as Markdown, under a heading. Returns "" for other runs.
 std::string FaultyClipsMarkdown(const RunData& run);
 
-/// Returns one JUnit case for every clip of a scenario whose motions have no truth. The case fails if the clip exceeds
-/// its limits or cannot be judged; otherwise it lists the faults of the clip.
+/// Returns one JUnit case for every clip of a scenario whose motions have no ground truth. The case fails if the clip
+/// exceeds its fault limits or cannot be judged; otherwise the case lists the faults of the clip.
 std::vector<JunitCase> ClipCases(const RunData& run, const std::string& scenario);
 
 }  // namespace etude

@@ -55,7 +55,7 @@ void DrawJoints(Canvas& canvas, const ProjectedJoints& joints) {
   }
 }
 
-// Tints the masked pixels of a picture; recorded masks have half its size.
+// Tints the picture's pixels that belong to the mask; a recorded mask has half the picture's width and height.
 void Tint(const Mask& mask, const Paint& paint, ColourImage& picture) {
   std::array<std::array<std::uint8_t, 256>, 3> tinted;
   for (int value = 0; value < 256; ++value) {
@@ -73,8 +73,8 @@ void Tint(const Mask& mask, const Paint& paint, ColourImage& picture) {
   }
 }
 
-// Returns a part of the pictures that contains the person in every frame with a margin. It has the pictures' aspect
-// ratio.
+// Returns a crop of the pictures that contains the person in every frame, with a margin. The crop has the pictures'
+// aspect ratio.
 Box CropAround(const BodyMotion& motion, const Camera& camera) {
   constexpr double kAirPixels = 45;
   const glm::dvec2 size{camera.intrinsics.width, camera.intrinsics.height};
@@ -121,7 +121,7 @@ Mask OutlineOf(const Mask& mask) {
 }
 
 Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cell) {
-  // Read the tracks and the extras, and check that their lengths match.
+  // Read the true and the recovered motion and the extras of the recording, and check that their lengths match.
   const Place place{.file = "recording " + cell.row->Id()};
   const BodyMotion* truth = FindTrack(*cell.recording, "truth");
   const BodyMotion* recovered = FindTrack(*cell.recording, "recovered");
@@ -134,7 +134,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cel
   for (const auto& view : extras.views) fits = fits && view.masks.size() == frames;
   if (!fits) return Fail(place, "its tracks, masks and brightness differ in length, or it has no camera");
 
-  // Rebuild the room and find the crop of each camera.
+  // Rebuild the room in which the person moved, and find the crop of each camera's pictures.
   CapturePanel panel;
   panel.truth_ = *truth;
   panel.recovered_ = *recovered;
@@ -146,7 +146,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cel
   }
   panel.method_ = cell.row->method;
   panel.clip_ = ClipInWords(cell.row->clip);
-  // Read the error of the cell, and the error of each frame if the run kept it.
+  // Read the mean joint error of the cell, and the joint error of each frame if the run recorded it.
   panel.error_mm_ = ValueOf(*cell.row, "mpjpe_mm");
   if (const Series* errors = FindSeries(run, *cell.row, "mpjpe_mm");
       errors != nullptr && errors->values.size() == frames) {

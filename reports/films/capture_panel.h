@@ -14,11 +14,10 @@
 
 namespace etude {
 
-/// One method's capture: the views of its cameras, the segmented person (tinted and outlined), and the recovered
-/// skeleton.
+/// One method's capture: the cameras' views, with the segmented person tinted and outlined, and the recovered skeleton.
 class CapturePanel {
  public:
-  /// Fails if the recording's extras cannot be read or do not match its tracks.
+  /// Fails if the recording's extras cannot be read, or do not match the lengths of its motions.
   static Result<CapturePanel> Make(const RunData& run, const ShownCell& cell);
 
   int Frames() const { return static_cast<int>(truth_.poses.size()); }
@@ -26,20 +25,20 @@ class CapturePanel {
   std::size_t Cameras() const { return extras_.views.size(); }
   /// Returns a camera's name: "First camera".
   std::string CameraName(std::size_t camera) const;
-  /// Returns the still pictures that the cameras took in the middle of the motion.
+  /// Returns the picture that each camera took at the middle frame of the motion.
   std::vector<Still> Stills() const;
-  /// Returns the title: "adaptive on clap".
+  /// Returns the title, the method and the clip: "adaptive on clap".
   std::string Title() const;
   const std::string& Method() const { return method_; }
   /// Returns the name of the performed clip: "clap"; empty if the recording does not state it.
   const std::string& Clip() const { return clip_; }
-  /// Returns the error in words: "43 mm now, 51 mm on average"; empty if the run did not measure it.
+  /// Returns the mean joint error in words: "43 mm now, 51 mm on average"; empty if the run did not measure this error.
   std::string ErrorWords(int frame) const;
 
   /// Renders one camera's view without noise.
   View Seen(Renderer& renderer, std::size_t camera, int frame, Targets targets) const;
 
-  /// Returns the moments that the recording keeps (`CaptureExtras::moments`).
+  /// Returns the frames whose intermediate results the recording keeps (`CaptureExtras::moments`).
   const std::vector<CaptureExtras::Moment>& Moments() const { return extras_.moments; }
   const Mask& MaskOf(std::size_t camera, int frame) const {
     return extras_.views[camera].masks[static_cast<std::size_t>(frame)];
@@ -47,11 +46,11 @@ class CapturePanel {
   const BodyMotion& Truth() const { return truth_; }
   const BodyPose& Recovered(int frame) const { return recovered_.poses[static_cast<std::size_t>(frame)]; }
   const Camera& CameraOf(std::size_t camera) const { return extras_.views[camera].truth; }
-  /// Returns the part of the camera's pictures that contains the person in every frame, pixels.
+  /// Returns the crop of the camera's pictures that contains the person in every frame, pixels.
   const Box& CropOf(std::size_t camera) const { return crops_[camera]; }
 
-  /// Draws the part of one camera's picture around the person, with mask and skeleton over it and without text. The
-  /// part fills the canvas. Calls with the same canvas size, camera and frame draw the same picture, so callers may
+  /// Draws the crop around the person in one camera's picture, with mask and skeleton over it and without text. The
+  /// crop fills the canvas. Calls with the same canvas size, camera and frame draw the same picture, so callers may
   /// cache it.
   void Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const;
 
@@ -59,17 +58,19 @@ class CapturePanel {
   BodyMotion truth_, recovered_;
   CaptureExtras extras_;
   StagedRoom stage_;
-  std::vector<LensWarp> lenses_;   ///< one per camera
-  std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
-  std::vector<double> errors_mm_;  ///< one per frame; empty if the run did not record errors of frames
+  std::vector<LensWarp> lenses_;  ///< lens distortion, one per camera
+  std::vector<Box> crops_;        ///< crop around the person, one per camera, pixels of its pictures
+  /// mean joint error, one per frame; empty if the run did not record errors of frames
+  std::vector<double> errors_mm_;
   std::optional<double> error_mm_;
   std::string method_, clip_;
 };
 
-/// Draws bones and joints as the camera sees them; `panel` is the rectangle of the camera's whole picture.
+/// Draws bones and joints as the camera sees them; `panel` is the rectangle on the canvas that the camera's whole
+/// picture would cover.
 void DrawSkeleton(Canvas& canvas, const BodyPose& pose, const Camera& camera, const Box& panel);
 
-/// Returns the pixels of the mask that touch a pixel outside it.
+/// Returns the outline of a mask: its pixels that touch a pixel outside the mask.
 Mask OutlineOf(const Mask& mask);
 
 }  // namespace etude

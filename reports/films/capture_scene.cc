@@ -26,7 +26,7 @@ constexpr double kRowTitleSize = 14, kSmallSize = 12;
 constexpr double kPlateRowHeight = kTitleRoom + kPictureHeight + kCaptionRoom;
 constexpr Paint kVeil{0.04, 0.05, 0.06, 0.55};
 
-/// Returns the rectangle in which to draw the whole picture so that the part with the person fills a canvas of
+/// Returns the rectangle that the whole picture must cover so that the crop around the person fills a canvas of
 /// kPictureWidth × kPictureHeight.
 Box PanelOf(const CapturePanel& capture, std::size_t camera) {
   const Box& crop = capture.CropOf(camera);
@@ -145,14 +145,14 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
     return row;
   };
 
-  // Draw one row of stages for each moment and camera.
+  // Draw, for each moment and camera, one row with the pictures of all processing stages.
   for (const CaptureExtras::Moment& moment : capture.Moments()) {
     for (std::size_t camera = 0; camera < cameras; ++camera) {
       PlateRow row = begin_row(fmt::format("T = {}, camera {}", moment.frame + 1, camera + 1));
       DrawMoment(capture, renderer, moment, camera, row);
     }
   }
-  // Draw one row of pictures of the whole motion for each camera.
+  // For each camera, draw one row of pictures spread over the whole motion.
   const std::array<int, kPlateColumns> sequence = SequenceOf(capture);
   for (std::size_t camera = 0; camera < cameras; ++camera) {
     PlateRow row = begin_row(fmt::format("The whole sequence, camera {}", camera + 1));
@@ -162,7 +162,7 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
       row.Add(picture, fmt::format("T = {}", frame + 1));
     }
   }
-  // Draw one row with the recovered skeletons of the whole motion.
+  // Draw one row of recovered skeletons at the same frames.
   PlateRow row = begin_row("The whole sequence, its skeletons");
   for (const int frame : sequence) {
     Canvas picture(kPictureWidth, kPictureHeight);
@@ -181,7 +181,7 @@ constexpr Box kSkeletonsBox{456, 52, 812, 656};
 constexpr double kSkeletonTop = 78, kSkeletonBottom = 62;
 constexpr Paint kGround{0.13, 0.15, 0.17, 1};
 constexpr Paint kTruthBone{0.62, 0.66, 0.69, 0.85};
-// The error of a joint at which the colour scale ends, centimetres.
+// The joint error at which the colour scale ends, centimetres.
 constexpr double kMaxErrorCm = 12;
 
 /// Returns green for no error, yellow for half of kMaxErrorCm, red for kMaxErrorCm centimetres and more.
@@ -199,13 +199,14 @@ Box ColumnOf(std::size_t index, std::size_t count) {
           kSkeletonsBox.height};
 }
 
-/// Places a camera slightly to the side of the body's heading, so that it sees every true pose with a margin.
+/// Places a camera slightly to the side of the body's heading, with the whole true motion in view and a margin around
+/// it.
 Camera CameraBefore(const BodyMotion& truth, double width, double height) {
   glm::dvec3 low(1e9), high(-1e9);
   for (const BodyPose& pose : truth.poses) {
     for (const glm::dvec3& joint : pose.joints) low = glm::min(low, joint), high = glm::max(high, joint);
   }
-  constexpr double kAway = 6, kAir = 0.35;  // metres
+  constexpr double kAway = 6, kAir = 0.35;  // distance of the camera, and margin around the motion, metres
   const double heading = Heading(truth.poses.front()) + Radians(20);
   const glm::dvec3 middle = 0.5 * (low + high);
   const double across = glm::length(glm::dvec2(high.x - low.x, high.z - low.z)) + kAir;

@@ -10,28 +10,29 @@
 
 namespace etude {
 
-/// Draws two frames of a capture as its first two cameras saw them, with mask and recovered skeleton.
+/// Draws two frames of a capture as its first two cameras saw them, with the segmentation mask and the recovered
+/// skeleton over each picture.
 std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer);
 
 /// Saves the pictures of DrawStrip for other programs, as EXR files with colour, depth and labels.
 Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const FilePath& folder);
 
-/// Draws all stages of a capture's moments in the layout of paper B's figures 5.3 to 5.14: for each moment and camera
-/// the picture, the person cut out of it, the marks, the skeleton with its lengths fixed, and the skeleton after
-/// inverse kinematics. Below these rows are, as in figure 5.15, the whole motion as the cameras saw it, and its
-/// skeletons. At most two cameras are shown. Returns nullopt if the recording keeps no moments.
+/// Draws all processing stages of a capture's moments in the layout of paper B's figures 5.3 to 5.14. Each moment and
+/// camera has a row: the picture, the person cut out of it, the marks of the limbs, the skeleton with its bone lengths fixed,
+/// and the skeleton after inverse kinematics. The rows below show the whole motion as the cameras saw it, and its
+/// skeletons, as in figure 5.15. At most two cameras are shown. Returns nullopt if the recording keeps no moments.
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
-/// Finds the captures that a film compares: the recorded methods in the world of the typical cell (ChooseCell), in the
-/// scenario's order, at most three. The result is empty if that world has no recordings. Fails if a recording cannot be
-/// read.
+/// Finds the captures that a film compares: at most three of the methods that were recorded in the world of `typical`
+/// (ChooseCell), in the scenario's order. The result is empty if that world has no recordings. Fails if a recording
+/// cannot be read.
 Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical);
 
-/// The film of a capture: the views of two cameras and, side by side for each method, the true skeleton with the
-/// recovered one over it. The colour of a recovered bone shows the error of its joints.
+/// The film of a capture: the views of two cameras and, for each method, a column with the true skeleton and the
+/// recovered skeleton over it. The colour of a recovered bone shows the error of its joints.
 class CaptureScene : public Scene {
  public:
-  /// Limits of the film: methods, and frames.
+  /// The maximum numbers of compared methods and of frames.
   static constexpr std::size_t kMaxMethods = 3;
   static constexpr int kLongest = 8 * kFilmRate;
 

@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// Clamps every frame number of a recording to the session.
+/// Clamps every frame number of a recording to the frames of the session.
 void KeepWithin(CoachedSessionFacts& facts) {
   const int last = facts.Frames() - 1;
   const auto keep = [&](int& frame) { frame = std::clamp(frame, 0, last); };
@@ -74,7 +74,7 @@ namespace {
 constexpr Rgb8 kSky{176, 212, 232}, kHills{122, 160, 138}, kGrass{126, 168, 92}, kTrunk{112, 84, 60};
 constexpr std::array<Rgb8, 3> kCrowns = {{{66, 118, 72}, {82, 136, 78}, {52, 100, 68}}};
 
-/// Returns a flat polygon that is visible from +Z or from above. `corners` are in order along its edge.
+/// Returns a flat polygon whose visible side is towards +Z or up. `corners` are in order along its boundary.
 Surface Sheet(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal, Rgb8 colour) {
   Surface sheet;
   sheet.positions = corners;
@@ -85,7 +85,7 @@ Surface Sheet(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal, 
   return sheet;
 }
 
-/// Returns a frustum about the vertical axis: a trunk, or, with a top radius of 0, a crown.
+/// Returns a part of a tree: a frustum about the vertical axis, which is a trunk or, with a top radius of 0, a crown.
 Surface Cone(const glm::dvec3& foot, double height, double foot_radius, double top_radius, Rgb8 colour) {
   constexpr int kSides = 10;
   Surface cone;
@@ -117,7 +117,7 @@ void AddTree(const glm::dvec3& foot, double height, std::size_t kind, Figure& fo
 }
 
 constexpr Box kStage{12, 52, 1256, 520};
-constexpr Box kSaid{12, 52, 1064, 520};  // the part of the stage that text may cover
+constexpr Box kSaid{12, 52, 1064, 520};  // the part of the picture that text may cover, pixels
 constexpr Box kInset{1086, 372, 170, 188};
 constexpr Box kHint{1046, 64, 210, 280};
 
@@ -141,7 +141,8 @@ Paint PaintOfMode(const std::string& mode) {
   return kUndecidedPaint;
 }
 
-/// Returns the last span that begins at or before a frame; the first span if all begin later.
+/// Returns the span that applies at a frame: the last span that begins at or before the frame. If all spans begin
+/// later, returns the first one.
 template <typename Span>
 const Span& InForce(const std::vector<Span>& spans, int frame) {
   const auto after = std::ranges::upper_bound(spans, frame, {}, &Span::begin_frame);
@@ -180,7 +181,7 @@ Figure ForestFigure() {
   }
   forest.surfaces.push_back(Sheet(
       {{-kFar, 0.004, kNear}, {kFar, 0.004, kNear}, {kFar, 0.004, kBack}, {-kFar, 0.004, kBack}}, {0, 1, 0}, kGrass));
-  // The positions and heights of the trees were chosen by hand; the middle is free for the dancers.
+  // The trees were placed by hand. They leave the middle free for the dancers.
   constexpr std::array<glm::dvec3, 12> kTrees = {{{-5.6, 3.0, -2.1},
                                                   {-4.7, 2.3, -1.8},
                                                   {-3.9, 2.9, -2.2},
@@ -246,7 +247,7 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   inside.cy = kStage.height / 2;
   const Camera camera = LookAt(inside, {0, kSessionEyeHeight, kSessionDistance}, {0, kSessionLookAt, 0});
   const BodyPose coach = PutAt(facts_.coach.poses[t], kCoachAt), learner = PutAt(facts_.learner.poses[t], kLearnerAt);
-  // Render the people, and copy their pixels over the backdrop.
+  // Render the people, and copy their pixels over the picture of the forest.
   Figure spots;
   spots.surfaces = {SpotBelow(coach), SpotBelow(learner)};
   const std::vector<Figure> people{spots, PosedFigure(bear_, coach), PosedFigure(learner_, learner)};
@@ -257,13 +258,13 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   }
   canvas.DrawImage(stage, kStage, kPanelRadius);
   DrawTag(canvas, kStage, fmt::format("The coach: {}", InForce(facts_.modes, frame).mode));
-  // Show the reason for the latest decision, if it was made within the last two seconds.
+  // Show the reason for the coach's latest decision, if the decision was made within the last two seconds.
   std::string why;
   for (const auto& decision : facts_.decisions) {
-    // Leave out events about music, clips and rules of correction: they are too detailed for viewers.
+    // Leave out decisions about music, clips and rules of correction: they are too detailed for viewers.
     const bool is_said = decision.event != "tag" && decision.event != "transition" && decision.event != "corrects";
     if (is_said && decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
-      // For a verdict, show its name without its evidence.
+      // For the verdict "wrong", show its name without the evidence that follows it.
       const std::string_view event = decision.event;
       why = event == "wrong"   ? "wrong: " + decision.why.substr(0, decision.why.find(':'))
             : event == "right" ? "judged right"

@@ -15,36 +15,38 @@
 
 namespace etude {
 
-/// A recorded session of a coach, prepared for a film: the extras of the recording, with every frame number clamped to
-/// the session, and its motions.
+/// A recorded session of a coach, prepared for a film. It contains the motions of the recording and its extras, with
+/// every frame number clamped to the session.
 struct CoachedSessionFacts : CoachExtras {
-  BodyMotion coach, learner, sensed;  ///< of equal length
+  /// motions of coach and learner, and the learner's motion as the sensor saw it; of equal length
+  BodyMotion coach, learner, sensed;
 
   int Frames() const { return static_cast<int>(coach.poses.size()); }
 };
 
-/// Reads the recording that the coach task keeps of a cell. Fails with the recording's name and the faulty key if the
-/// recording has another form.
+/// Reads the recording that the coach task keeps of a cell. If the recording has another form, fails and names the
+/// recording and the faulty key.
 Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell);
 
 /// Chooses the worst of a scenario's recorded sessions: the one with the most unneeded and missed corrections per
 /// minute. Returns nullopt if no session was recorded.
 std::optional<ShownCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario);
 
-/// Returns paper A's scene: a meadow in front of a forest and the sky. It stands behind z = −1 and hides the room's
-/// wall and floor from a camera at +Z that looks at the origin.
+/// Returns the scenery of paper A: a meadow in front of a forest and the sky. The scenery is behind z = −1 and hides
+/// the room's wall and floor from a camera at +Z that looks at the origin.
 Figure ForestFigure();
 
-/// Returns a soft dark spot on the meadow below a body. It replaces the shadow, because the forest is drawn without
-/// shadows.
+/// Returns a soft dark spot on the meadow below a body. The spot replaces the body's shadow, because the forest is
+/// rendered without shadows.
 Surface SpotBelow(const BodyPose& pose);
 
-/// The film of a coached session: the bear in its forest with the learner beside it, the learner's skeleton as the
-/// sensor saw it, the hint with the picture of its key pose, and a timeline of truth, verdicts and transitions. Every
-/// beat clicks.
+/// The film of a coached session. It shows the bear, which is the coach, in its forest beside the learner; the
+/// learner's skeleton as the sensor saw it; the hint with the picture of its key pose; and a timeline of truth,
+/// verdicts and transitions. A click sounds on every beat.
 class CoachedScene : public Scene {
  public:
-  /// Shows at most `longest` frames, cut around the session's first correction. The renderer must outlive the scene.
+  /// Cuts the film to at most `longest` frames around the session's first correction. The renderer must outlive the
+  /// scene.
   CoachedScene(CoachedSessionFacts facts, std::string heading, int longest, Renderer& renderer);
 
   int Frames() const override { return last_ - first_; }
@@ -54,7 +56,7 @@ class CoachedScene : public Scene {
   std::vector<double> Beats() const override;
 
  private:
-  /// Returns the stage without people; it is drawn only once.
+  /// Returns the picture of the forest without people, which is rendered only once.
   const ColourImage& Backdrop(const Camera& camera);
   void DrawStage(Canvas& canvas, int frame);
   void DrawSkeletonInset(Canvas& canvas, int frame) const;
@@ -68,7 +70,7 @@ class CoachedScene : public Scene {
   Renderer& renderer_;
   int first_ = 0, last_ = 0;  ///< the film shows the session's frames [first_, last_)
   Character bear_, learner_;
-  ColourImage backdrop_;  ///< empty until the first use
+  ColourImage backdrop_;  ///< picture of the forest without people; empty until it is first needed
 };
 
 }  // namespace etude

@@ -48,7 +48,7 @@ double RaceClock::ShareOf(double iteration) const {
   return last_ == 0 ? 0 : std::clamp(std::log1p(iteration) / std::log1p(last_), 0.0, 1.0);
 }
 
-/// The area inside the axes; maps values to positions.
+/// The plot area inside the axes, which maps iterations and errors to pixels.
 struct ErrorPlot::Frame {
   Box box;
   const ErrorPlot& plot;
@@ -142,14 +142,14 @@ void ErrorPlot::DrawCurve(Canvas& canvas, const Frame& frame, const ErrorCurve& 
 
 namespace {
 
-// Pictures are drawn larger by this factor and then shrunk, which smooths the edges.
+// The bodies are rendered larger by this factor and then shrunk, which smooths the edges (supersampling).
 constexpr double kDetail = 1.5;
 // The share of the panel's width, at its left, that is reserved for text.
 constexpr double kWordsShare = 0.34;
-// The bodies are turned by this angle from the front, so that near and far limbs can be distinguished.
+// The bodies are turned by this angle from the frontal view, so that near and far limbs can be distinguished.
 constexpr double kTurn = Radians(25);
-// The smallest visible motion of a joint, metres; about a tenth of a pixel. If no joint moves farther, as in many of
-// the last iterations, the last picture is shown again.
+// The smallest visible motion of a joint, metres; about a tenth of a pixel. If no joint has moved farther since the
+// last picture, as in many of the last iterations, the last picture is shown again.
 constexpr double kVisible = 0.0005;
 constexpr Paint kGhostRim{0.90, 0.93, 0.95, 0.55};
 constexpr Paint kMarkShadow{0.05, 0.06, 0.07, 0.8};
@@ -189,7 +189,7 @@ void DrawMarks(Canvas& canvas, const std::vector<std::pair<glm::dvec2, glm::dvec
   }
 }
 
-// Writes a number; errors far below the goal are all "< 0.001".
+// Returns a number as text; errors below 0.001, which is far below the goal, become "< 0.001".
 std::string ShortNumber(double value) { return value < 0.001 ? "< 0.001" : FormatNumber(value); }
 
 double LargestShift(const BodyPose& a, const BodyPose& b) {
@@ -242,7 +242,7 @@ ViewBounds ConvergenceStage::BoundsOf(const IkRace& race) const {
     for (const BodyPose& pose : path.poses) Studio::Include(BodyOf(Placed(pose), kInk), bounds);
   }
   for (const auto& target : targets_) {
-    constexpr double kMargin = 0.05;  // metres, for the rings around targets
+    constexpr double kMargin = 0.05;  // space around the poses for the rings that mark targets, metres
     if (target) Studio::Include({{{Part::kHead, Placed(*target), Placed(*target), kMargin}}}, bounds);
   }
   // Centre the bodies in the space beside the text.

@@ -25,17 +25,17 @@ class RaceClock {
   /// Returns the iteration at a frame, 0 … the last iteration; it never decreases. The fraction is the progress within
   /// an iteration.
   double IterationAt(int frame) const;
-  /// Returns the position of an iteration, 0…1, on an axis along which the clock moves at constant speed.
+  /// Returns the position of an iteration, 0…1, on an axis along which the film advances at constant speed.
   double ShareOf(double iteration) const;
 
  private:
   static constexpr int kOpening = kFilmRate / 2, kEnding = 3 * kFilmRate / 2;
 
   int last_;
-  int run_;  ///< frames between opening and ending
+  int run_;  ///< number of frames between the first state, which is held, and the last state, which is held
 };
 
-/// The error of one method: `values` at `iterations`.
+/// The error of one method over iterations: `values[i]` is the error at `iterations[i]`.
 struct ErrorCurve {
   std::vector<int> iterations;
   std::vector<double> values;
@@ -49,7 +49,7 @@ class ErrorPlot {
   /// must have a value; without curves, only the title is drawn.
   ErrorPlot(std::string title, std::string suffix, double goal, std::vector<ErrorCurve> curves, const RaceClock& clock);
 
-  /// Draws the part of the curves up to `iteration`.
+  /// Draws the curves up to `iteration` into `panel`.
   void Draw(Canvas& canvas, const Box& panel, double iteration) const;
 
  private:
@@ -62,17 +62,18 @@ class ErrorPlot {
   double goal_;
   std::vector<ErrorCurve> curves_;
   RaceClock clock_;
-  int lowest_ = 0, highest_ = 0;  ///< decades at the lower and upper edge
+  int lowest_ = 0, highest_ = 0;  ///< exponents of ten at the lower and the upper end of the error axis
 };
 
-/// The stage on which both methods of a race are seen: one camera that sees every pose of both methods, with the true
-/// pose as a ghost. The left side is free for text.
+/// Renders the bodies of both methods for the film. One camera, which sees every pose of both methods, renders all
+/// pictures. The true pose appears as a ghost, and the left side is free for text.
 class ConvergenceStage {
  public:
-  /// Makes the stage for pictures of `width` × `height` pixels.
+  /// Prepares pictures of `width` × `height` pixels.
   ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height);
 
-  /// Draws a body in `colour` over the ghost. Rings mark the targets of its end effectors, dots the end effectors.
+  /// Draws a body in `colour` over the ghost of the true pose. Rings mark the targets of its end effectors, dots mark
+  /// the end effectors.
   Image<std::uint32_t> Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
 
  private:
@@ -82,10 +83,10 @@ class ConvergenceStage {
 
   Box box_;
   FloorMove move_;
-  double lift_;  ///< raises the figures, metres, so that no body is below the floor
+  double lift_;  ///< height by which the figures are raised so that no body is below the floor, metres
   BodyPose truth_;
   IkTargets targets_;
-  mutable Studio studio_;  ///< mutable because it keeps its last picture
+  mutable Studio studio_;  ///< mutable, because it caches its last picture
   Mask ghost_, rim_;
 };
 
@@ -107,13 +108,13 @@ class ConvergencePanel {
   const IkPath& path_;
   const ConvergenceStage& stage_;
   Paint colour_;
-  /// For each entry of the path, the entry whose picture is shown: the latest one that differs visibly from the picture
-  /// before.
+  /// For each entry of the path, the index of the entry whose picture is shown: the latest pose that visibly differs
+  /// from the previous picture.
   std::vector<std::size_t> seen_;
-  std::optional<Drawn> drawn_;  ///< the latest picture; it is often needed again, because iterations never decrease
+  std::optional<Drawn> drawn_;  ///< the latest picture, cached because several frames may show it
 };
 
-/// Shows paper B's figures 5.1 and 5.2 as a film: a body that converges under two methods side by side, with the curves
+/// A film of paper B's figures 5.1 and 5.2: a body whose pose converges under two methods side by side, and the curves
 /// of their errors below.
 class ConvergenceScene : public Scene {
  public:

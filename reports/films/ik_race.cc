@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-/// A cell and its recording.
+/// A recorded cell: its row and its recording.
 struct RecordedCell {
   const Row* row;
   const Recording* recording;
@@ -109,7 +109,8 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     return Fail({.file = "recording " + cells[0].row->Id()}, "it lacks the track truth");
   }
   race.truth = truth->poses.front();
-  std::vector<std::optional<glm::dvec3>> targets;  // targets of both methods, which solve the same world
+  // The positions of the targets. Both methods solve the same world, so they have the same targets.
+  std::vector<std::optional<glm::dvec3>> targets;
   for (std::size_t i = 0; i < 2; ++i) {
     ASSIGN_OR_RETURN(auto extras, ExtrasOf(*cells[i].row, *cells[i].recording));
     if (i == 0) targets = extras.targets_m;

@@ -71,7 +71,7 @@ std::vector<Facts::Performance> PerformancesIn(const DetectionExtras& extras, co
     performance.begin_frame = std::clamp(event.begin_frame, 0, frames);
     performance.end_frame = std::clamp(event.end_frame, performance.begin_frame, frames);
     if (const auto known = poses.find(performance.move); known != poses.end()) performance.poses = known->second;
-    // Find the frame at which each key pose was reached, counted from the session's start.
+    // For each key pose, find the frame of the session at which the performer reached it.
     const auto window = std::span(seen.frames)
                             .subspan(static_cast<std::size_t>(performance.begin_frame),
                                      static_cast<std::size_t>(performance.end_frame - performance.begin_frame));
@@ -123,7 +123,7 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell
   if (truth->poses.size() != sensed->poses.size()) return Fail(place, "its tracks differ in length");
   ASSIGN_OR_RETURN(const auto extras, ExtrasOf(*cell.recording, place));
   ASSIGN_OR_RETURN(const auto stream, StreamOf(*sensed, extras.joint_states, place));
-  // Rebuild the sensor's view, the performances and the verdicts.
+  // Read the session as the sensor recorded it, the performances, and the method's verdicts.
   JudgedSessionFacts facts;
   facts.truth = *truth;
   facts.seen = SeeStream(stream, {});
@@ -132,7 +132,7 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell
   facts.judges.push_back(JudgeIn(extras, cell.row->method));
   RETURN_IF_ERROR(AddOtherJudges(run, cell, facts));
   if (facts.performances.empty()) return Fail(place, "nothing was asked for");
-  // Use the evidence curve only if it has one value per frame.
+  // Use the evidence curve (a score per frame) only if it has one value for every frame.
   const Series* score = FindSeries(run, *cell.row, "score");
   if (score != nullptr && score->values.size() == sensed->poses.size()) facts.evidence = score->values;
   return facts;
@@ -142,14 +142,14 @@ namespace {
 
 constexpr Box kSeenPanel{12, 52, 440, 520}, kAnglesPanel{464, 52, 804, 520};
 constexpr Box kFigure{12, 84, 440, 440};
-constexpr double kTall = 2.4;  // height of the figure's box, metres
+constexpr double kTall = 2.4;  // height that the box of the figure shows, metres
 constexpr Paint kPanelGround{0.05, 0.06, 0.07, 0.78}, kGhost{0.80, 0.83, 0.85, 0.28};
 constexpr double kStripLeft = 156, kStripsTop = 116, kStripsHeight = 392, kStripGap = 8;
 constexpr double kMaxAngle = 180;
 
 Paint WithOpacity(const Paint& paint, double a) { return {paint.r, paint.g, paint.b, a}; }
 
-/// Returns the angles that occur in any of the poses, in order of appearance.
+/// Returns the angles that at least one of the poses prescribes, in order of their first occurrence.
 std::vector<Feature> FeaturesOf(const std::vector<TaughtPose>& poses) {
   std::vector<Feature> features;
   for (const TaughtPose& pose : poses) {
@@ -172,7 +172,7 @@ struct Strip {
   double Y(double value) const { return box.y + box.height * (1 - std::clamp(value / highest, 0.0, 1.0)); }
 };
 
-/// Describes a performance: "truth: wrong (wrong side, late)".
+/// Describes the ground truth of a performance: "truth: wrong (wrong side, late)".
 std::string TruthWords(const JudgedSessionFacts::Performance& danced) {
   std::string fault = danced.fault == "none" ? "" : " (" + PlainName(danced.fault) + ")";
   if (const auto plus = fault.find('+'); plus != std::string::npos) fault.replace(plus, 1, ", ");
@@ -251,7 +251,7 @@ void JudgedScene::DrawSkeleton(Canvas& canvas, int now) const {
 
 void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   canvas.FillBox(kAnglesPanel, kPanelGround, kPanelRadius);
-  // Write the heading: the move, the verdict and the truth.
+  // Write the heading: the expected move, the verdict and the truth.
   const std::size_t current = CurrentAt(now);
   const Performance& asked = facts_.performances[current];
   const bool is_open = now >= asked.begin_frame && now < asked.end_frame;
@@ -264,7 +264,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   canvas.DrawText({left, kAnglesPanel.y + 53}, fmt::format("{}: {}", facts_.judges.front().method, verdict), 17,
                   called.empty() ? kSoftInk : PaintOfWord(called), 300, true);
   canvas.DrawText({left, kAnglesPanel.y + 77}, TruthWords(asked), 17, PaintOfWord(asked.truth), 300);
-  // Draw the key poses in order; a reached key pose is checked off.
+  // Draw the expected key poses in order, with a check mark at each pose that was reached.
   for (std::size_t k = 0; k < asked.poses.size(); ++k) {
     const bool is_reached = asked.reached[k] && now >= *asked.reached[k];
     const Box box{kAnglesPanel.x + 316 + 122 * static_cast<double>(k % 4),
@@ -274,11 +274,12 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
     canvas.DrawText({box.x + 8, box.y + 17}, fmt::format("pose {}{}", k + 1, is_reached ? " ✓" : ""), 16,
                     is_reached ? kBackdrop : kInk, box.width - 8, true);
   }
-  // Draw one strip for each angle, and one for the evidence.
+  // Draw one strip for each angle, and one strip for the evidence.
   const std::vector<Feature> features = FeaturesOf(asked.poses);
   const double rows = static_cast<double>(features.size()) + 1;
   const double height = std::min(84.0, kStripsHeight / rows - kStripGap);
-  const int shown_to = std::max(0, std::min(now, asked.end_frame - 1));  // a damaged recording may have an empty event
+  // max: in a damaged recording, an event may have no frames.
+  const int shown_to = std::max(0, std::min(now, asked.end_frame - 1));
   const auto strip_at = [&](std::size_t row, double highest) {
     return Strip{
         {kAnglesPanel.x + kStripLeft, kAnglesPanel.y + kStripsTop + static_cast<double>(row) * (height + kStripGap),
@@ -319,7 +320,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
     }
     if (path.size() > 1) canvas.DrawPath(path, 2, kInk);
   }
-  // Draw the evidence, with the threshold of the verdict.
+  // Draw the evidence curve, with the threshold for the verdict "right".
   if (facts_.evidence.empty()) return;
   const auto evidence = [&](int frame) { return facts_.evidence[static_cast<std::size_t>(frame)]; };
   const Strip strip = strip_at(features.size(), 1);

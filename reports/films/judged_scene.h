@@ -21,24 +21,24 @@ struct JudgedSessionFacts {
   struct Performance {
     std::string move, truth, fault;  ///< truth: right, grey, wrong; fault: "none", or names
     int begin_frame = 0, end_frame = 0;
-    std::vector<TaughtPose> poses;  ///< empty if no key pose of the move is known
-    /// For each key pose, the frame at which it was reached: the first frame by which this pose and all poses before it
-    /// have been seen; nullopt if there is none.
+    std::vector<TaughtPose> poses;  ///< the expected key poses; empty if the recording does not define the move
+    /// For each key pose, the frame at which the performer had reached this pose and all earlier poses; nullopt if that
+    /// never happened.
     std::vector<std::optional<int>> reached;
   };
   struct Judge {
     std::string method;
-    /// For each performance, the frame of the verdict "right"; nullopt if the method did not give that verdict.
+    /// For each performance, the frame at which the method gave the verdict "right"; nullopt if it did not.
     std::vector<std::optional<int>> called_right;
-    std::vector<DetectionExtras::Alarm> alarms;  ///< only false alarms
+    std::vector<DetectionExtras::Alarm> alarms;  ///< false alarms only
   };
 
   std::vector<Performance> performances;  ///< in order of time
-  std::vector<Judge> judges;              ///< the view and the evidence of the first judge are shown
+  std::vector<Judge> judges;  ///< the methods; the film shows the sensed skeleton and the evidence of the first one
   BodyMotion truth;
   SeenStream seen;
-  std::vector<double> evidence;     ///< one per frame; may be empty
-  std::optional<double> threshold;  ///< the threshold of the verdict
+  std::vector<double> evidence;     ///< the first method's score, one per frame; empty if the method has none
+  std::optional<double> threshold;  ///< the threshold on the evidence for the verdict "right"
 
   int Frames() const { return static_cast<int>(seen.filtered.frames.size()); }
 };
@@ -47,12 +47,13 @@ struct JudgedSessionFacts {
 /// Fails if the cell has no such recording.
 Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell& cell);
 
-/// The film of a judged session. It shows the sensed skeleton over the true body; the angles of the expected key poses,
-/// each checked off when it is reached; the evidence; and a timeline with the truth, every method's verdicts, and false
-/// alarms.
+/// The film of a session in which methods judge performances. It shows the sensed skeleton over the true body; the
+/// angles of the expected key poses, with a check mark when a pose is reached; the evidence; and a timeline with the
+/// truth, every method's verdicts, and the false alarms.
 class JudgedScene : public Scene {
  public:
-  /// Shows at most `longest` frames, starting just before the performance that precedes the first misjudged one.
+  /// Shows at most `longest` frames. The film begins just before the performance that precedes the first misjudged
+  /// performance.
   JudgedScene(JudgedSessionFacts facts, std::string heading, int longest);
 
   int Frames() const override { return last_ - first_; }
@@ -66,7 +67,7 @@ class JudgedScene : public Scene {
   /// Returns the index of the performance that is expected at a frame. If none is expected, returns the last one before
   /// the frame; before all performances, the first one.
   std::size_t CurrentAt(int frame) const;
-  /// Returns the verdict "right" or "wrong" once it is known; before that, "".
+  /// Returns the verdict of a judge on a performance, "right" or "wrong"; "" if the verdict comes after `frame`.
   std::string CalledAt(std::size_t judge, std::size_t performance, int frame) const;
   bool IsMisjudged(std::size_t performance) const;
   void DrawSkeleton(Canvas& canvas, int now) const;

@@ -26,7 +26,7 @@ constexpr const char *kConvergence = "convergence", *kTransitions = "transitions
 void Note(std::string& words, const std::string& more) { words += (words.empty() ? "" : " ") + more; }
 
 void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch& watch, Media& media) {
-  // Choose a capture; if there is none, a coach alone.
+  // Choose a recorded capture; if there is none, a recorded coach.
   const auto has_pictures = [](const ScenarioSummary& scenario) {
     return scenario.task == "transition" || scenario.task == "capture";
   };
@@ -34,7 +34,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   std::string& why = media.film.why_not;
   const auto capture_cell = ChooseCell(run, "capture", "recovered");
   const auto coach_cell = capture_cell ? std::nullopt : ChooseCell(run, "transition", "coach");
-  // Make no film of a coach alone if another film compares methods.
+  // Make no film of a single coach if another film compares several methods as coaches.
   const auto compares = [&](const ScenarioSummary& scenario) { return FindTransitionRace(run, scenario).has_value(); };
   if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
   if (!coach_cell && !capture_cell) {
@@ -46,7 +46,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-  // `shoot` makes the film and adds the reasons why earlier parts could not be made.
+  // `shoot` renders the film, and keeps the reasons why other pictures could not be made.
   const auto shoot = [&](Scene&& scene) {
     Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);
@@ -72,7 +72,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   shoot(CaptureScene(**renderer, std::move(*captures)));
 }
 
-// Draws one plate for each capture scenario, from a recorded cell that keeps moments.
+// Draws one plate (DrawPlate) for each capture scenario, from a recorded cell that keeps moments.
 void MakePlates(const RunData& run, Media& media) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task != "capture") continue;
@@ -86,7 +86,7 @@ void MakePlates(const RunData& run, Media& media) {
   }
 }
 
-/// Returns a film without content that states the reason.
+/// Returns a film without frames, which only states why it could not be made.
 Film NoFilm(const FilePath& path, std::string why_not) {
   Film film;
   film.file = path.whole().filename().string();
@@ -94,7 +94,8 @@ Film NoFilm(const FilePath& path, std::string why_not) {
   return film;
 }
 
-/// Makes a film of methods side by side in one world. If that fails, the film states why there is no film of `what`.
+/// Makes a film that shows methods side by side in one world. If that is impossible, the returned film states why there
+/// is no film of `what`.
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what, const FilePath& path,
                        const FilmWatch& watch) {
@@ -105,15 +106,16 @@ Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::stri
   return Shoot(scene, path, watch);
 }
 
-/// Returns the name of a film: "convergence.mp4", or, if several scenarios share the task, "convergence-SCENARIO.mp4".
+/// Returns the file name of a film: "convergence.mp4", or "convergence-SCENARIO.mp4" if several scenarios have the same
+/// task.
 std::string FilmName(const RunData& run, std::size_t index, std::string_view what) {
   const ScenarioSummary& scenario = run.scenarios[index];
   const bool alone = std::ranges::count(run.scenarios, scenario.task, &ScenarioSummary::task) == 1;
   return alone ? fmt::format("{}.mp4", what) : fmt::format("{}-{}.mp4", what, FileNameOf(scenario.name, index));
 }
 
-/// Makes the film of a coached session, cut around a correction unless whole sessions are wanted. If that fails, the
-/// film states the reason.
+/// Makes the film of a coached session, cut around a correction unless whole sessions are wanted. If that is
+/// impossible, the returned film states the reason.
 Film MakeSessionFilm(const std::optional<ShownCell>& cell, const std::string& which, const FilePath& path,
                      const MediaOptions& options) {
   if (!cell) return NoFilm(path, "There is no film of a session: no motion of one was kept.");
@@ -128,7 +130,7 @@ Film MakeSessionFilm(const std::optional<ShownCell>& cell, const std::string& wh
   return Shoot(scene, path, options.watch);
 }
 
-/// Makes films of a typical session and of the worst session; one film if both are the same session.
+/// Makes one film of a typical session and one of the worst session, or a single film if these are the same session.
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
                       Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];

@@ -16,14 +16,14 @@ struct ShownCell {
 };
 
 /// Chooses the cell that a film of a task shows. Candidates are recorded cells with status ok and the track `track`,
-/// preferably of the method that the scenario's question is about. Among the candidates it takes the median by the
-/// first headline metric: a typical cell, not the best one.
+/// preferably cells of the method that the scenario's question is about. Returns the candidate with the median value of
+/// the first headline metric: a typical cell, not the best one.
 std::optional<ShownCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 
 /// Chooses a cell of one scenario by the same rule.
 std::optional<ShownCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track);
 
-/// Finds a curve of a cell by name; null if there is none.
+/// Finds a curve (one value per frame or iteration) of a cell by its name; null if the cell has none.
 const Series* FindSeries(const RunData& run, const Row& row, std::string_view name);
 
 }  // namespace etude

@@ -13,28 +13,28 @@
 namespace etude {
 namespace {
 
-// The height of the picture in metres: it holds a person with raised arms, and some floor.
+// The visible height in metres. It is enough for a person with raised arms, and some floor.
 constexpr double kSeenHeight = 2.65;
 constexpr double kDistance = 4.2;
 constexpr double kEyeHeight = 1.45;
 constexpr double kLookAtHeight = 0.94;
-// Pictures are drawn larger by this factor and then shrunk, which smooths edges at about half the cost of a factor of
-// 2.
+// Pictures are rendered larger by this factor and then shrunk, which smooths edges (supersampling) at about half the
+// cost of a factor of 2.
 constexpr double kCoachDetail = 1.5;
-// The camera path is averaged over this many frames (a second) to either side. While the camera stands still, the room
-// is not drawn again.
+// The camera path is a moving average over this many frames (one second) before and after each frame. While the camera
+// stands still, the room is not rendered again.
 constexpr int kCoachFollowFrames = 30;
 // The smallest distance of the hips from the room's wall, metres.
 constexpr double kMinWallDistance = 1.0;
-// The number of frames for which the change stays marked after the transition point, and the numbers of frames before
-// and after it in which its distances are shown.
+// The number of frames after the transition point in which the film marks the change of moves, and the numbers of
+// frames before and after the point in which it shows the partial distances.
 constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
 // Width of the distance bars beside the feet, and their height above the timeline, pixels.
 constexpr double kBarsWidth = 320, kBarsLift = 34;
 
-// Moves the motion to the middle of the room. At the transition point the person faces the camera; the whole motion is
-// moved forward until it stays in front of the wall.
+// Moves the motion to the middle of the room. At the transition point, the person faces the camera. The whole motion is
+// moved towards the camera until it stays in front of the wall.
 void PutOnStage(BodyMotion& motion, int point) {
   const FloorMove move = ToOrigin(motion.poses[static_cast<std::size_t>(point)]);
   double backmost = 0;
@@ -48,17 +48,17 @@ void PutOnStage(BodyMotion& motion, int point) {
 
 Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 
-// The minimum number of frames of the film, enough to watch one change of moves. (The maximum is kLongest.)
+// The minimum number of frames of the film, enough to watch one change of moves; kLongest is the maximum.
 constexpr int kMinFrames = 5 * kFilmRate;
 // The number of frames for which a repeated motion rests on its last frame before it starts again.
 constexpr int kRest = kFilmRate / 2;
 
 constexpr Box kCoachBox{12, 52, 1256, 656};
 
-// The frame of a motion that a frame of the film shows.
+// The frame of the motion that the film shows. A short motion is repeated.
 struct Shown {
   int frame;
-  bool before;  ///< the motion has been shown once before
+  bool before;  ///< true: the film has shown the whole motion before
 };
 Shown ShownAt(int film_frame, int length) {
   const int round = film_frame % (length + kRest);
@@ -166,7 +166,7 @@ void CoachPanel::DrawDistances(Canvas& canvas, const Box& panel, int frame) cons
 
 int StageScene::Frames() const { return std::clamp(coach_.Frames(), kMinFrames, kLongest); }
 
-// Returns the moment just after the change of moves.
+// Returns a frame just after the coach changed moves.
 int StageScene::PosterFrame() const { return std::min(coach_.FirstPoint() + 4, Frames() - 1); }
 
 std::string StageScene::Words() const { return fmt::format("The coach changes moves ({}).", coach_.Title()); }

@@ -16,17 +16,17 @@
 namespace etude {
 
 /// A coach that changes from one move to another, seen from the front by a camera that follows the coach. Around each
-/// transition point, bars show the partial distances of that point.
+/// transition point, bars show the partial distances of the two frames that the transition joins.
 class CoachPanel {
  public:
-  /// Cuts the recording to at most `longest` frames around the first transition point. Fails if the recording's facts
+  /// Cuts the recording to at most `longest` frames around the first transition point. Fails if the recording's extras
   /// cannot be read.
   static Result<CoachPanel> Make(const ShownCell& cell, int longest);
 
   int Frames() const { return static_cast<int>(motion_.poses.size()); }
   /// Returns the first frame after the first transition point; with an in-between clip there are two points.
   int FirstPoint() const { return facts_.transition_frames.front(); }
-  /// Returns the title: "clap → side kick, by fuzzy-bridge".
+  /// Returns the title, with both clips and the method: "clap → side kick, by fuzzy-bridge".
   std::string Title() const;
   void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const;
 
@@ -41,11 +41,12 @@ class CoachPanel {
   Character bear_;
   BodyMotion motion_;
   std::vector<glm::dvec3> followed_;  ///< the point that the camera follows, one per frame
-  TransitionFacts facts_;             ///< facts of the cut motion; at least one transition point
+  /// Extras of the recording, with frame numbers of the cut motion; at least one transition point.
+  TransitionFacts facts_;
   std::string method_;
 };
 
-/// The film of a run that recorded a coach but no capture by cameras. It shows the coach changing moves.
+/// The film at the top of the page if the run recorded a coach but no capture. It shows the coach changing moves.
 class StageScene : public Scene {
  public:
   /// The maximum number of frames of the motion that is shown.

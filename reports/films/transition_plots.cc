@@ -18,7 +18,7 @@ constexpr Paint kFaint{0.95, 0.955, 0.96, 0.18};
 constexpr double kTextSize = 15, kJumpRoom = 210;
 constexpr double kSide = 12, kStripTop = 24, kStripBottom = 34, kClipHeight = 6;
 
-// Computes the metric jump_cm from the frames up to `frame`.
+// Computes the metric jump_cm (the largest jump near a transition point) from the frames up to `frame`.
 std::optional<double> JumpAtPoints(const TransitionPath& path, int frame) {
   std::optional<double> largest;
   for (const int point : path.facts.transition_frames) {
@@ -37,12 +37,13 @@ constexpr std::size_t kRows = kFeatureCount / 2;
 constexpr Paint kTrack{0.30, 0.34, 0.37, 1};
 constexpr Paint kBeyond{0.98, 0.52, 0.45, 1};
 
-// Returns the value of a full bar: the squared threshold, or the largest partial distance if there is no threshold.
+// Returns the partial distance that fills a bar: the squared threshold, or the largest partial distance if there is no
+// threshold.
 double FullBar(const TransitionFacts& facts, const PerFeature& partials) {
   return facts.threshold ? *facts.threshold * *facts.threshold : std::ranges::max(partials);
 }
 
-// Draws the bar of one feature. Beside narrow bars, its label is the feature's abbreviation in paper A.
+// Draws the bar of one feature. A narrow bar is labelled with the feature's abbreviation from paper A.
 void DrawBar(Canvas& canvas, const Box& row, Feature feature, std::optional<double> partial, double full,
              bool has_threshold) {
   const bool is_wide = row.width >= kRoomForLong;
@@ -56,7 +57,7 @@ void DrawBar(Canvas& canvas, const Box& row, Feature feature, std::optional<doub
   if (!partial) return;
   const double share = full > 0 ? std::clamp(*partial / full, 0.0, 1.0) : 0;
   const bool beyond = has_threshold && *partial >= full;
-  // A bar is at least as wide as its two rounded ends.
+  // Bars have rounded ends, so a bar is at least as wide as both ends.
   const double width = std::max(track.width * share, kBarHeight);
   if (share > 0.005) canvas.FillBox({track.x, track.y, width, kBarHeight}, beyond ? kBeyond : kWarm, kBarHeight / 2);
   canvas.DrawText({track.x + track.width + 6, baseline}, FormatFixed(*partial, 3), kValueSize, kSoftInk, kValueWidth);
@@ -64,7 +65,7 @@ void DrawBar(Canvas& canvas, const Box& row, Feature feature, std::optional<doub
 
 }  // namespace
 
-/// The area inside the axes; maps values to positions.
+/// The plot area inside the axes, which maps times and jumps to pixels.
 struct JumpStrip::Frame {
   Box box;
   const JumpStrip& strip;

@@ -9,14 +9,14 @@
 
 namespace etude {
 
-/// The path of one method through a request; times are frames after the request.
+/// The coach's motion under one method before and after a request. Times are frames after the request.
 struct TransitionPath {
   std::string method;
-  std::size_t method_index = 0;  ///< index in the scenario, which selects the colour
+  std::size_t method_index = 0;  ///< index of the method in the scenario, which selects the colour
   TransitionFacts facts;
   BodyMotion motion;
-  std::vector<double> jumps_cm;  ///< largest second difference of any joint, one per frame
-  int request = 0;               ///< index into `motion` of the frame of the request; it may lie outside `motion`
+  std::vector<double> jumps_cm;  ///< largest second difference of any joint's position, one per frame
+  int request = 0;  ///< index into `motion` of the frame of the request; the index may lie outside `motion`
 
   /// Returns the index of the frame `time` frames after the request. Times before or after the recording give its first
   /// or last frame.
@@ -24,23 +24,23 @@ struct TransitionPath {
   bool IsRecordedAt(int time) const;
   /// Returns the time of a frame of the motion, in frames after the request.
   int TimeOf(int frame) const { return frame - request; }
-  /// Returns the number of transition points before that time.
+  /// Returns the number of transition points before `time`.
   std::size_t PointsBefore(int time) const;
   int FirstPoint() const { return TimeOf(facts.transition_frames.front()); }
   int LastPoint() const { return TimeOf(facts.transition_frames.back()); }
 };
 
-/// One request under two to four methods.
+/// One request, and the transitions that two to four methods made for it.
 struct TransitionRace {
   std::string world;    ///< "trial 30"
   std::string request;  ///< "clap → side kick"
-  std::string choice;   ///< in words: why this world and these methods were chosen
+  std::string choice;   ///< a sentence that says why this world and these methods were chosen
   std::vector<TransitionPath> paths;
 };
 constexpr std::size_t kMaxTransitionPaths = 4;
 
-/// Returns the transitions of these methods in a world, in the order of `methods`, at most kMaxTransitionPaths. Methods
-/// without a transition that can be shown are left out.
+/// Returns the transitions of these methods in a world, in the order of `methods`, at most kMaxTransitionPaths. A
+/// method is left out if it made no transition that can be shown.
 TransitionRace RaceIn(const RecordedRequest& world, const ScenarioSummary& scenario,
                       const std::vector<std::string>& methods);
 
@@ -49,9 +49,8 @@ TransitionRace RaceIn(const RecordedRequest& world, const ScenarioSummary& scena
 /// methods.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
-/// Maps frames of a film to times of a request, the same for every method. The film runs from a second before the
-/// request until after the last transition; then slow motion repeats the transitions. Times are frames after the
-/// request.
+/// Maps the film's frames to times after the request; the map is the same for every method. The film shows the time
+/// from one second before the request until after the last transition. Slow motion then repeats the transitions.
 class TransitionClock {
  public:
   static constexpr int kSlowness = 4;
@@ -63,7 +62,7 @@ class TransitionClock {
   int Frames() const { return Run() + kRest + kSlowness * (slow_last_ - slow_first_ + 1) + kRest; }
   int TimeAt(int frame) const;
   bool IsSlow(int frame) const { return frame >= Run() + kRest; }
-  /// Returns the first frame of the film that shows this time.
+  /// Returns the first frame of the film that shows `time`.
   int FrameOf(int time) const;
 
  private:

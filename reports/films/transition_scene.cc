@@ -15,9 +15,9 @@ namespace etude {
 namespace {
 
 constexpr double kStageDetail = 1.5;
-// The camera path of a walking body is averaged over a second to either side.
+// The camera follows the moving average of a walking body over this many frames (one second) before and after.
 constexpr int kFollowFrames = 30;
-// Poses change little from frame to frame, so every n-th frame is enough to find the visible space.
+// Poses change little from frame to frame, so every n-th frame is enough to find the space that the camera must see.
 constexpr int kLookedAtEvery = 3;
 
 std::vector<FloorMove> PlacementsOf(const TransitionPath& path) {
@@ -37,8 +37,8 @@ std::vector<std::vector<FloorMove>> AllPlacements(const TransitionRace& race) {
   return placements;
 }
 
-// The number of frames for which a change stays marked, and for which the pose at the leaving point stays visible as a
-// ghost.
+// The number of frames for which the film marks a transition, and the number of frames for which the last pose of the
+// clip that was left stays visible as a ghost.
 constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
 constexpr double kPanelMargin = 12;
 constexpr Paint kPlate{0.13, 0.15, 0.17, 1};
@@ -57,7 +57,8 @@ TransitionStage StageFor(const TransitionRace& race, const TransitionClock& cloc
   return {race, clock.First(), clock.Last(), static_cast<int>(body.width), static_cast<int>(body.height)};
 }
 
-// Returns the highest jump of all methods: they share one scale, so that jumps can be compared across columns.
+// Returns the largest jump of all methods. The plots of all methods use it as their scale, so that jumps can be
+// compared across columns.
 double HighestJump(const TransitionRace& race, const TransitionClock& clock) {
   double highest = 1;
   for (const TransitionPath& path : race.paths) {
@@ -108,8 +109,8 @@ Box TransitionPanel::BodyBox(const Box& column) {
           column.height - kCaptionHeight - kStripHeight - kDistanceBarsHeight - 2 * kGap};
 }
 
-// Returns the name of the clip that plays at a time. A clip between two points has the name that the recording gives
-// it, else "in-between".
+// Returns the name of the clip that plays at a time. A clip between two transition points has the name in the
+// recording, or "in-between" if the recording gives none.
 std::string TransitionPanel::ClipAt(int time) const {
   const std::size_t points = path_.PointsBefore(time);
   if (points == 0) return path_.facts.from;
@@ -133,7 +134,7 @@ void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer
 void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
   const int frame = path_.FrameAt(time);
   const std::size_t points = path_.PointsBefore(time);
-  // For a second, show the pose at the leaving point as a ghost.
+  // For one second after a transition, show the last pose of the clip that was left as a ghost.
   std::optional<int> left;
   if (points > 0) left = path_.facts.transition_frames[points - 1];
   const int since = left ? time - path_.TimeOf(*left) : 0;
@@ -141,7 +142,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
   if (!drawn_ || drawn_->frame != frame || drawn_->ghost != ghost) {
     drawn_ = {frame, ghost, stage_.Picture(renderer, path_, index_, frame, ghost)};
   }
-  // Mark a change with a bright rim.
+  // Mark a recent transition with a bright rim.
   const bool just_changed = left && since <= kMarkFrames;
   const Box plate{box.x, box.y, box.width, box.height + kCaptionHeight};
   if (just_changed) {
@@ -160,7 +161,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
                     box.width - 32);
   }
   DrawTag(canvas, box, path_.method, kMarkRoom);
-  // Draw the method's colour, which is the same as on the page, below its name.
+  // Below the method's name, draw a bar in the method's colour, which is the same as on the page.
   canvas.FillBox({box.x + 14, box.y + 45, 44, 4}, MethodPaint(path_.method_index), 2);
   if (just_changed) DrawMark(canvas, box, "change");
   DrawWords(canvas, {box.x, box.y + box.height, box.width, kCaptionHeight}, time);

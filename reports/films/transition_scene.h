@@ -13,13 +13,13 @@
 
 namespace etude {
 
-/// The stage for all methods of a race: one fixed camera. At the request, every body faces the camera.
+/// Renders the bodies of all methods of a race with one fixed camera. At the request, every body faces the camera.
 class TransitionStage {
  public:
-  /// Makes a stage for pictures of this size that show the times `first` … `last`, in frames after the request.
+  /// Prepares pictures of this size that show the times `first` … `last`, in frames after the request.
   TransitionStage(const TransitionRace& race, int first, int last, int width, int height);
 
-  /// Draws frame `frame` of a path. Frame `ghost` of the same path, if given, shows through from behind.
+  /// Renders frame `frame` of a path. If `ghost` is given, adds frame `ghost` of the same path as a translucent ghost.
   Image<std::uint32_t> Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
                                std::optional<int> ghost) const;
 
@@ -28,21 +28,22 @@ class TransitionStage {
 
   int width_, height_;
   Character bear_;
-  std::vector<std::vector<FloorMove>> placements_;  ///< by path and frame
-  mutable Studio studio_;                           ///< mutable because it keeps its last picture
+  /// The rigid motion on the floor that places a body; index: path, then frame.
+  std::vector<std::vector<FloorMove>> placements_;
+  mutable Studio studio_;  ///< mutable, because it caches its last picture
 };
 
-/// One method's column of the film that compares transitions: the person, the jumps, and the distances at the
-/// transition points.
+/// One method's column of the film that compares transitions: the person, the plot of jumps, and the partial distances
+/// at the transition points.
 class TransitionPanel {
  public:
   static constexpr double kCaptionHeight = 52, kStripHeight = 132, kGap = 8;
 
-  /// All references must outlive the panel; `index` is the path's index in the race for which the stage was made.
+  /// All references must outlive the panel. `index` is the index of `path` in the race from which `stage` was made.
   TransitionPanel(const TransitionPath& path, std::size_t index, const TransitionStage& stage, const JumpStrip& strip)
       : path_(path), index_(index), stage_(stage), strip_(strip) {}
 
-  /// Returns the part of a column that shows the person; the caption is below it.
+  /// Returns the rectangle of a column that shows the person; the caption is below this rectangle.
   static Box BodyBox(const Box& column);
   void Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time);
 
@@ -60,11 +61,11 @@ class TransitionPanel {
   std::size_t index_;
   const TransitionStage& stage_;
   const JumpStrip& strip_;
-  std::optional<Drawn> drawn_;  ///< kept, because slow motion shows each picture several times
+  std::optional<Drawn> drawn_;  ///< the last picture, cached because slow motion shows each picture several times
 };
 
-/// The film of one request under two to four methods side by side. It shows when each method changes, how smoothly, and
-/// with which distances.
+/// The film of one request under two to four methods side by side. It shows when each method changes clips, how smooth
+/// the transition is, and the partial distances at its transition points.
 class TransitionScene : public Scene {
  public:
   /// Makes the film of a race. The renderer must outlive the scene.
@@ -73,7 +74,7 @@ class TransitionScene : public Scene {
   TransitionScene& operator=(const TransitionScene&) = delete;
 
   int Frames() const override { return clock_.Frames(); }
-  /// Returns a frame just after all methods have changed.
+  /// Returns a frame just after all methods have made their transitions.
   int PosterFrame() const override;
   std::string Words() const override;
   Canvas Draw(int frame) override;
