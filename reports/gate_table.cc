@@ -49,7 +49,7 @@ std::string WorldsText(const MetricMove& move) {
   return text;
 }
 
-/// Returns the movements' nonzero counts: "2 worse, 3 better, 165 same".
+/// Returns how many moves have each outcome, without zeros: "2 worse, 3 better, 165 same".
 std::string MovementCounts(const std::vector<MetricMove>& moves) {
   std::string text;
   for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
@@ -62,7 +62,8 @@ std::string MovementCounts(const std::vector<MetricMove>& moves) {
   return text;
 }
 
-/// Returns the nonzero counts of outcomes: "12 expectations: 11 met, 1 unmet"; "" if there are no items.
+/// Returns how many items have each outcome, without zeros: "12 expectations: 11 met, 1 unmet"; "" if there are no
+/// items.
 template <typename Items, typename OutcomeOf>
 std::string OutcomeCounts(const Items& items, std::string_view what, OutcomeOf outcome_of) {
   std::string text;
@@ -178,7 +179,7 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
   const std::string folder = report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder);
   const MoveIdentity& one = moves.front()->identity;
   const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition);
-  // The trial of each world, and a text that lists the metrics that are far worse in it.
+  // The far worse worlds: the trial of each, and a text that lists the metrics that became far worse.
   std::vector<std::pair<int, std::string>> worlds;
   std::map<int, std::size_t> places;
   for (const MetricMove* move : moves) {
@@ -207,7 +208,8 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
 }
 
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most) {
-  std::vector<std::vector<const MetricMove*>> methods;  // one entry per method and condition, in the order of the run
+  // The moves of each method under each condition, in the order of the run.
+  std::vector<std::vector<const MetricMove*>> methods;
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const MetricMove& move : report.comparison.moves) {
     if (move.tail.empty() || IsRegression(move) != failing) continue;
@@ -231,7 +233,7 @@ std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::siz
 
 namespace {
 
-// GitHub allows 65,536 characters in a comment, and nobody would read a longer table.
+// The maximum number of rows. GitHub allows 65,536 characters in a comment, and nobody would read a longer table.
 constexpr std::size_t kMaxRows = 100;
 constexpr std::size_t kMaxWorldsEach = 5, kMaxWorlds = 40;
 
@@ -259,13 +261,13 @@ std::string List(std::string_view title, const std::vector<std::string>& lines) 
   return text;
 }
 
-/// Returns Markdown that stays folded away; "" without a content.
+/// Returns Markdown that folds `content` below a title; "" if `content` is empty.
 std::string FoldedAway(const std::string& title, const std::string& content) {
   if (content.empty()) return "";
   return fmt::format("\n<details><summary>{}</summary>\n{}\n</details>\n", title, content);
 }
 
-/// Returns the answers of the run's own findings as a table; the page of the run states the same answers.
+/// Returns a table of the run's own answers (which method is better), as the report page of the run states them.
 std::string AnswerTable(const std::vector<GateAnswer>& answers) {
   if (answers.empty()) return "";
   Table table{.columns = {{"scenario"}, {"condition"}, {"method"}, {"against"}, {"answer"}, {"decided by"}}};
@@ -278,7 +280,8 @@ std::string AnswerTable(const std::vector<GateAnswer>& answers) {
   return TableMarkdown(table);
 }
 
-/// Returns a command as a code span, or as plain text if a name in it would end the span.
+/// Returns a command as a Markdown code span, or as plain text if the command contains a character that would end the
+/// span.
 std::string CommandText(const std::string& command) {
   const bool plain = command.find_first_of("`\n\r") == std::string::npos;
   return plain ? "`" + command + "`" : EscapeMarkdown(command);
@@ -329,13 +332,13 @@ std::string WriteGateMarkdown(const GateReport& report) {
   std::string text =
       fmt::format("## Etude gate of {}: {}{}\n\n", EscapeMarkdown(report.suite),
                   GateVerdictWords(GateVerdictOf(report)), report.baseline_file.empty() ? ", without a baseline" : "");
-  // Write what was judged, and what failed.
+  // Write how many expectations and comparisons were judged, and how many failed.
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
   text += List("**Incomplete**, so there is no overall verdict:", report.incomplete);
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
   text += List("**Answers that fell** (one from better to worse is a regression):", FallenLines(report));
-  // Write the changes. Changes that fail the gate stay open; all others are folded away.
+  // Write the changed metrics. Those that fail the gate are visible; all others are folded away.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);
@@ -345,8 +348,8 @@ std::string WriteGateMarkdown(const GateReport& report) {
                        MoveTable(others) + WorldList("Single worlds that are far worse, but too few to fail:",
                                                      TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
   }
-  // Write the claims that could not be decided (they pass), the answers of the run's own findings, what could not be
-  // compared, and changed settings.
+  // Write the undecided claims (which pass), the run's own answers, the entries that could not be compared, and the
+  // methods with changed settings.
   const std::vector<std::string> undecided = ClaimsThatAre(report, ClaimOutcome::kUndecided);
   text += FoldedAway(fmt::format("Could not be decided ({})", undecided.size()), List("These pass:", undecided));
   text += FoldedAway(fmt::format("Answers of this run ({})", report.answers.size()), AnswerTable(report.answers));

@@ -24,11 +24,13 @@ std::string CaseXml(const std::string& suite, const JunitCase& c) {
 
 ClaimOutcome MetWhen(bool holds) { return holds ? ClaimOutcome::kMet : ClaimOutcome::kUnmet; }
 
-// If one method has a row in a world, every method must have one, because the design is full factorial.
+// Returns a case that fails if a row is missing. The design is full factorial: if one method has a row in a world,
+// every method must have one.
 JunitCase EveryCellHasARow(const RunData& run, const ScenarioSummary& scenario) {
   std::set<std::string> ids;
   std::set<std::pair<std::string, int>> worlds;
-  for (const Row& row : run.rows) {  // the sample of a large run also has whole worlds
+  // If the run is too large for memory, `rows` is a sample, which contains whole worlds only.
+  for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
     ids.insert(row.Id());
     worlds.emplace(ConditionLabel(row.condition), row.trial);
@@ -46,12 +48,13 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
     // Unsolved and skipped cells do not fail this case; a scenario can forbid them in `expect`.
     if (reason.status == Status::kUnsolved || reason.status == Status::kSkipped) continue;
     broken += reason.cells;
-    detail += fmt::format("{} x {} in {}: {}\n", reason.cells, StatusName(reason.status), reason.method, reason.Words());
+    detail +=
+        fmt::format("{} x {} in {}: {}\n", reason.cells, StatusName(reason.status), reason.method, reason.Words());
   }
   return {"no cell broke", MetWhen(broken == 0), std::move(detail)};
 }
 
-/// Returns a case that cannot fail; it shows the answer to readers of CI.
+/// Returns a case that always passes and shows the scenario's answer to readers of CI.
 JunitCase TheAnswer(const ScenarioFindings& findings) {
   std::string said = findings.headline;
   for (const MethodFinding* finding : {&findings.answer, &findings.rival}) {

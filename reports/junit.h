@@ -13,7 +13,7 @@ struct JunitCase {
   std::string name;
   ClaimOutcome outcome;
   std::string detail;
-  std::string said = {};  ///< further text for readers, written whatever the verdict
+  std::string said = {};  ///< further text for readers, written for every outcome
 };
 
 struct JunitSuite {
@@ -21,14 +21,14 @@ struct JunitSuite {
   std::vector<JunitCase> cases;
 };
 
-/// Returns JUnit XML in the form that CI systems read; the counts are computed from the cases. `version` is Etude's
-/// version, a property of each suite.
+/// Returns JUnit XML in the form that CI systems read. The numbers of tests, failures and skipped tests are computed
+/// from the cases. `version` is Etude's version, which becomes a property of each suite.
 std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites, const std::string& version);
 
-/// Returns the run as JUnit XML, one suite per scenario. Each suite has one case per expectation (failed if unmet,
-/// skipped if undecided), and one case that passes if every cell has a row. A last case passes if no cell crashed,
-/// failed, timed out or gave an invalid answer; if the motions have no truth, one case per clip (ClipCases) replaces
-/// it.
+/// Returns the run as JUnit XML, one suite per scenario. A suite has one case per expectation (failed if unmet, skipped
+/// if undecided), and one case that passes if every cell has a row. The last case passes if no cell crashed, failed,
+/// timed out or gave an invalid answer. If the motions have no ground truth, the suite has one case per clip
+/// (ClipCases) instead of this last case.
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

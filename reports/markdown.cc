@@ -26,14 +26,15 @@ std::string FindingText(const MethodFinding& finding) {
                      finding.why_open.empty() ? "" : EscapeMarkdown(fmt::format(" Open: {}.", finding.why_open)));
 }
 
-/// Returns the answer against the baseline and, if the strongest other method is not the baseline, also the answer
-/// against that method.
+/// Returns the method's answer against the baseline. If the strongest other method is not the baseline, adds the answer
+/// against the strongest other method.
 std::string AnswerText(const ScenarioFindings& findings) {
   std::string text = FindingText(findings.answer) + "\n";
   return HasOtherRival(findings) ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;
 }
 
-/// Returns the description of the worlds and one sentence on each method; "" if the scenario describes neither.
+/// Returns the description of the worlds and one sentence about each method; "" if the scenario describes neither
+/// worlds nor methods.
 std::string WhatIsComparedText(const ScenarioSummary& scenario) {
   std::string text = scenario.description.empty() ? "" : "\n" + EscapeMarkdown(scenario.description) + "\n";
   if (scenario.descriptions.empty()) return text;
@@ -48,13 +49,13 @@ std::string WhatIsComparedText(const ScenarioSummary& scenario) {
 
 std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
-  // Write the answer and the tables.
+  // Write the scenario's answer and the tables.
   std::string text = fmt::format("\n## {}\n\n{}\n\n{}", EscapeMarkdown(scenario.name),
                                  EscapeMarkdown(scenario.question), AnswerText(findings));
   if (!findings.figures.methods.empty()) text += TableMarkdown(FiguresTable(findings.figures, true));
   text += WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
   text += ComparisonTableMarkdown(scenario) + AcrossTableMarkdown(scenario) + '\n';
-  // Write the expectations, how cells ended, and why.
+  // Write the expectations, how many cells ended in each status, and the reasons.
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view outcome = e.outcome == ClaimOutcome::kMet     ? "met"
                                      : e.outcome == ClaimOutcome::kUnmet ? "**not met**"

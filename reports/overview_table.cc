@@ -24,7 +24,7 @@ struct OverviewCell {
   std::string value;
   std::string interval = {};             ///< interval of the value; "" if it has none
   std::string counted = {};              ///< "10 of 12" if some cells have no value, else ""
-  std::optional<double> sorted_by = {};  ///< the method's typical value as a number
+  std::optional<double> sorted_by = {};  ///< the median or mean that `value` shows, as a number by which the page sorts
   const Comparison* baseline = nullptr;  ///< comparison with the baseline; may be null
   const Comparison* rival = nullptr;     ///< comparison with the strongest other method; may be null
 
@@ -33,9 +33,9 @@ struct OverviewCell {
 
 struct OverviewRow {
   std::string method, condition;
-  std::string cell = {};                 ///< one of the row's cells, if possible a recorded one
-  std::string kept = {};                 ///< HTML attribute of the cell if it was recorded
-  std::vector<OverviewCell> cells = {};  ///< one per metric
+  std::string cell = {};  ///< identity of one of the row's cells as an example, if possible a recorded cell
+  std::string kept = {};  ///< HTML attribute that links the example cell to its recording; "" if it was not recorded
+  std::vector<OverviewCell> cells = {};  ///< one table cell per metric
   bool is_yardstick = false;
 };
 
@@ -61,7 +61,7 @@ OverviewCell CellOf(const ConditionSummary& condition, const MethodSummary& meth
   return cell;
 }
 
-/// Returns the headline metrics, then all others that any method has.
+/// Returns the headline metrics, then all further metrics that any method has.
 std::vector<std::string> AllMetricsOf(const ScenarioSummary& scenario) {
   std::vector<std::string> metrics = scenario.headline_metrics;
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -101,7 +101,7 @@ std::vector<OverviewRow> RowsOf(const RunData& run, const ScenarioSummary& scena
                                 std::span<const std::string> metrics) {
   std::vector<OverviewRow> rows;
   const ExampleCells examples(run, scenario);
-  // List the rows of the same method, one per condition, below each other.
+  // Put the rows of the same method, one per condition, below each other.
   for (const std::string& name : scenario.methods) {
     for (const ConditionSummary& condition : scenario.conditions) {
       const auto method = std::ranges::find(condition.methods, name, &MethodSummary::method);
@@ -137,7 +137,8 @@ TableCell TableCellOf(const OverviewCell& cell, bool has_rivals, SamplingUnit un
   return {text, cell.sorted_by, html};
 }
 
-/// Returns a table of methods by `metrics`. The headline metrics come first; the others are marked as details.
+/// Returns a table with one row per method and condition and one column for each of `metrics`. The headline metrics
+/// come first; the other columns are marked as details.
 Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string> metrics,
                     std::span<const OverviewRow> rows, std::string_view method_head, std::string_view condition_head) {
   const bool swept = scenario.conditions.size() > 1;
@@ -167,7 +168,7 @@ Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string
   return table;
 }
 
-/// Returns a list of the missing values, grouped by reason.
+/// Returns a list that says how many values are missing for which reason.
 std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
   std::map<std::string, std::vector<std::string>> metrics_of;
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -203,7 +204,8 @@ std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");
   if (!alike) return std::string(kNoValue);
   std::string text = *alike > 0 ? "alike" : "apart";
-  // Show the joint distance if the method uses it; otherwise the fuzzy distance, which every pair has.
+  // Show the distance between the joints if the method uses it; otherwise show the fuzzy distance, which every pair of
+  // poses has.
   if (const auto joints = ValueOf(row, "joint_distance_cm")) {
     text += fmt::format(" {} cm", FormatNumber(*joints));
   } else if (const auto d = ValueOf(row, "fuzzy_distance")) {
@@ -213,16 +215,17 @@ std::string VerdictOf(const Row& row) {
   return is_false && *is_false > 0 ? "✗ " + text : text;
 }
 
-/// Returns one row for every pair of poses with each method's verdict; no rows if the worlds are not single pairs.
+/// Returns a table with one row for every pair of poses, which shows each method's verdict. It has no rows if the
+/// worlds are not single pairs.
 Table PosePairs(const RunData& run, const ScenarioSummary& scenario, std::string_view poses, std::string_view apart) {
   Table table{
       .label = "Pair by pair",
       .style = "data glance",
       .columns = {{.head = std::string(poses), .is_row_head = true}, {.head = std::string(apart), .is_number = true}}};
   for (const std::string& method : scenario.methods) table.columns.push_back({.head = method, .is_number = true});
-  // Under a sweep, or with several pairs per world, a pair has no single verdict.
+  // If a parameter is swept, or if a world has several pairs, a pair has no single verdict.
   if (scenario.task != "pose-distance" || scenario.conditions.size() != 1) return table;
-  // The first method's rows add the pairs; every method's rows add that method's verdicts.
+  // Read the pairs from the first method's rows, and the verdicts from every method's rows.
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
     const auto alike = ValueOf(row, "called_alike");

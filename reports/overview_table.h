@@ -8,15 +8,15 @@
 
 namespace etude {
 
-/// Returns a table of all methods by all metrics, headline metrics first: typical values with intervals and the signs
-/// of their verdicts. Below the table are the missing values with reasons. If a parameter is swept, a row is a method
-/// under a condition. Returns "" if no method has a value.
+/// Returns a table of all methods by all metrics, headline metrics first. It shows median or mean with interval, and
+/// the symbol of each verdict. A list of the missing values with their reasons follows. If a parameter is swept, each
+/// row is one method under one condition. Returns "" if no method has a value.
 std::string OverviewTableHtml(const RunData& run, const ScenarioSummary& scenario);
-/// Returns the values of the headline metrics as a Markdown table, without intervals; "" if there is only one headline
-/// metric.
+/// Returns the medians or means of the headline metrics as a Markdown table, without intervals; "" if there is only one
+/// headline metric.
 std::string OverviewTableMarkdown(const ScenarioSummary& scenario);
 
-/// Explains the signs in the tables of methods by metrics.
+/// Explains the verdict symbols in the tables of methods by metrics.
 inline constexpr std::string_view kSigns =
     "In tables the first sign is the verdict against the method’s baseline, the second the verdict against the "
     "strongest other method: ▲ better, ▼ worse, = no difference that matters, ? undecided, · not compared. A sign in "

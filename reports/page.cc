@@ -29,8 +29,8 @@ constexpr const char* kMetric = "mpjpe_mm";
 
 std::string Millimetres(std::optional<double> mm) { return mm ? FormatNumber(*mm) : std::string(kNoValue); }
 
-/// Returns the name of the quantity that a take measures: "error", or "agreement" if the reference may come from the
-/// same keypoints as the answer.
+/// Returns the word for the number that a real take measures: "error", or "agreement" if the reference may come from
+/// the same keypoints as the answer and therefore share its errors.
 std::string MeasureOf(const RealTake& take) { return take.recovery == "keypoints" ? "agreement" : "error"; }
 
 void AddRealRows(const RealTake& take, Table& table) {
@@ -42,7 +42,8 @@ void AddRealRows(const RealTake& take, Table& table) {
   }
 }
 
-/// Adds the rows of simulated takes to the table, and their number to `rows`, which counts over all scenarios.
+/// Adds one row per simulated capture method to the table of real takes. `rows` counts the rows of all scenarios,
+/// including those beyond the table's limit.
 void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table& table) {
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
@@ -58,7 +59,8 @@ void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table&
   }
 }
 
-// Forbids the page to load anything but the motions beside it. This is a second defence besides escaping.
+// The Content-Security-Policy: the page may load only the motion scripts beside it. This protects readers even if
+// escaping fails.
 constexpr std::string_view kPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'self' file:; img-src data:; media-src "
     "data:";
@@ -84,8 +86,8 @@ std::string Head(const RunData& run) {
       kPolicy, EscapeMarkup(run.suite), Styles(run));
 }
 
-/// Returns the list of answers: one line per scenario, with its verdicts against the baseline and against the strongest
-/// other method.
+/// Returns the list of answers: one line per scenario, with the verdicts of the method in question against the baseline
+/// and against the strongest other method.
 std::string Answers(const RunData& run, const std::vector<ScenarioFindings>& findings) {
   std::string html = "<nav aria-label=\"Answers\"><ol class=\"answers\">";
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
@@ -122,7 +124,7 @@ std::string HowToRead() {
                      kHowToRead, kSigns, kComparisonLegend);
 }
 
-/// Returns a sentence on which part of a large run the pictures show; "" if they show all of it.
+/// Returns a sentence that says which part of a large run the pictures show; "" if they show the whole run.
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(
@@ -148,7 +150,8 @@ std::string Footer(const RunData& run) {
          "href=\"../summary.json\">JSON</a></p></footer>";
 }
 
-/// Returns the section with captures of real films beside the simulated takes; "" if there are none.
+/// Returns the section that shows captures of real films, and the simulated takes for comparison; "" if there are no
+/// captures of real films.
 std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes) {
   if (takes.empty()) return "";
   const std::string html =

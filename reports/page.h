@@ -9,9 +9,10 @@
 
 namespace etude {
 
-/// Returns the HTML report of a run: verdicts first, in plain words with pictures; tables of numbers are folded away.
-/// Everything but the recorded motions is embedded; these are scripts beside the page. Its Content-Security-Policy
-/// forbids network access. `real` holds captures of real films, shown beside the simulated ones.
+/// Returns the HTML report of a run: first the verdicts, in plain words with pictures; tables of numbers are folded
+/// away. The page embeds everything except the recorded motions, which are scripts beside it. Its
+/// Content-Security-Policy forbids network access. `real` holds captures of real films, which the page shows beside the
+/// simulated ones.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
 
 /// Returns the verdicts of the page as a short Markdown text, for a pull request or a release note.

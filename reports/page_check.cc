@@ -11,12 +11,13 @@ namespace {
 
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=";
-constexpr std::size_t kMaxDigits = 4;  // digits of a width or height; a limit keeps pictures within the page
+// Maximum digits of a picture's width or height, so that a picture stays within the page.
+constexpr std::size_t kMaxDigits = 4;
 
-/// An element that is allowed between marks, with its allowed attributes.
+/// An HTML element that is allowed between the marks (kMediaBegin …), and its allowed attributes.
 struct Element {
   std::string_view name;
-  /// "class=film": this value only; "alt=": every value that IsAllowedValue accepts
+  /// "class=film" allows only this value; "alt=" allows every value that IsAllowedValue accepts
   std::vector<std::string_view> attributes = {};
   bool is_void = false;  ///< true if the element has no closing tag
 };
@@ -63,7 +64,7 @@ bool IsAllowedValue(std::string_view name, std::string_view value) {
 }
 
 /// Removes ' name="value"' or ' name' from the front of `tag`. Returns true if the element allows this attribute, false
-/// if it does not, and nothing if the text is malformed.
+/// if it does not, and nullopt if the text is malformed.
 std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element) {
   tag.remove_prefix(1);
   const std::size_t end = std::min(tag.find_first_of("= "), tag.size());
@@ -87,8 +88,8 @@ std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element)
   });
 }
 
-/// Returns the element that an opening tag, given without its brackets, opens; null if the element or an attribute is
-/// not allowed.
+/// Returns the allowed element that a tag opens; `tag` is without its brackets. Returns null if the element or one of
+/// its attributes is not allowed.
 const Element* FindOpened(std::string_view tag, Elements elements) {
   const std::string_view name = tag.substr(0, tag.find(' '));
   const auto found = std::ranges::find(elements, name, &Element::name);
@@ -100,7 +101,7 @@ const Element* FindOpened(std::string_view tag, Elements elements) {
   return &*found;
 }
 
-/// Returns true if a text consists only of these elements, and closes each element that it opens.
+/// Returns true if a text opens only these elements, and closes each element that it opens.
 bool HoldsOnly(std::string_view html, Elements elements) {
   std::vector<std::string_view> open;
   for (std::size_t at = html.find('<'); at != std::string_view::npos; at = html.find('<', at)) {
@@ -126,7 +127,7 @@ PageCheck CheckPage(std::string_view page, std::string_view bare) {
   PageCheck check;
   while (true) {
     const std::size_t media = bare.find(kMediaBegin), takes = bare.find(kTakesBegin);
-    if (media == takes) break;  // no marks of either kind are left
+    if (media == takes) break;  // true if no marks of either kind are left
     const bool is_media = media < takes;
     const std::string_view end = is_media ? kMediaEnd : kTakesEnd;
     const std::size_t before = is_media ? media + kMediaBegin.size() : takes + kTakesBegin.size();

@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-// Size and margins of the panel in its own units; the page scales it. The terms are written above the curves, the
-// numbers below the axis.
+// Size and margins of the plot of one feature, in units that the page scales. The terms are written above the curves,
+// the numbers below the axis.
 constexpr double kPanelWide = 240, kPanelHeight = 150, kPanelTop = 22, kBase = 118;
 constexpr double kPanelMargin = 24, kPanelRim = 10;
 constexpr Axis kGrades{.low = 0, .high = 1, .from = kBase, .to = kPanelTop};
@@ -51,13 +51,14 @@ class MembershipPanel {
   std::string Label(const Shape& shape, std::string_view name) const {
     const Cut top = CutOf(shape, 1);
     const double peak = 0.5 * (std::max(top.low, universe_.low) + std::min(top.high, universe_.high));
-    // A name that is centred nearer to an edge than this would leave the panel.
+    // A name whose centre is nearer to an edge than this is aligned to its end, because a centred name would be cut
+    // off.
     const double room = 0.15 * (universe_.high - universe_.low);
     const char* anchor = peak < universe_.low + room ? "start" : peak > universe_.high - room ? "end" : "middle";
     return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);
   }
 
-  /// Returns the numbers along the axis. A number that is too close to its neighbour is written one row lower.
+  /// Returns the numbers below the axis as SVG. A number that is too close to the last one is written in a second row.
   std::string Numbers(std::vector<double> marks) const {
     marks.insert(marks.end(), {universe_.low, universe_.high});
     std::ranges::sort(marks);
@@ -68,7 +69,7 @@ class MembershipPanel {
     for (double mark : marks) {
       const double x = inputs_.At(mark);
       const std::size_t row = x - last[0] < kMinGap ? 1 : 0;
-      if (x - last[row] < kMinGap) continue;  // no room in either row
+      if (x - last[row] < kMinGap) continue;  // neither row has space for the number
       last[row] = x;
       svg += fmt::format("<path d=\"M{:.1f} {}v4\"/>", x, kBase) +
              PanelText(x, kBase + 14 + 13 * static_cast<double>(row), TickText(mark), "middle");
@@ -76,7 +77,7 @@ class MembershipPanel {
     return svg;
   }
 
-  /// Returns the places in the universe where a piecewise linear function bends.
+  /// Returns the inputs within the universe at which the slope of a piecewise linear membership function changes.
   std::vector<double> Bends(const Shape& shape) const {
     std::vector<double> bends;
     for (double grade : {1.0, 0.0}) {
@@ -95,8 +96,8 @@ class MembershipPanel {
 
 constexpr std::string_view kFuzzyKey = "fuzzy", kBuiltin = "builtin:";
 
-/// Returns the paper's system, then the built-in systems that the scenario sweeps. Systems from files are left out,
-/// because results do not contain their functions.
+/// Returns the paper's fuzzy system, then the built-in fuzzy systems that the scenario sweeps. Fuzzy systems from files
+/// are left out, because results do not contain their functions.
 std::vector<FuzzySystem> ShownSystems(const ScenarioSummary& scenario) {
   std::vector<FuzzySystem> systems = {FuzzySystem{}};
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -161,7 +162,7 @@ Table PaperTerms() {
     std::size_t t = 0;
     for (const Term& term : TermsOf(figure.feature)) {
       std::string words = WriteShape(PaperMemberships().shapes[FirstTermOf(figure.feature) + t]);
-      words = words.substr(1, words.size() - 2);  // without the braces
+      words = words.substr(1, words.size() - 2);  // removes the braces
       table.rows.push_back({{fmt::format("{}", figure.number), FeatureNames(figure.feature), term.name, words,
                              fmt::format("{}", figure.equations[t++])}});
     }
@@ -212,7 +213,7 @@ double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuz
     PoseFeatures pose;
     pose[feature] = universe.low + (universe.high - universe.low) * i / kSteps;
     const auto back = DefuzzifyFeature(Fuzzify(pose, memberships), feature, memberships, method);
-    if (!back) continue;  // without grades, nothing can be defuzzified
+    if (!back) continue;  // no term has a grade above 0, so there is nothing to defuzzify
     sum += std::abs(*back - pose[feature]);
     ++count;
   }

@@ -9,13 +9,13 @@
 
 namespace etude {
 
-/// The text under one of paper A's figures 5 to 10.
+/// The caption of one of paper A's figures 5 to 10.
 struct PaperAFigure {
   int number;
-  Feature feature;  ///< the figure shows the right side; the left side has the same functions
+  Feature feature;  ///< a feature of the body's right side; the left side has the same membership functions
   const char* title;
-  const char* input;           ///< the quantity on the axis
-  std::vector<int> equations;  ///< one per term, in the order of TermsOf
+  const char* input;           ///< the name of the quantity on the horizontal axis
+  std::vector<int> equations;  ///< the paper's equation numbers, one per term, in the order of TermsOf
   const char* repaired;        ///< misprints or gaps of the paper that were repaired; "" if there are none
 };
 const std::vector<PaperAFigure>& PaperAFigures();
@@ -24,21 +24,21 @@ const std::vector<PaperAFigure>& PaperAFigures();
 /// the value defuzzified from its grades, over inputs spread evenly over the universe.
 double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuzzification method);
 
-/// Draws the membership functions of one feature over its universe as an SVG element. Each term is named at its peak;
-/// the axis has a mark where a piecewise linear function bends.
+/// Draws the membership functions of one feature over its universe as an SVG element. Each term is named at its peak.
+/// The axis has a mark wherever the slope of a piecewise linear function changes.
 std::string MembershipPlotSvg(Feature feature, const Memberships& memberships, const std::string& title);
 
-/// Returns true for paper A's own scenario (task transition, named `paper-bridging`), and for scenarios that sweep the
-/// key `fuzzy`.
+/// Returns true if the card of the scenario shows paper A's figures: for paper A's own scenario (task transition, named
+/// `paper-bridging`), and for scenarios that sweep the key `fuzzy`.
 bool ShowsPaperA(const ScenarioSummary& scenario);
 
-/// Returns figures 5 to 10 of paper A, drawn from the functions that grade poses, with the values that defuzzification
-/// recovers from the grades; then the program's other fuzzy systems, if the scenario sweeps them. Returns "" if
-/// ShowsPaperA is false.
+/// Returns figures 5 to 10 of paper A, drawn from the membership functions that the program uses, with the inputs that
+/// defuzzification recovers from the grades. If the scenario sweeps other fuzzy systems, their functions follow.
+/// Returns "" if ShowsPaperA is false.
 std::string PaperAHtml(const ScenarioSummary& scenario);
-/// Returns the membership functions as a folded Markdown table.
+/// Returns the membership functions of the features as a folded Markdown table.
 std::string PaperAMarkdown(const ScenarioSummary& scenario);
-/// Returns the membership functions as a LaTeX float for the package booktabs.
+/// Returns the membership functions of the features as a LaTeX float for the package booktabs.
 std::string PaperALatex(const ScenarioSummary& scenario);
 
 }  // namespace etude

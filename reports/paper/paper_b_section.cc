@@ -16,14 +16,14 @@ namespace etude {
 namespace {
 
 struct Quantity {
-  const char* suffix;  ///< the end of the series' name
+  const char* suffix;  ///< the end of the series' name, after the effector's name
   const char* label;
 };
 constexpr std::array<Quantity, 4> kQuantities{{{"position_error_cm", "position, cm"},
                                                {"x_axis_error_deg", "X axis, degrees"},
                                                {"y_axis_error_deg", "Y axis, degrees"},
                                                {"z_axis_error_deg", "Z axis, degrees"}}};
-// The effectors in the order of figure 5.2.
+// The end effectors in the order of paper B's figure 5.2.
 constexpr std::array<const char*, 4> kEffectors{"head", "left_hand", "right_hand", "right_foot"};
 
 struct Panel {
@@ -32,7 +32,8 @@ struct Panel {
   std::vector<PlotCurve> curves;
 };
 
-/// Returns the first trial's curve of each method and, if there are several trials, the median curve over all trials.
+/// Returns each method's error curve in the first trial and, if there are several trials, also the median curve over
+/// all trials.
 std::vector<PlotCurve> CurvesOf(const CellSeriesIndex& series, const std::vector<const Row*>& rows,
                                 const std::vector<std::string>& methods, const std::string& name) {
   std::vector<PlotCurve> singles, medians;
@@ -66,7 +67,8 @@ std::vector<Panel> PanelsOf(const CellSeriesIndex& series, const std::vector<con
   return panels;
 }
 
-/// Returns the axes that all panels of positions share (`of_positions`), or those that all panels of angles share.
+/// Returns common axes for all plots of position errors (if `of_positions`) or for all plots of orientation errors, so
+/// that curves can be compared.
 CurveAxes SharedAxes(const std::vector<Panel>& panels, bool of_positions) {
   std::vector<const PlotCurve*> curves;
   for (const Panel& panel : panels) {
@@ -107,7 +109,7 @@ std::string Figure(const std::vector<Panel>& panels, const ScenarioSummary& scen
   return html + "</div>";
 }
 
-// The numbers of tables that fit on a page of A4.
+// The number of tables of effector errors that fit on a page of A4; below it, the number of tables of joint angles.
 constexpr std::size_t kErrorTablesPerFloat = 6;
 constexpr std::size_t kAngleTablesPerFloat = 3;
 
@@ -115,7 +117,7 @@ std::string Under(const PaperBCondition& condition) {
   return condition.condition.empty() ? "" : ", " + ConditionLabel(condition.condition);
 }
 
-// Table 5.2 has the figures of 5.1 and the hidden angles.
+// Table 5.2 contains the errors of table 5.1 and, in addition, the angles of the hidden joints.
 std::string_view TableName(const PaperBSet& set) { return set.angles.empty() ? "table 5.1" : "table 5.2"; }
 
 std::string Note(const PaperBSet& set) {
@@ -154,7 +156,8 @@ std::string PrintedHtml(bool with_angles) {
   return html + "</details>";
 }
 
-/// Returns LaTeX table environments of at most `most` tables each. The caption of the first one contains the note.
+/// Returns LaTeX table environments with at most `most` tables each. The note is in the caption of the first
+/// environment.
 std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most, const std::string& caption,
                         const std::string& note) {
   std::string text;
@@ -169,15 +172,15 @@ std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most,
   return text;
 }
 
-/// Returns true if a cell of this scenario keeps the curves of end effectors: the task is `ik`, with `record:
+/// Returns true if a cell of this scenario recorded the error curves of end effectors: the task is `ik`, with `record:
 /// [effector_curves]`.
 bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
   return scenario.task == "ik" && KeepsSeries(run, scenario, "head_position_error_cm");
 }
 
-/// Draws paper B's figure 5.2: each end effector's position error, and the error along each axis, over iterations. Each
-/// small panel shows all methods on a logarithmic axis: a thin line for the first trial, a thick line for the median of
-/// all trials. Returns one folded figure per condition; "" if no cell keeps these curves.
+/// Draws paper B's figure 5.2: each end effector's position error, and the angular error of each of its axes, over
+/// iterations. Each small plot shows all methods on a logarithmic axis: a thin line for the first trial, a thick line
+/// for the median of all trials. Returns one folded figure per condition; "" if no cell recorded these curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);
@@ -211,7 +214,8 @@ std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario) {
       with_angles = with_angles || !set.angles.empty();
     }
   }
-  // If no table was filled, leave out the paper's printed tables, because there is nothing to compare them with.
+  // If no table was filled from the run, leave out the tables that the paper prints, because there is nothing to
+  // compare with them.
   return open ? html : html + PrintedHtml(with_angles);
 }
 

@@ -102,7 +102,7 @@ constexpr AngleFigures kBoundAngles{{
 }};
 // clang-format on
 
-/// Returns the headings of an effector's six columns.
+/// Returns the headings of the six error columns of an end effector.
 std::vector<PaperColumns> PaperBErrorColumns() {
   return {{"position error (cm)", {"X", "Y", "Z"}}, {"orientation error (degrees)", {"X", "Y", "Z"}}};
 }
@@ -125,13 +125,13 @@ PaperTable AngleTable(const char* caption, const AngleFigures& figures) {
   return table;
 }
 
-// The series by which a cell is recognised that keeps errors; such a cell keeps the series of all errors.
+// If a cell has this series, it recorded the errors of its end effectors. Such a cell has the series of all errors.
 constexpr std::string_view kErrorSeries = "position_error_x_cm";
 
 constexpr std::string_view kNoAxis = "a dash means that the joint has no such axis.";
 
 using Rows = std::vector<const Row*>;
-/// Reduces the values of a figure in several trials to one value.
+/// Reduces one number's values in several trials to a single value, for example their median.
 using Aggregator = std::function<double(std::vector<double>)>;
 
 double First(const std::vector<double>& values) { return values.front(); }
@@ -147,7 +147,7 @@ double RootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Aggregates a figure over the rows that have it; nullopt if none has it.
+/// Aggregates a number of the tables over the rows that have it; nullopt if no row has it.
 std::optional<double> Figure(const CellSeriesIndex& series, std::span<const Row* const> rows, const std::string& name,
                              std::size_t index, const Aggregator& aggregate) {
   std::vector<double> values;
@@ -166,7 +166,7 @@ std::optional<double> MetricOver(std::span<const Row* const> rows, std::string_v
   return values.empty() ? std::nullopt : std::optional(Median(std::move(values)));
 }
 
-/// Makes the tables of one condition.
+/// Makes the tables of one condition from the rows of its cells.
 class Study {
  public:
   Study(const CellSeriesIndex& series, const ScenarioSummary& scenario, Rows rows)

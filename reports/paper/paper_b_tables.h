@@ -12,33 +12,33 @@
 
 namespace etude {
 
-/// Neighbouring columns under one heading.
+/// Neighbouring columns under one common heading.
 struct PaperColumns {
   std::string head;  ///< with the unit: "position error (cm)"
   std::vector<std::string> names;
 };
 
-/// One row with a figure per column. A figure is unset if it is missing or cannot exist.
+/// One row of a table, with a number per column. A number is nullopt if its value is missing or cannot exist.
 struct PaperRow {
   std::string label;
   std::vector<std::optional<double>> values;
 };
 
-/// A table in the layout of one of paper B's tables, with six decimals.
+/// A table in the layout of one of paper B's tables. Numbers are shown with six decimals.
 struct PaperTable {
   std::string caption;
   std::vector<PaperColumns> columns;
   std::vector<PaperRow> rows;
 };
 
-/// Returns "(a)", "(b)", …, "(z)", "(27)", …
+/// Returns the letter of the table with this index: "(a)", "(b)", …, "(z)", then "(27)", …
 std::string PaperLetter(std::size_t index);
 
-/// Converts the table for the writers: caption, two rows of headings, and cells that hold a value and its text of six
-/// decimals.
+/// Converts the table for the HTML, Markdown and LaTeX writers: a caption, two rows of headings, and cells that hold a
+/// value and its text of six decimals.
 Table TableOf(const PaperTable& table);
 
-/// A row of paper B's tables of errors, in the paper's order.
+/// An end effector that has a row in paper B's tables of errors, in the paper's order.
 struct PaperBEffector {
   const char* label;        ///< "R_hand"
   const char* name;         ///< the effector's name in the tree
@@ -68,35 +68,36 @@ inline constexpr std::array<PaperBJoint, 14> kPaperBJoints{{{"R_shoulder", kTree
                                                             {"L_knee", kTreeLeftKnee},
                                                             {"L_ankle", kTreeLeftAnkle}}};
 
-/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as printed in the paper, for the paper's single pose. The paper's
-/// tables 5.2 (a) and (c) repeat 5.1 (a) and (c).
+/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them for its single pose. The paper's tables
+/// 5.2 (a) and (c) repeat 5.1 (a) and (c).
 std::vector<PaperTable> PaperBPrintedErrors();
 std::vector<PaperTable> PaperBPrintedAngles();
 
 /// Tables 5.1 and 5.2 of paper B, filled from a run: for one trial, or over all trials.
 struct PaperBSet {
   std::string title;               ///< "trial 0", "all 200 trials"
-  std::string error_note;          ///< explains the figures of `errors`
+  std::string error_note;          ///< a sentence that explains the numbers in `errors`
   std::string angle_note;          ///< explains the figures of `angles`; "" if there are none
   std::string replay;              ///< the command that repeats the trial; "" for all trials
   std::vector<PaperTable> errors;  ///< "(a) before", then one per method; a row per effector
   std::vector<PaperTable> angles;  ///< one per method: the hidden angles of each joint
-  /// One line per method: the status in which it ended, and the number of iterations.
+  /// One line per method: the status in which the method ended, and the number of its iterations.
   std::vector<std::string> outcomes;
 };
 
 struct PaperBCondition {
   std::vector<SweptValue> condition;
-  std::vector<PaperBSet> sets;  ///< the first trial; then, if there are several trials, all of them together
+  /// Tables of the first trial; then, if there are several trials, tables over all trials together.
+  std::vector<PaperBSet> sets;
 };
 
-/// Returns true if a cell of this scenario keeps the errors for these tables: the task is `ik`, with `record:
+/// Returns true if a cell of this scenario recorded the errors of its end effectors: the task is `ik`, with `record:
 /// [effector_errors]`.
 bool HasPaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
-/// Returns the filled tables, one entry per condition whose cells keep effectors' errors; empty for other scenarios. A
-/// method whose cells keep none has no table; its line in `outcomes` says why. Position errors of one trial are signed;
-/// position errors over all trials are medians of absolute values.
+/// Returns the filled tables, one entry per condition whose cells recorded the errors of end effectors; empty if no
+/// cell did. A method whose cells recorded none has no table; its line in `outcomes` says why. In tables of one trial,
+/// position errors are signed; in tables over all trials, they are medians of absolute values.
 std::vector<PaperBCondition> PaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

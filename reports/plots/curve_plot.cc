@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxPoints = 80;
 
-// Size and margins of the panel in its own units; the page scales it.
+// Size and margins of a plot, in units that the page scales.
 constexpr double kSmallWidth = 240, kSmallHeight = 150;
 constexpr double kSmallLeft = 38, kSmallRight = 8, kSmallTop = 8, kSmallBottom = 20;
 
@@ -35,7 +35,8 @@ CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves) {
 }
 
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up) {
-  // More points would make the page larger without showing more. The last point is always drawn.
+  // Thin the curve out, because more points would make the page larger without showing more. The last point is always
+  // drawn.
   const std::size_t count = curve.values.size();
   const std::size_t stride = std::max<std::size_t>(1, (count + kMaxPoints - 1) / kMaxPoints);
   std::string points;

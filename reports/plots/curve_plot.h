@@ -8,25 +8,26 @@
 namespace etude {
 
 struct PlotCurve {
-  std::size_t style = 0;  ///< index of the method that gives the colour and dashes
+  std::size_t style = 0;  ///< index of the method, which selects the colour and the dashes
   bool faint = false;
-  std::vector<double> values;   ///< each 0 or more
-  std::vector<double> at = {};  ///< position of each value on the horizontal axis; empty: 0, 1, 2, …
+  std::vector<double> values;  ///< values on the vertical axis, never negative
+  /// Position of each value on the horizontal axis; if empty, the positions are 0, 1, 2, ….
+  std::vector<double> at = {};
 };
 
 /// Axes that neighbouring panels share, so that their curves can be compared.
 struct CurveAxes {
-  Axis across;  ///< steps from 0 to the last
-  Axis up;      ///< whole decades
+  Axis across;  ///< horizontal axis: from step 0 to the last step
+  Axis up;      ///< vertical axis: logarithmic, from one power of ten to another
 };
 
-/// Returns axes that hold all `curves`; the vertical axis has at most eight decades.
+/// Returns axes that contain all `curves`. The vertical axis covers at most eight powers of ten.
 CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves);
 
-/// Draws one panel of curves over steps as an SVG element. Values below the axis are drawn at its lower end.
+/// Draws curves over steps as an SVG element. A value below the range of the vertical axis is drawn at its lower end.
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, const std::string& title);
 
-/// Draws a curve between two axes: at most 80 of its points, including the last one.
+/// Returns a curve as an SVG line: at most 80 of its points, including the last one.
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up);
 
 /// Draws the short line that stands for a method in a legend.

@@ -13,11 +13,13 @@ namespace {
 
 constexpr double kBarStep = 24, kBarHeight = 12, kStageNames = 120;
 
-/// One bar of the waterfall, from the error before it to the error after it.
+/// One bar of the waterfall chart. It runs from the error before a stage is replaced by the truth to the error
+/// afterwards.
 struct Bar {
   std::string name;
   double from = 0, to = 0;
-  const BudgetShare* share = nullptr;  ///< null for the first and the last bar
+  /// The stage's cost; null for the first bar (the whole error) and the last bar (the remaining error)
+  const BudgetShare* share = nullptr;
 };
 
 std::vector<Bar> BarsOf(const ErrorBudget& budget, double scale) {
@@ -65,7 +67,7 @@ std::string BarSvg(const Bar& bar, double y, const Axis& axis, double scale) {
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition) {
   const MetricWords words = WordsFor(budget.metric);
   const std::vector<Bar> bars = BarsOf(budget, words.scale);
-  // Make an axis that holds every bar and interval.
+  // Make an axis that contains every bar and its interval.
   std::vector<double> values{0};
   for (const Bar& bar : bars) {
     values.push_back(bar.to);
@@ -75,7 +77,7 @@ std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condit
   }
   Axis axis = AxisAroundZero(values);
   axis.from = kStageNames, axis.to = kPanelRight;
-  // Draw one bar each for the whole error, every stage, and the rest.
+  // Draw one bar for the whole error, one for every stage, and one for the remaining error.
   const double bottom = kBarStep * static_cast<double>(bars.size()) + 4;
   std::string svg = BeginPanel(bottom + 18, Describe(budget, words)) + HorizontalAxisGrid(axis, 0, bottom);
   double y = 6;

@@ -31,7 +31,7 @@ std::vector<std::string> UnitNames(const std::map<int, Found>& found) {
 }
 
 constexpr double kHeight = 250, kTop = 8, kBottom = 212;
-constexpr double kSwarm = 26;  // maximum offset of dots to either side
+constexpr double kSwarm = 26;  // maximum sideways offset of overlapping dots, in units of the plot
 constexpr std::size_t kMaxNamed = 16;
 
 /// The indices of both methods in the scenario. They select the methods' colours and marks.
@@ -69,7 +69,7 @@ class Plot {
   }
 
   std::string Differences() const {
-    // Make an axis that holds all differences and intervals.
+    // Make an axis that contains all differences and intervals.
     std::vector<double> all, places;
     for (const PairedWorld& world : pairs_.worlds) all.push_back(world.Difference());
     const double practical = Practical();
@@ -78,7 +78,7 @@ class Plot {
     }
     Axis axis = AxisAroundZero(all);
     axis.from = kBottom, axis.to = kTop;
-    // Draw one dot per world, and the band of differences that do not matter.
+    // Draw one dot per world, and a band for differences below the practical threshold.
     for (const PairedWorld& world : pairs_.worlds) places.push_back(axis.At(world.Difference()));
     const std::vector<double> aside = SwarmOffsets(places, kSwarm);
     std::string dots;
@@ -106,8 +106,8 @@ class Plot {
     const MetricInfo* info = FindMetric(c_.metric);
     return info == nullptr ? 0 : info->practical * words_.scale;
   }
-  // Returns the lower end of a logarithmic axis. Costs below a hundredth of the practical threshold are drawn at this
-  // end, because they need not be distinguished.
+  // Returns the lower end of a logarithmic axis of costs. Costs below a hundredth of the practical threshold are drawn
+  // at this end, because the plot need not distinguish them.
   double Floor() const {
     return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
   }
@@ -144,11 +144,12 @@ class Plot {
     return svg + fmt::format("<circle class=\"estimate\" cx=\"{}\" cy=\"{:.1f}\" r=\"4.5\"/>", x, at(*estimate));
   }
 
-  /// Draws the mean difference of each unit, and beside them the interval over units.
+  /// Draws the mean difference of each sampling unit (clip, person, …), and beside these dots the difference and
+  /// interval generalised over units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
-    // If a unit is a pair of clips, show only the interval: each world belongs to two clips, so a clip has no mean of
-    // its own.
+    // If the sampling units are pairs of clips, show only the interval: each world belongs to two clips, so a clip has
+    // no mean difference of its own.
     std::string interval = Interval(axis, kUnitsX + 10, c_.beyond.difference, c_.beyond.low, c_.beyond.high);
     if (scenario_.unit == SamplingUnit::kClipPair) return interval;
     std::map<std::size_t, std::pair<double, int>> sums;
@@ -193,8 +194,8 @@ std::string Caption(const Judged& judged, const PairedDots& pairs) {
 
 constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
 
-/// Returns the unit that matters most. If the difference matters, this is the unit without which the difference is
-/// smallest; otherwise it is the unit without which the difference is largest.
+/// Returns the sampling unit on which the verdict depends most. If the difference matters, this is the unit without
+/// which the difference is smallest; otherwise it is the unit without which the difference is largest.
 const LeftOut& Extreme(const Beyond& beyond, double practical) {
   const double all = *beyond.mean;
   const bool matters = std::abs(all) >= practical;
@@ -230,7 +231,7 @@ double PracticalOf(const Comparison& c) {
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged) {
   const Comparison& c = *judged.comparison;
   const double scale = WordsFor(c.metric).scale;
-  // Collect both methods' values in every world.
+  // Collect both methods' values of the metric in every world.
   std::map<int, Found> found;
   const KeptCells kept(run);
   for (const Row* row : RowsUnder(run, scenario.name, judged.condition->condition)) {
@@ -245,7 +246,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 
-  // Keep every n-th world that has both values, with its unit.
+  // Of the worlds that have both values, keep every n-th one, with its sampling unit.
   PairedDots pairs;
   pairs.total = found.size();
   pairs.units = UnitNames(found);

@@ -21,17 +21,18 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kMaxPairs = 12;
-constexpr std::size_t kMaxPictures = 3;  // pictures per method
+constexpr std::size_t kMaxPictures = 3;  // maximum number of pictures of worst frames per method
 constexpr const char* kCurves[] = {"mpjpe_unaligned_mm", "mpjpe_root_mm"};
 
-/// The cells of one pair, in the order of the scenario's methods.
+/// The cells of one pair of motion files, in the order of the scenario's methods.
 struct Pair {
   std::string name;
   std::vector<const Row*> cells;
-  double worst_mm = 0;  ///< largest error of all frames and methods
+  double worst_mm = 0;  ///< largest error of any frame and method
 };
 
-/// Returns the indices of a method's worst frames, the worst first; frames near a worse frame are left out.
+/// Returns the indices of the frames with the largest errors, the largest first (non-maximum suppression: frames near a
+/// worse frame are left out).
 std::vector<std::size_t> WorstFrames(const std::vector<double>& errors) {
   const std::size_t apart = std::max<std::size_t>(1, errors.size() / 10);
   std::vector<std::size_t> order(errors.size()), worst;
@@ -45,7 +46,8 @@ std::vector<std::size_t> WorstFrames(const std::vector<double>& errors) {
   return worst;
 }
 
-/// Keeps the largest value of each stretch of frames, so that no peak is lost if a curve has more frames than points.
+/// Reduces a curve to the largest value of each interval of frames, so that no peak is lost if there are more frames
+/// than points.
 PlotCurve PeaksOf(const std::vector<double>& errors, std::size_t style) {
   constexpr std::size_t kMaxDrawn = 80;
   const std::size_t stretch = (errors.size() + kMaxDrawn - 1) / kMaxDrawn;
@@ -82,7 +84,8 @@ std::string CurvesSvg(const Pair& pair, const CellSeriesIndex& series, const Sce
   return fmt::format("<figure><figcaption>{}</figcaption>{}</svg></figure>", EscapeMarkup(caption), svg);
 }
 
-/// Draws a frame of the truth (faint) and of the answer, seen along the horizontal axis from which they look widest.
+/// Draws one frame of the true motion (faint) and of the answer. The view is along the horizontal axis from which the
+/// skeletons look widest.
 std::string FrameSvg(const RawMotion& truth, const RawMotion& answer, std::size_t frame, std::size_t style,
                      const std::string& words) {
   constexpr double kWide = 150, kTall = 190, kMargin = 8;

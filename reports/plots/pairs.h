@@ -9,8 +9,9 @@ namespace etude {
 /// Returns true if the scenario compares pairs of motion files.
 bool ShowsPairs(const ScenarioSummary& scenario);
 
-/// Returns, for each pair of files, the error in every frame as curves and, if the motions were recorded, the worst
-/// frames as pictures. The pair with the largest error comes first. Returns "" for other scenarios.
+/// Returns a section for each pair of files: the error over frames as curves and, if the motions were recorded, the
+/// frames with the largest errors as pictures. The pair with the largest error comes first. Returns "" for other
+/// scenarios.
 std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMaxPlots = 8;
 constexpr std::size_t kMaxStrips = 12;
 
-/// Returns the index of the condition in which the method in question differs most from its baseline.
+/// Returns the index of the condition under which the method in question differs most from its baseline.
 std::size_t LeadCondition(const ScenarioSummary& scenario, const std::string& metric) {
   std::size_t lead = 0;
   double largest = -1;
@@ -31,7 +31,8 @@ std::size_t LeadCondition(const ScenarioSummary& scenario, const std::string& me
   return lead;
 }
 
-/// Collects pictures of comparisons and explains them once. Each pair of methods appears once for each condition.
+/// Collects plots of comparisons, and explains each kind of plot only once. Each pair of methods appears once for each
+/// condition.
 class Section {
  public:
   Section(const RunData& run, const ScenarioSummary& scenario) : run_(run), scenario_(scenario) {}
@@ -96,7 +97,7 @@ std::string OtherStrips(const RunData& run, const ScenarioSummary& scenario, con
   return html.empty() ? "" : "<div class=\"panels\">" + html + "</div>";
 }
 
-// Draws the error budgets, each with its condition if there are several.
+// Draws the error budgets; if there are several conditions, each budget is labelled with its condition.
 std::string Budgets(const ScenarioSummary& scenario) {
   std::string html;
   std::size_t count = 0;

@@ -9,37 +9,37 @@
 
 namespace etude {
 
-/// Draws the picture beside the answer: every method's values of the first headline metric, under the condition where
-/// the method in question differs most from its baseline. Returns "" if no cell has a value.
+/// Draws the plot beside the scenario's answer: every method's values of the first headline metric, under the condition
+/// where the method in question differs most from its baseline. Returns "" if no cell has a value.
 std::string LeadPictureHtml(const RunData& run, const ScenarioSummary& scenario);
 
-/// Draws all further pictures of a scenario's worlds, the method in question first: strips of the other conditions,
-/// comparisons as estimation plots, the effect of leaving a unit out, error budgets, survival curves. Returns "" if
-/// there are none.
+/// Draws all further plots of a scenario, those of the method in question first: values under the other conditions,
+/// comparisons as estimation plots, the effect of leaving out one sampling unit, error budgets, survival curves.
+/// Returns "" if there are none.
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario);
 
-// The parts of the plot section, except the parts on verdicts (verdicts.h).
+// The following functions draw the parts of the plot section; the parts about verdicts are in verdicts.h.
 
-/// Draws every method's values of a metric under one condition on one axis: a row of dots each, with median (or mean)
-/// and quartiles. Returns "" if no cell has a value.
+/// Draws every method's values of a metric under one condition on a common axis: a row of dots per method, with median
+/// (or mean) and quartiles. Returns "" if no cell has a value.
 std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                        const std::string& metric);
 
-/// Draws the cost of each stage as a waterfall with intervals, from the method's error to the error that remains when
-/// the truth replaces all stages. The caption says whether the shares depend on an order of the stages. `condition` is
-/// in words and may be empty.
+/// Draws the cost of each processing stage as a waterfall chart with intervals. It starts at the method's error and
+/// ends at the error that remains when the truth replaces all stages. The caption says whether the costs depend on the
+/// order in which the stages were replaced. `condition` is in words and may be empty.
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
-/// Draws survival curves of the metrics that are censored in this scenario (steps of unsolved cells, waits without an
-/// end): one curve per method, one panel per condition. Returns "" if no metric is censored. Cells that never end stay
-/// in the denominator, so a method gains nothing by giving up early.
+/// Draws survival curves of the metrics that are censored in this scenario (steps of unsolved cells, waits that never
+/// ended): one curve per method, one plot per condition. Returns "" if no metric is censored. Cells in which the event
+/// never happened stay in the denominator, so a method gains nothing by giving up early.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 
-/// A world in which both methods of a comparison have a value. Shares are in per cent.
+/// The two values of a world in which both methods of a comparison have a value. Shares are in per cent.
 struct PairedWorld {
   int trial = 0;
-  /// The world's index in PairedDots::units. If the world has several units (clip left × clip entered), the index of
-  /// the first.
+  /// The index in PairedDots::units of the sampling unit to which the world belongs. If the world belongs to several
+  /// (the clip that is left and the clip that is entered), the index of the first.
   std::size_t unit = 0;
   double baseline = 0, method = 0;
   std::string baseline_cell = {}, method_cell = {};  ///< HTML attributes of the dots; "" if the cells were not recorded
@@ -47,36 +47,38 @@ struct PairedWorld {
   double Difference() const { return method - baseline; }
 };
 
-/// The worlds behind one comparison, at most kMaxPlottedWorlds.
+/// The paired values behind one comparison, of at most kMaxPlottedWorlds worlds.
 struct PairedDots {
   std::vector<PairedWorld> worlds;  ///< in order of their trials
-  std::vector<std::string> units;   ///< sorted by name; empty if worlds are units
-  std::size_t total = 0;            ///< number of all paired worlds; `worlds` holds every n-th of them
+  std::vector<std::string> units;   ///< names of the sampling units, sorted; empty if every world is its own unit
+  std::size_t total = 0;            ///< number of all paired worlds, of which `worlds` holds every n-th
 };
 inline constexpr std::size_t kMaxPlottedWorlds = 400;
 
-/// Returns the paired worlds of a comparison. The result is empty if no world has both values, or if the other side
-/// consists of two rivals, each chosen on half of the worlds.
+/// Returns the paired worlds of a comparison. The result is empty if no world has values of both methods, or if the
+/// method is compared with two methods, each of which was the strongest other method on one half of the worlds.
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
 
 /// Draws one comparison as an estimation plot (Gardner & Altman 1986; paired as in Ho et al. 2019). The first panel
-/// joins each world's dots under both methods. The second shows the paired differences: dots, the aggregate and the
-/// units' means, each with a 95 % interval, and a band for differences that do not matter. Dots are coloured by unit,
-/// or by method if worlds are units. Returns "" without worlds.
+/// joins each world's values under both methods by a line. The second panel shows the paired differences as dots, their
+/// median or mean, and the mean of each sampling unit with the interval over units. Intervals are 95 %, and a band
+/// marks differences below the practical threshold. Dots are coloured by sampling unit, or by method if every world is
+/// its own unit. Returns "" without worlds.
 std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs);
 
-/// Returns a legend that explains the estimation plots of a metric; one legend serves all of them.
+/// Returns a legend that explains the estimation plots of a metric; all plots of the metric share it.
 std::string EstimationLegend(const ScenarioSummary& scenario, const std::string& metric);
 
-/// Returns the legend of the units' colours; "" if worlds are units.
+/// Returns the legend of the sampling units' colours; "" if every world is its own unit.
 std::string UnitLegendHtml(const PairedDots& pairs);
 
-/// Returns in words how a comparison changes if one unit is left out: the range, the unit that matters most, and
-/// whether that unit alone makes or hides the difference. Returns "" if worlds are units.
+/// Returns in words how the difference of a comparison changes if one sampling unit is left out: the range of the
+/// differences, the unit with the largest effect, and whether this unit alone makes or hides the difference. Returns ""
+/// if every world is its own unit.
 std::string WithoutEachUnit(const Comparison& comparison, SamplingUnit unit);
 
-/// Draws a strip of the mean differences without each unit, with the practical threshold, above the words of
-/// WithoutEachUnit.
+/// Draws the mean differences that result when each sampling unit in turn is left out, on one axis with the practical
+/// threshold. The words of WithoutEachUnit follow.
 std::string LeftOutStripHtml(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

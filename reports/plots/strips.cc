@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr double kRow = 40, kLabel = 13, kSpread = 9, kFoot = 20;
-constexpr std::size_t kMaxDots = 100;  // per row
+constexpr std::size_t kMaxDots = 100;  // maximum number of dots per row
 
 struct Dot {
   int trial = 0;
@@ -25,12 +25,12 @@ struct Dot {
   std::string cell = {};  ///< HTML attribute that links the dot to its cell, if the cell was recorded
 };
 
-/// The dots of one method, and the quartiles and typical value of all its values.
+/// A row with the dots of one method, and the quartiles and the median or mean of all its values.
 struct StripRow {
-  std::size_t method = 0;  ///< index in the scenario
+  std::size_t method = 0;  ///< index of the method in the scenario
   std::vector<Dot> dots = {};
   std::size_t total = 0;
-  double low = 0, typical = 0, high = 0;  ///< quartiles, and median or mean
+  double low = 0, typical = 0, high = 0;  ///< lower quartile, median or mean, upper quartile
 };
 
 StripRow RowOf(std::size_t method, const std::vector<Dot>& dots, const MetricWords& words) {

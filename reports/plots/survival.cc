@@ -22,16 +22,16 @@ constexpr double kCurveHeight = 200, kCurveTop = 8, kCurveBottom = 172;
 constexpr std::size_t kMaxPanels = 4;
 constexpr std::size_t kMaxLines = 16;
 
-/// A censored metric: the measurement may stop before the measured event happens.
+/// A metric that measures the time until an event, and is censored: the measurement may stop before the event happens.
 struct Censored {
   std::string_view metric;
   std::string_view done;   ///< a metric that is 1 if the event happened; "" if every value means that it did
-  std::string_view share;  ///< the words for the share that the curve shows
+  std::string_view share;  ///< describes the cells that the curve counts, for the axis
 };
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
-/// Returns the time until the event happened in the cell, infinite if it never did; nothing for a skipped cell.
+/// Returns the time until the event happened in the cell, infinite if it never did; nullopt for a skipped cell.
 std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
   const auto took = ValueOf(row, rule.metric);
@@ -39,7 +39,8 @@ std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   return is_done ? Wait{*took, true} : Wait{std::numeric_limits<double>::infinity(), false};
 }
 
-/// Returns the waits by method, in the scenario's order; methods that never measure this metric are left out.
+/// Returns the times until the event by method, in the scenario's order; methods that never measure this metric are
+/// left out.
 std::map<std::size_t, std::vector<Wait>> WaitsUnder(const RunData& run, const ScenarioSummary& scenario,
                                                     const ConditionSummary& condition, const Censored& rule) {
   std::map<std::size_t, std::vector<Wait>> waits;

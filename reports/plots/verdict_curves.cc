@@ -36,7 +36,8 @@ std::string Figure(const std::string& caption, const std::string& words, const s
                      BeginPanel(kRocHeight, words), drawn);
 }
 
-/// Draws curves of one share over another, and a mark on each curve that has one.
+/// Draws one share against another as one curve per method, for example an ROC curve. If a method has an operating
+/// point, a mark shows it on the curve.
 std::string SharePanel(const std::string& caption, const std::string& words,
                        const std::map<std::size_t, SharePoints>& curves,
                        const std::map<std::size_t, std::pair<double, double>>& marked = {}) {
@@ -87,7 +88,7 @@ std::string DetPanel(const std::string& caption, const std::string& words,
   return Figure(caption, words, drawn);
 }
 
-/// Draws step curves of shares over seconds.
+/// Draws, as one step curve per method, how a share grows over seconds.
 std::string WaitPanel(const std::string& caption, const std::string& words,
                       const std::map<std::size_t, SharePoints>& curves) {
   Axis time{.low = 0, .high = 0, .from = kPanelLeft, .to = kPanelRight};
@@ -119,14 +120,14 @@ std::string VerdictKey(const ScenarioSummary& scenario, std::size_t method, cons
                      EscapeMarkup(MethodLabel(scenario, scenario.methods[method])), told);
 }
 
-/// The curves in the panels of one condition, by method.
+/// The data of the curves of one condition, by method.
 struct Curves {
   std::map<std::size_t, SharePoints> rocs, found, waiting;
   std::map<std::size_t, std::pair<double, double>> operated;
   std::string words, found_words, wait_words, keys;
 };
 
-/// All performances that are truly right or wrong (not grey), and the performer of each.
+/// All performances that are truly right or wrong (not grey), pooled, with the performer of each.
 struct PooledEvents {
   std::vector<JudgedEvent> events;
   std::vector<int> people;

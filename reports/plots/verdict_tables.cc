@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kMaxTabled = 1;
 constexpr std::size_t kMaxMethods = 16;
 constexpr std::size_t kMaxSessions = 5;
-constexpr std::size_t kMaxMoves = 60;  // per confusion table, which has a cell for each pair of moves
+// Maximum number of moves per confusion table, which has a cell for each pair of moves.
+constexpr std::size_t kMaxMoves = 60;
 
 using Verdicts = std::map<std::size_t, MethodVerdicts>;
 
@@ -64,7 +65,8 @@ std::string FaultTable(const ScenarioSummary& scenario, const std::string& prefi
       head, body);
 }
 
-/// Returns the name of a trial's session: a recorded person's name, else the trial's number.
+/// Returns the name of the session of a trial: the name of the recorded person, or the trial's number for a simulated
+/// person.
 std::string SessionName(const RunData& run, const ScenarioSummary& scenario, int trial) {
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.trial == trial && !row.clip.empty()) return row.clip;

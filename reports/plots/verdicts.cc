@@ -8,7 +8,8 @@
 namespace etude {
 namespace {
 
-/// The series of a cell by name. A series counts as missing (null) if its length differs from that of the first one.
+/// Finds the series of a cell by name. A series whose length differs from that of the first series counts as missing
+/// (null).
 class Columns {
  public:
   Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}
@@ -18,7 +19,7 @@ class Columns {
     return found == nullptr || found->values.size() != count_ ? nullptr : found;
   }
 
-  /// Returns the name that a series gives to its i-th value; "" for −1 and for values without a name.
+  /// Returns the category name that the i-th value of a series stands for; "" if the value is −1 or has no name.
   static std::string Name(const Series* series, std::size_t i) {
     if (series == nullptr || !(series->values[i] >= 0)) return "";
     const auto place = static_cast<std::size_t>(std::lround(series->values[i]));
