@@ -43,7 +43,8 @@ void AddTables(const RunData& run, std::vector<ReportText>& texts) {
   }
 }
 
-// Adds the motions that captures recovered (as BVH, for other programs) and the motions that the page shows.
+// Adds two kinds of motion files: BVH files of the motions that captures recovered, for other programs, and the scripts
+// with the motions that the page shows.
 Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
   for (const auto& [row, recorded] : RecordedRows(run)) {
     if (row->task != "capture") continue;
@@ -67,7 +68,7 @@ Result<std::vector<ReportText>> TextsOf(const RunData& run) {
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
   const FilePath folder = Inside(run_folder) / kReportFolder, films = Inside(run_folder) / kFilmsFolder;
   for (const FilePath& made : {folder, films}) RETURN_IF_ERROR(PlainFilesBelow(made));
-  // Write the cheap texts first, so that they exist even if rendering the film fails.
+  // Write the texts that need no rendering first, so that they exist even if rendering the film fails.
   ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
   for (const auto& [path, text] : texts) RETURN_IF_ERROR(WriteFileAtomically(folder / path, text));
 
@@ -96,8 +97,8 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / path));
     if (found != text) check.differences.push_back((folder / path).string() + kOtherwise);
   }
-  // Compare the page. Takes of real films do not belong to the run; to compare the rest of their section, pass one
-  // empty take.
+  // Compare the page. The rows of real films do not belong to the run and are not compared. One empty take makes the
+  // new page contain their section.
   bool has_media = false;
   if (const FilePath page = folder / kPage; Exists(page)) {
     ++check.files;
@@ -108,7 +109,7 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     if (compared.has_takes) check.not_compared.push_back(page.string() + ": rows of captures of real films");
     has_media = compared.has_media;
   }
-  // Report files that do not come from the run.
+  // List files in the report's folder that the run does not produce.
   ASSIGN_OR_RETURN(const auto beside, PlainFilesBelow(folder));
   for (const fs::path& name : beside) {
     const bool is_picture = name.parent_path() == kPicturesFolder && name.extension() == ".exr";

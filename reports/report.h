@@ -18,7 +18,7 @@ struct ReportOptions {
   /// If true, films show coached sessions from first to last frame, not only around a correction.
   bool whole_sessions = false;
   FilmWatch watch = {};
-  std::vector<RealTake> real = {};  ///< captures of real films, shown beside the run's own
+  std::vector<RealTake> real = {};  ///< captures of real films, shown beside the run's simulated captures
 };
 
 /// Writes the report of a run: `report/index.html` (self-contained), `report/summary.md`, `report/junit.xml`,
@@ -33,16 +33,18 @@ constexpr const char *kGateMarkdown = "gate.md", *kGateJunit = "gate.xml";
 
 /// The result of comparing a report with its run.
 struct ReportCheck {
-  int files = 0;                          ///< number of files that were compared
-  std::vector<std::string> differences;   ///< files that disagree with the run, or belong to no report
+  int files = 0;  ///< number of files that were compared
+  /// Names of files that differ from the files made anew, or that belong to no report.
+  std::vector<std::string> differences;
   std::vector<std::string> not_compared;  ///< descriptions of the files that exist but were not compared
 };
 
-/// Compares the tables, motions and page in a folder with the same files made anew from its run. Does not compare
+/// Compares the tables, motions and page in a run's folder with the same files made anew from the run. Does not compare
 /// pictures, films and captures of real films.
 Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder);
 
-/// Compares the files that a gate wrote beside the report with the files of a gate without a baseline.
+/// Compares the files that `etude gate` wrote beside the report with the files that a gate without a baseline would
+/// write.
 Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::path& run_folder);
 
 }  // namespace etude

@@ -30,7 +30,7 @@
 namespace etude {
 namespace {
 
-// The maximum number of points per curve: a screen has no room for more, which would only make the page larger.
+// The maximum number of points per curve. A screen cannot show more points, and they would make the page larger.
 constexpr std::size_t kMaxSteps = 120;
 // If the largest value exceeds the smallest by more than this ratio, the axis is logarithmic.
 constexpr double kLogarithmicFrom = 100;
@@ -50,16 +50,17 @@ bool NeedsLogarithm(const std::vector<double>& values) {
   return high / low > kLogarithmicFrom;
 }
 
-// Returns the name of the metric for the worst effector: "orientation_error_max_deg" for "orientation_error_deg".
+// Returns the name of the variant of a metric that measures the worst effector: "orientation_error_max_deg" for
+// "orientation_error_deg".
 std::string WorstOf(const std::string& metric) {
   const std::size_t unit = metric.rfind('_');
   return unit == std::string::npos ? metric : metric.substr(0, unit) + "_max" + metric.substr(unit);
 }
 
 // Returns the first headline metric (or its variant for the worst effector) for which cells keep a series along this
-// axis, else the first metric with such a series. Skips three kinds of series: series that are not metrics, because
-// they have pictures of their own; series of zeros, because they are errors of parts without a target; and shares,
-// because a median of yes and no is meaningless.
+// axis, else the first metric with such a series. Three kinds of series are skipped: series that are not metrics, which
+// have plots of their own; series of zeros, which are errors of effectors without a target; and yes-or-no series, whose
+// median is meaningless.
 std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
                                      const std::map<std::string, std::string>& method_of) {
   std::vector<std::string> found;
@@ -91,7 +92,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   if (scenario.conditions.empty()) return std::nullopt;
   const bool follows_motion = scenario.task == "tracking";
   const std::vector<SweptValue>& first = scenario.conditions.front().condition;
-  // Find the cells to draw, their methods, and the metric.
+  // Find the metric, and the cells and methods whose curves to draw.
   std::map<std::string, std::string> method_of;
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && (!follows_motion || row.condition == first)) method_of[row.Id()] = row.method;
@@ -100,7 +101,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   const auto name = FindCurve(run, scenario, axis, method_of);
   if (!name) return std::nullopt;
 
-  // Collect the curves of each method's cells, and compute their medians.
+  // Collect the curves of each method's cells, and compute the method's median curve.
   std::map<std::string, std::vector<const std::vector<double>*>> curves;
   for (const CellSeries& cell : run.series) {
     const auto method = method_of.find(cell.cell);
@@ -118,7 +119,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   }
   const std::size_t stride = std::max<std::size_t>(1, (longest + kMaxSteps - 1) / kMaxSteps);
 
-  // Write the caption and the description in words.
+  // Write the caption, and a description in words for screen readers.
   const MetricWords words = WordsFor(*name);
   Chart chart;
   chart.is_wide = follows_motion;
@@ -169,7 +170,7 @@ std::string StillElement(const Still& still) {
       EscapeMarkup(still.caption), still.jpeg_base64);
 }
 
-// Put the data as JSON into a script element beside the canvas; the browser does not run it.
+// Put the chart's data as JSON into a script element of a type that the browser does not run, beside the canvas.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
   return fmt::format(
       "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\">"
@@ -179,7 +180,7 @@ std::string ChartFigure(const Chart& chart, const std::string& id) {
       EscapeScriptJson(chart.json));
 }
 
-/// Returns a folded part of the card; "" if `html` is empty.
+/// Returns a folded section of the card; "" if `html` is empty.
 std::string Folded(const std::string& title, const std::string& html, std::string_view style = "") {
   if (html.empty()) return "";
   return fmt::format("<details{}><summary>{}</summary>{}</details>", style, EscapeMarkup(title), html);
@@ -193,7 +194,7 @@ std::string OtherPictures(const RunData& run, const ScenarioSummary& scenario, s
   return html.empty() ? "" : "<div class=\"plots\">" + html + "</div>";
 }
 
-/// Returns the description of the worlds, and one sentence on each method.
+/// Returns the description of the worlds, and one sentence about each method, as HTML.
 std::string WhatIsCompared(const ScenarioSummary& scenario) {
   std::string html;
   if (!scenario.description.empty()) html += fmt::format("<p>{}</p>", EscapeMarkup(scenario.description));
@@ -229,7 +230,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
   return Folded(title, html + "</ul>", unmet > 0 ? " class=\"unmet\"" : "");
 }
 
-/// Returns the first cell of a scenario that ended for this reason, so that the reader can run it again.
+/// Returns the identity of the first cell that ended for this reason, so that the reader can run the cell again.
 std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, const ReasonCount& reason) {
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.method == reason.method && row.result.status == reason.status &&
@@ -240,8 +241,8 @@ std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, con
   return "";
 }
 
-/// Returns a folded part on how the cells ended, which goals they reached, and why some failed. Its title, which is
-/// always visible, counts the cells that are not ok.
+/// Returns a folded section: how many cells ended in each status, which goals the methods reached, and why cells
+/// failed. The section's title, which is always visible, counts the cells that are not ok.
 std::string Failures(const RunData& run, const ScenarioSummary& scenario, const ScenarioFindings& findings) {
   int others = 0;
   for (const ReasonCount& reason : findings.reasons) others += reason.cells;
@@ -268,7 +269,7 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
   return Folded(title, "<div class=\"status\">" + html + "</div>");
 }
 
-/// Returns the cells of a scenario that kept a recording, as JSON for the page's script.
+/// Returns the identities of a scenario's cells that kept a recording, as JSON for the page's script.
 std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   Json cells = Json::array();
   for (const CellRecording& recorded : run.recordings) {
@@ -277,15 +278,16 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Returns the sentence of a finding as HTML after `begin`; if the verdict is open, the tooltip says why.
+/// Returns the sentence of a finding as HTML, preceded by `begin`. If the verdict is inconclusive, the tooltip says
+/// why.
 std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
   return fmt::format("<p class=\"answer\"{}>{}{}</p>",
                      finding.why_open.empty() ? "" : fmt::format(" title=\"{}\"", EscapeMarkup(finding.why_open)),
                      begin, EscapeMarkup(finding.sentence));
 }
 
-/// Returns verdicts and sentence against the baseline and, if the strongest other method is not the baseline, also
-/// against that method. The second sentence is folded away.
+/// Returns the verdicts and the sentence about the comparison with the baseline. If the strongest other method is not
+/// the baseline, also returns those about the comparison with it, folded away.
 std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;

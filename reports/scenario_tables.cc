@@ -60,8 +60,8 @@ std::vector<TableCell> ComparisonCells(const Comparison& c, const MetricWords& w
   return cells;
 }
 
-/// Returns the comparisons with baselines, then those comparisons with the strongest other method whose pair of methods
-/// is not among the first.
+/// Returns a method's comparisons with baselines. Adds its comparisons with the strongest other method, unless the same
+/// two methods are already compared.
 std::vector<const Comparison*> ComparisonsOf(const ConditionSummary& condition, const std::string& method,
                                              const std::string& metric) {
   std::vector<const Comparison*> found;
@@ -127,7 +127,7 @@ std::string Float(const std::string& caption, const Table& table) {
       caption, TableLatex(table));
 }
 
-/// Returns as many floats as the rows of this condition need.
+/// Returns the LaTeX floats of one condition: as many as its rows need.
 std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSummary& condition) {
   std::vector<Group> groups{EndedOk(scenario, condition)};
   for (const std::string& metric : scenario.headline_metrics) groups.push_back(OfMetric(scenario, condition, metric));

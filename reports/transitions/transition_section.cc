@@ -17,7 +17,7 @@ namespace {
 
 TableColumn NumberColumn(std::string head) { return {.head = std::move(head), .is_number = true}; }
 
-/// Draws a bar for one feature: its partial distance as a share of `full`.
+/// Draws a bar for one feature: its partial distance, divided by `full`, the value of a full bar.
 TableCell Bar(double partial, double full, bool has_threshold) {
   const double share = full > 0 ? std::clamp(partial / full, 0.0, 1.0) : 0;
   const bool alone = has_threshold && partial >= full;
@@ -33,7 +33,7 @@ std::string DistanceWords(double distance, std::optional<double> threshold) {
                      fmt::format("{:g}", *threshold));
 }
 
-// Limits on what the page shows; the recordings hold all worlds and methods.
+// The maximum numbers of worlds and methods that the page shows; the recordings contain all.
 constexpr std::size_t kMaxWorlds = 6;
 constexpr std::size_t kMaxMethods = 12;
 constexpr std::size_t kMaxCandidates = 24;
@@ -46,7 +46,8 @@ std::span<const RecordedTransition> Shown(const RecordedRequest& world) {
   return std::span(world.transitions).first(std::min(world.transitions.size(), kMaxMethods));
 }
 
-/// Returns the path through the clips: "clap 41 → in-between 0 … in-between 12 → side kick 3".
+/// Returns the sequence of clips and frames that the coach plays: "clap 41 → in-between 0 … in-between 12 → side kick
+/// 3".
 std::string WayOf(const TransitionFacts& facts) {
   std::string text;
   for (const PointFacts& point : facts.points) {
@@ -57,7 +58,7 @@ std::string WayOf(const TransitionFacts& facts) {
   return text.empty() ? std::string(kNoValue) : text;
 }
 
-/// Returns the largest distance of all transition points, which decides whether the threshold is met.
+/// Returns the largest distance of the transition points. The transition is below the threshold if this distance is.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
   for (const PointFacts& point : facts.points) {
@@ -107,13 +108,13 @@ std::string Distances(const RecordedRequest& world) {
   return table.Html();
 }
 
-/// Returns a frame with its clip, "clap 28", or the frame alone.
+/// Returns a frame with the name of its clip, "clap 28"; only the frame if the name is unknown.
 std::string FrameIn(const std::string& clip, int frame) {
   return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", clip, frame);
 }
 
-/// Returns the transition point to which a candidate belongs; a transition through an in-between has two points. The
-/// result has no clips if the point is unknown.
+/// Returns the transition point for which a candidate pair of frames was considered. A transition through an in-between
+/// clip has two points. The result has no clips if the point is unknown.
 PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
   const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
   const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());
@@ -131,7 +132,7 @@ TableRow CandidateRow(const CandidateFacts& candidate, const TransitionFacts& fa
   return row;
 }
 
-/// Returns a note on the number of listed pairs of frames; "" if all pairs are listed.
+/// Returns a note that says how many of the candidate pairs of frames are listed; "" if all are.
 std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
@@ -154,7 +155,8 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
                      LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording"));
 }
 
-/// Writes the candidates of all methods; methods that differ only in the join share one table.
+/// Writes the candidate pairs of frames of all methods. Methods that differ only in how they join the frames have the
+/// same candidates and share one table.
 std::string AllCandidates(const RecordedRequest& world) {
   std::string html;
   std::vector<bool> told(world.transitions.size());
@@ -217,7 +219,7 @@ std::string DistanceTable::Html() const {
   Table table{.label = "Partial distances", .style = "partials", .columns = {{"Partial distances S·Δ²"}}};
   for (const Feature feature : AllFeatures()) table.columns.push_back(NumberColumn(std::string(FeatureName(feature))));
   table.columns.insert(table.columns.end(), {NumberColumn("Sum d²"), NumberColumn("d")});
-  // Add one row for each set of weights.
+  // Add one row for each set of feature weights.
   for (const auto& [methods, weights] : weights_) {
     TableRow row{.cells = {weights_.size() == 1 ? "weight S" : "weight S of " + methods},
                  .attributes = " class=\"weights\""};

@@ -18,13 +18,14 @@ constexpr std::string_view kFeatureLegend =
     "RH, LH: angles by which the right and the left arm are raised; RHE, LHE: their elbows; Posture: from lying to "
     "jumping; Trunk: its lean; RF, LF: angles by which the legs are spread; RFK, LFK: their knees.";
 
-/// A table of the ten partial distances of transition points, one row per point, each with a bar. A full bar means that
-/// this partial distance alone reaches the threshold. The weights are listed above the table, once for all methods that
-/// share them.
+/// A table of the ten partial distances of transition points, one row per point, with a bar for each partial distance.
+/// A full bar means that this partial distance alone reaches the threshold. The feature weights are listed above the
+/// table, once for all methods that share them.
 class DistanceTable {
  public:
   void AddWeights(const std::string& method, const FeatureWeights& weights);
-  /// Adds a row for a point; it must have partial distances.
+  /// Adds a row for a transition point, which must have partial distances. `threshold` is the method's limit on the
+  /// whole distance; nullopt = none.
   void AddPoint(const std::string& method, const PointFacts& point, std::optional<double> threshold);
 
   /// Returns the table; "" without points.
@@ -37,16 +38,18 @@ class DistanceTable {
     std::optional<double> threshold;
   };
 
-  std::vector<std::pair<std::string, FeatureWeights>> weights_;  ///< the methods' names, and their weights
+  /// Names of the methods that share feature weights, and these weights.
+  std::vector<std::pair<std::string, FeatureWeights>> weights_;
   std::vector<Point> points_;
 };
 
-/// Explains each recorded transition, the methods of one request side by side: the frames left and entered, the ten
-/// partial distances of the transition points, and the candidates. A list of candidates that was shortened says so.
-/// Returns "" without worlds.
+/// Explains each recorded transition, with the methods of one request side by side: the last frame of the clip that is
+/// left and the first frame of the clip that is entered, the ten partial distances of the transition points, and the
+/// candidate pairs of frames. A note says if the list of candidates was shortened. Returns "" without worlds.
 std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds);
 
-/// Writes a short Markdown form: the frames left and entered, and the largest partial distances.
+/// Returns a short form as Markdown: the last frame of the clip that is left, the first frame of the clip that is
+/// entered, and the largest partial distances.
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds);
 
 /// Names the features with the largest partial distances, at most three: "LF 0.051, RF 0.036, LHE 0.035"; "all alike"

@@ -27,7 +27,7 @@ std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {
   for (const CellRecording& recorded : run.recordings) {
     const std::vector<Track>& tracks = recorded.recording.tracks;
     const bool moves = std::ranges::any_of(tracks, [](const Track& track) { return !track.motion.poses.empty(); });
-    // If a recording has no tracks, its motions are in the extras (EvaluationExtras).
+    // A recording without tracks has its motions in the extras (EvaluationExtras).
     if (moves || tracks.empty()) recordings.emplace(recorded.cell, &recorded.recording);
   }
   std::vector<RecordedWorld> worlds;
@@ -71,7 +71,7 @@ std::string ViewerIndexHtml(const RunData& run) {
 std::string WatchHtml(const RunData& run, std::size_t scenario) {
   std::vector<RecordedWorld> worlds = RecordedWorlds(run);
   std::erase_if(worlds, [&](const RecordedWorld& world) { return world.scenario != scenario; });
-  // If all worlds have the same trial, name them by their conditions.
+  // If all worlds have the same trial number, name the worlds by their conditions only.
   const bool one_trial = worlds.size() > 1 && std::ranges::all_of(worlds, [&](const RecordedWorld& world) {
                            return world.cells.front().row->trial == worlds.front().cells.front().row->trial;
                          });

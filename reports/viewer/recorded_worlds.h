@@ -15,10 +15,11 @@ struct RecordedCell {
   const Recording* recording = nullptr;
 };
 
-/// The recorded cells of one world.
+/// A world with the recorded cells of all methods in it.
 struct RecordedWorld {
   std::size_t scenario = 0;  ///< index in RunData::scenarios
-  /// Path of the file with its motions, relative to `report`: "motions/capture-1.js"; only harmless characters.
+  /// Path of the script file with the world's motions, relative to `report`: "motions/capture-1.js". The path needs no
+  /// escaping in HTML or URLs.
   std::string file;
   std::vector<RecordedCell> cells;  ///< in the order of the scenario's methods; never empty
 
@@ -26,18 +27,18 @@ struct RecordedWorld {
   std::string Name() const;
 };
 
-/// Returns true for tasks whose worlds are motion files; the files' names are then the worlds' names.
+/// Returns true for tasks whose worlds are motion files; such worlds are named after their files.
 inline bool JudgesFiles(std::string_view task) { return task == "evaluation" || task == "plausibility"; }
 
-/// Lists the worlds of which a run recorded motions, in the order of its rows. The run must outlive the result.
+/// Lists the worlds whose motions a run recorded, in the order of the run's rows. The run must outlive the result.
 std::vector<RecordedWorld> RecordedWorlds(const RunData& run);
 
-/// Writes the page's JSON element that maps files to the cells whose motions they hold, for the viewer; "" for a run
-/// without recorded motions.
+/// Returns the JSON element from which the viewer learns which script file holds the motions of which cells; "" for a
+/// run without recorded motions.
 std::string ViewerIndexHtml(const RunData& run);
 
-/// Writes buttons that open the recorded worlds of a scenario. The page's script shows them; without scripts they stay
-/// hidden, because they do not work.
+/// Returns buttons that open the recorded worlds of a scenario in the viewer. The buttons are hidden until the page's
+/// script shows them, because they do not work without scripts.
 std::string WatchHtml(const RunData& run, std::size_t scenario);
 
 }  // namespace etude

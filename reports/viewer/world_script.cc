@@ -21,7 +21,7 @@
 namespace etude {
 namespace {
 
-/// The way in which the viewer shows a track of a recording.
+/// How the viewer shows a track of a recording, and the tracks from which the track's error is measured.
 struct TrackLook {
   std::string_view task, track;
   std::string_view label;  ///< "" = the method's name
@@ -58,8 +58,8 @@ TrackLook LookOf(const std::string& task, const std::string& track) {
   return found == Looks().end() ? TrackLook{task, track, track, "shown"} : *found;
 }
 
-/// Returns, for a task, the meaning of the distance between a joint and its reference, and the unit of the headline
-/// metric.
+/// Returns, for a task, the meaning of a joint's distance from its reference, and the unit of this distance (that of
+/// the headline metric).
 std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   if (task == "capture" || task == "evaluation") return {"distance from the true joint", "mm"};
   if (task == "ik") return {"distance from the true joint", "cm"};
@@ -67,14 +67,15 @@ std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   return {"error of the sensor", "cm"};
 }
 
-/// A named motion of any joints: its points, joint by joint and frame by frame.
+/// A named motion of arbitrary joints; `points` has the first joint's positions in all frames, then the next joint's.
 struct TrackPoints {
   std::string track;
   std::size_t joints = kRoleCount;
   std::vector<glm::dvec3> points;
 
   std::size_t FrameCount() const { return points.size() / joints; }
-  /// Drops frames at the end that repeat the frame before them, because the viewer repeats the last frame by itself.
+  /// Drops the last frames as long as they equal the frame before, because the viewer keeps showing the last frame by
+  /// itself.
   void CutWhereItRests() {
     const auto frame = static_cast<std::ptrdiff_t>(joints);
     while (points.size() > joints && std::equal(points.end() - frame, points.end(), points.end() - 2 * frame)) {
@@ -106,7 +107,7 @@ Json ContactsOf(const BodyMotion& motion) {
   return runs;
 }
 
-/// Collects the data of one world.
+/// Collects the JSON data of one world.
 class Writer {
  public:
   explicit Writer(const RecordedWorld& world, const std::string& task) : world_(world), task_(task) {}
@@ -136,7 +137,7 @@ class Writer {
         AddBody(cell, PointsOf(track), track.name == "wanted" ? begin + wanted_ : begin, members);
       }
     }
-    // Resolve the references of errors, and shift all frames so that the world starts at frame 0.
+    // Find the bodies from which errors are measured, and shift all frames so that the world starts at frame 0.
     FindReferences();
     StartAtZero();
     if (task_ == "ik") json_["floor_m"] = lowest_;
@@ -157,12 +158,12 @@ class Writer {
     return kJudgedRateHz;
   }
 
-  /// Adds a body with the further JSON `members`.
+  /// Adds a body that appears at frame `begin`, with the further JSON `members`.
   void AddBody(const RecordedCell& cell, TrackPoints motion, int begin, const Json& members) {
     const TrackLook look = LookOf(task_, motion.track);
     const std::size_t frames = motion.FrameCount();
     motion.CutWhereItRests();
-    // If another method has recorded the same body, share it.
+    // If another method recorded exactly the same body, store it only once for both.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Body& body = bodies_[i];
       if (body.motion.track != motion.track || body.begin != begin || look.label.empty()) continue;
@@ -175,7 +176,7 @@ class Writer {
     std::string bytes;
     for (const std::uint16_t step : quantised.steps)
       bytes += {static_cast<char>(step & 255), static_cast<char>(step >> 8)};
-    // Track the lowest joint, which is the floor of the ik task.
+    // Find the height of the lowest joint, which serves as the floor of the ik task.
     for (const glm::dvec3& point : motion.points) lowest_ = std::min(lowest_, point.y);
     Json body = {{"label", look.label.empty() ? cell.row->method : std::string(look.label)},
                  {"cell", cell_},
@@ -222,8 +223,8 @@ class Writer {
     if (std::ranges::find(marks, mark) == marks.end()) marks.push_back(std::move(mark));
   }
 
-  /// Adds the extras of a cell. Returns the frame of the world at which the cell's recording begins. It is chosen so
-  /// that the requests of all transitions are at the same frame of the world.
+  /// Adds the extras of a cell. Returns the frame of the world at which the cell's recording begins, chosen so that the
+  /// requests of all transitions are at the same frame of the world.
   int AddExtras(const std::string& method, const Recording& recording) {
     wanted_ = 0;
     const auto add = [&](const auto& extras) {
@@ -307,7 +308,7 @@ class Writer {
 
   int Add(const std::string& method, const CoachExtras& extras) {
     const std::string lane = world_.cells.size() > 1 ? " of " + method : "";
-    // Mark performances and their verdicts.
+    // Add marks for performances and the verdicts on them.
     for (const CoachExtras::Performance& danced : extras.performances) {
       Mark("danced" + lane, danced.begin_frame, danced.end_frame, danced.truth,
            Performed(danced.move, danced.truth, danced.faults));
@@ -315,7 +316,7 @@ class Writer {
       MarkJudgement("judged" + lane, danced.end_frame, danced.truth, danced.called == "right",
                     fmt::format("{}: called {}", danced.move, danced.called));
     }
-    // Mark corrections with their reasons, transitions, and spoken words.
+    // Add marks for corrections with their reasons, for transitions, and for spoken words.
     for (const int frame : extras.corrections) {
       std::string why;
       for (const CoachExtras::Decision& decision : extras.decisions) {
@@ -356,7 +357,7 @@ glm::dvec3 QuantisedMotion::At(std::size_t point) const {
 }
 
 QuantisedMotion Quantise(std::span<const glm::dvec3> points) {
-  // Find the bounding box of all points that were seen.
+  // Find the bounding box of all points that are not missing.
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const glm::dvec3& point : points) {
     if (!IsSeen(point)) continue;

@@ -11,8 +11,9 @@
 
 namespace etude {
 
-/// A motion in 16-bit steps. Points are stored joint by joint and frame by frame; point i is at low + step · steps[3 i
-/// + axis], metres. A point that is not seen has the steps kNoStep; no other point has them.
+/// A motion in 16-bit steps: coordinate `axis` of point i is low + step · steps[3 i + axis], metres. The points of the
+/// first joint in all frames come first, then those of the next joint. A missing point has the steps kNoStep, which no
+/// other point has.
 struct QuantisedMotion {
   static constexpr std::uint16_t kNoStep = 65535;
 

@@ -23,7 +23,8 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
   const double difference = *c.difference;
   const bool worse = c.verdict == Verdict::kWorse;
   const std::string worlds = fmt::format("{} of {}", FormatCount(worse ? c.worse : c.better), Plural(c.pairs, "world"));
-  // The verb states the direction ("lowers by 12.3 (10.1–14.0)"), so for a negative difference the interval is negated.
+  // The verb states the direction ("lowers by 12.3 (10.1–14.0)"), so the numbers have no sign; for a negative
+  // difference the interval is negated too.
   std::optional<double> low = c.ci_low, high = c.ci_high;
   if (difference < 0 && low && high) {
     low = -*c.ci_high;
@@ -34,12 +35,13 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
                      FormatInterval(low, high, words), other, worlds);
 }
 
-/// Returns true if the mean lies outside the interval of the median. The sentence then states the mean, too.
+/// Returns true if the mean difference lies outside the interval of the median difference. The sentence then states the
+/// mean, too.
 bool MeanTellsMore(const Comparison& c) {
   return c.mean && c.ci_low && c.ci_high && (*c.mean < *c.ci_low || *c.mean > *c.ci_high);
 }
 
-/// Returns the sentence about one condition, without its units and full stop.
+/// Returns the sentence about the comparison under one condition, without its sampling units and without the full stop.
 std::string SentenceFor(const Comparison& c, const std::string& other, const MetricWords& words) {
   if (c.pairs == 0 || !c.difference) {
     return fmt::format("“{}” could not be compared with {} by {}: no world has both values", c.method, other,
@@ -49,7 +51,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
     return fmt::format("“{}” and {} both have a value in {} only: too few to judge the {}", c.method, other,
                        Plural(c.pairs, "world"), words.label);
   }
-  // Write the difference, and the mean if it lies outside the interval.
+  // Write the difference, and the mean difference if it lies outside the interval.
   std::string figures =
       fmt::format("{} (95 % CI {})", Amount(*c.difference, words), FormatInterval(c.ci_low, c.ci_high, words));
   if (c.verdict == Verdict::kInconclusive && MeanTellsMore(c)) {
@@ -57,7 +59,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
                           FormatInterval(c.mean_low, c.mean_high, words));
   }
   figures += fmt::format(" on {}", Plural(c.pairs, "world"));
-  // Choose the verb by the verdict.
+  // Choose the verb that fits the verdict.
   switch (c.verdict) {
     case Verdict::kBetter:
     case Verdict::kWorse:
@@ -72,7 +74,8 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
                      figures);
 }
 
-// Returns the range of changes: ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3° (10.0–14.1; noise=20), on 60 worlds each".
+// Returns the smallest and the largest difference over conditions: ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3°
+// (10.0–14.1; noise=20), on 60 worlds each".
 std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords& words) {
   std::vector<Judged> known;
   std::ranges::copy_if(judged, std::back_inserter(known),
@@ -99,7 +102,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                        CountVerdicts(VerdictsOf(judged), judged.size()));
   }
   const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
-  // With two conditions, the range of changes has already named both conditions.
+  // With two conditions, the range of differences has already named both conditions.
   const std::string under = judged.size() > 2 ? " under " + AllConditions(judged.size()) : "";
   const auto verdict = CommonVerdict(judged);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) {
@@ -118,7 +121,8 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                      CountVerdicts(VerdictsOf(judged), judged.size()), range);
 }
 
-// Returns a sentence on the worlds without a pair. Without it, a method that fails in hard worlds would look better.
+// Returns a sentence that counts the worlds in which only one method has a value. If these worlds were not mentioned, a
+// method that fails in hard worlds would look better.
 std::string UnpairedWords(const std::vector<Judged>& judged) {
   int only_baseline = 0, only_method = 0;
   for (const Judged& j : judged) {
@@ -137,9 +141,10 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
              : fmt::format(" Not included in this difference, because one of the two has no value there: {}.", text);
 }
 
-// From this ratio on, the answer states the ratio of costs instead of their difference.
+// If one cost is at least this many times the other, the answer states the ratio of costs instead of their difference.
 constexpr double kMinTellingRatio = 2;
-// Costs below this share of the practical threshold count as zero: a ratio to them would be meaningless.
+// A cost below this fraction of the practical threshold counts as zero, because a ratio to such a cost would be
+// meaningless.
 constexpr double kMinShareOfThreshold = 0.1;
 
 std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
@@ -155,7 +160,7 @@ std::string RatioText(const CostRatio& ratio) {
 }
 
 /// Returns true if this metric is the scenario's first headline metric, which its question is about. The answer then
-/// considers success before the value.
+/// compares success before it compares the metric.
 bool IsAnswer(const ScenarioSummary& scenario, const std::string& metric) {
   return !scenario.headline_metrics.empty() && scenario.headline_metrics.front() == metric;
 }
@@ -189,7 +194,8 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
   return "undecided against " + others;
 }
 
-/// Returns the range of the differences over all conditions: " (−0.949 mm)"; "" if there are none.
+/// Returns the range of the differences from the other method over all conditions: " (−0.949 mm)"; "" if there are
+/// none.
 std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   if (!HaveOneMetric(judged)) return "";
   std::optional<double> low, high;
@@ -216,8 +222,8 @@ std::string PhraseOf(const std::vector<Judged>& judged, std::string_view what = 
                : VerdictPhrase(judged) + ChangeOf(judged, what);
 }
 
-/// Considers the other headline metrics in which the rival is better, and returns the largest ratio of costs among them
-/// in words; "" if there is none.
+/// Considers the headline metrics other than `metric` in which `rival`, the strongest other method, is better. Returns
+/// the largest ratio of costs among them in words; "" if there is none.
 std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                           const std::string& rival) {
   std::string phrase;
@@ -239,12 +245,13 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
                          const std::string& baseline, const std::optional<Verdict>& of_baseline) {
   const std::vector<Judged> judged = AnswersOf(scenario, method, Against::kRival);
   if (judged.empty()) return "";
-  // If the comparison was decided by another metric than the comparison with the baseline, name that metric.
+  // If this comparison was decided by another metric than `metric`, which decided the comparison with the baseline,
+  // name the deciding metric.
   const std::string& decides = judged.front().comparison->metric;
   const std::string what = decides == metric ? "" : WordsFor(decides).label + " ";
   const std::string rival = OthersOf(judged);
   const std::string elsewhere = CostElsewhere(scenario, method, decides, rival);
-  // If the baseline is also the strongest other method, the first half of the line already has the comparison with it.
+  // If the baseline is also the strongest other method, the line has already stated the comparison with it.
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
   const auto verdict = CommonVerdict(judged);
   const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
@@ -254,15 +261,17 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
-/// Returns the difference, with its interval, that decides the verdict for other clips or people: " Middle of 8 clips
-/// 2.39 cm (−6.3 to 11.0).". Returns "" if worlds are the units, or if difference or interval is missing.
+/// Returns the typical (pseudo-median) difference over sampling units, with its interval, from which the generalised
+/// verdict follows: " Middle of 8 clips 2.39 cm (−6.3 to 11.0).". Returns "" if every world is its own unit, or if the
+/// difference or its interval is missing.
 std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
   if (WorldsAreUnits(unit) || !c.beyond.low || !c.beyond.difference) return "";
   return fmt::format(" Middle of {} {} ({}).", CountUnits(c.beyond.units, unit), Amount(*c.beyond.difference, words),
                      FormatInterval(c.beyond.low, c.beyond.high, words));
 }
 
-/// Returns further facts behind an answer: the difference where both methods succeeded, and the tail if it decides.
+/// Returns further facts behind an answer: the difference in the worlds where both methods succeeded and, if the far
+/// better and far worse worlds (the tail) decide the answer, their numbers.
 std::string FurtherSteps(const Judged& judged) {
   const Answer* answer = judged.answer;
   if (answer == nullptr) return "";
@@ -289,7 +298,7 @@ std::string FurtherSteps(const Judged& judged) {
   return text;
 }
 
-/// Returns a sentence that compares a method with another over all its conditions, with the figures behind the
+/// Returns a sentence that compares a method with another method over all conditions, with the numbers behind the
 /// verdicts. `judged` must not be empty.
 std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit) {
   const Comparison& first = *judged.front().comparison;

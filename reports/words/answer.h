@@ -8,20 +8,20 @@
 
 namespace etude {
 
-/// Returns a scenario's first line: how `method` compares with its baseline, and with the strongest other method:
-/// "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". If one cost is at least twice the other, the
-/// line gives the ratio, else the verdict. Without rivals, the line ends after the baseline. If there is no verdict for
-/// other units, the line says so.
+/// Returns a scenario's answer in one line: how `method` compares with its baseline, and with the strongest other
+/// method: "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". If one cost is at least twice the
+/// other, the line states their ratio, else the verdict. If no other method is compared, the line ends after the
+/// baseline. The line says if there is no verdict generalised to other clips or people.
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
 
-/// One method's cost divided by another's: the smallest and largest ratio over conditions.
+/// The cost of one method divided by the cost of another: the smallest and the largest ratio over conditions.
 struct CostRatio {
   double least = 0, most = 0;
 };
 std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged);
 
-/// Compares `method` by `metric` with its baseline, or with the strongest other method, over all conditions; returns
-/// the finding in words.
+/// Compares `method` by `metric` with its baseline, or with the strongest other method, over all conditions. Returns
+/// the verdicts, and a sentence about them.
 MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 

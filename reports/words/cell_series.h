@@ -15,7 +15,7 @@ class CellSeriesIndex {
  public:
   explicit CellSeriesIndex(const RunData& run);
 
-  /// Returns the cell's series of this name; null if it keeps none.
+  /// Returns the cell's series of this name; null if the cell has none.
   const std::vector<double>* Find(const Row& row, std::string_view name) const;
 
  private:
@@ -40,16 +40,16 @@ class KeptCells {
 /// Returns true if any cell of this scenario keeps a series of that name.
 bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::string_view name);
 
-/// Returns the rows of a scenario under one condition, in order. Rows of one condition are contiguous, so the search
-/// does not visit all rows.
+/// Returns the rows of a scenario under one condition, in the run's order. Rows of one condition are contiguous, so the
+/// search does not visit all rows.
 std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenario,
                                   const std::vector<SweptValue>& condition);
 
-/// Returns all recordings whose cells have a row, each with that row, in order.
+/// Returns each recording together with the row of its cell, in the run's order. Recordings without a row are left out.
 std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run);
 
-/// Returns the median of each step over several curves of different lengths. A curve that has ended continues with its
-/// last value, because a stopped solver keeps its answer.
+/// Returns the median curve of several curves: at each step, the median of their values. A curve that has ended keeps
+/// its last value, because a solver that has stopped keeps its answer.
 std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);
 
 }  // namespace etude

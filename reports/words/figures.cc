@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-// Returns "°" for degrees; other units are written as in the catalogue.
+// Returns the text of a unit: "°" for degrees, otherwise the unit as the catalogue of metrics writes it.
 std::string Suffix(const std::string& unit) {
   if (unit == "deg") return "°";
   return unit.empty() ? "" : " " + unit;
@@ -66,7 +66,8 @@ std::string FormatInterval(std::optional<double> low, std::optional<double> high
   const double size = std::max(std::abs(from), std::abs(to));
   const std::string_view dash = from < 0 || to < 0 ? " to " : "–";
   if (size != 0 && size < 0.001) return FormatNumber(from) + std::string(dash) + FormatNumber(to);
-  // If an end would be rounded to 0, write it with more digits, because its sign says whether the interval contains 0.
+  // If an end of the interval would be rounded to 0, write it with more digits, because its sign says whether the
+  // interval contains 0.
   const auto end = [decimals = DecimalsFor(size)](double value) {
     std::string text = FormatFixed(value, decimals);
     const std::string own = FormatNumber(value);

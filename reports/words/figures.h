@@ -9,16 +9,16 @@
 
 namespace etude {
 
-/// The words of a metric from the catalogue, or its id if the catalogue does not list it. Shares and scores are shown
-/// in per cent, their differences in percentage points.
+/// The name and the units of a metric from the catalogue of metrics; the metric's id if the catalogue does not list it.
+/// Shares and scores are shown in per cent, their differences in percentage points.
 struct MetricWords {
   std::string label;   ///< "orientation error"; "share “solved”", "mean F1"
   std::string suffix;  ///< follows a value: "°", " cm", " %", ""
-  /// Unit that follows a difference: `suffix`, but " percentage points" for values in per cent.
+  /// Unit after a difference: the same as `suffix`, but " percentage points" for values in per cent.
   std::string difference_suffix;
   double scale = 1;       ///< factor that turns a stored value into the shown value
-  bool is_share = false;  ///< 0…1, shown in per cent
-  bool by_mean = false;   ///< true: the mean summarises all cells; false: the median
+  bool is_share = false;  ///< true: the metric is a share, 0…1, shown in per cent
+  bool by_mean = false;   ///< true: the mean over cells is the metric's typical value; false: the median is
   Direction direction = Direction::kNeither;
   /// The label without “mean” or “share”, for texts that state these themselves: "orientation error", "solved", "F1".
   std::string plain_label = {};
@@ -27,7 +27,8 @@ MetricWords WordsFor(const std::string& metric_id);
 /// Returns the suffix without its space, for captions: "cm", "".
 std::string UnitOf(const MetricWords& words);
 
-/// Returns the number that summarises all cells, in the metric's unit: the median or the mean, as the metric defines.
+/// Returns the typical value of a metric over all cells, in the metric's unit: the median or the mean, as the metric
+/// defines.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
 /// Returns a value as text: "12.3°", "98 %"; kNoValue if there is none.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// If there are more methods than this, only the least and the most successful one are named.
+// If there are more methods than this, a sentence on success names only the least and the most successful one.
 constexpr std::size_t kMaxSuccesses = 12;
 
 std::string ExpectationsSentence(const RunFindings& f) {
@@ -29,7 +29,7 @@ std::string ExpectationsSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Returns a sentence on how many cells were measured. (SuccessSentence says how many cells reached their goal.)
+/// Returns a sentence that says how many cells were measured. (SuccessSentence says how many cells reached their goal.)
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return " No cell ran.";
   const int measured = f.ok + f.unsolved;
@@ -43,7 +43,7 @@ std::string MeasuredSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Averages each success metric by method. Metrics that no row has are left out.
+/// Computes the mean of each success metric for each method. Metrics that occur in no row are left out.
 class Successes {
  public:
   Successes() {
@@ -100,7 +100,7 @@ std::string TimeText(std::optional<double> seconds) {
   return *seconds < 1 ? FormatNumber(*seconds * 1000) + " ms" : FormatNumber(*seconds) + " s";
 }
 
-/// Returns a method's values by a metric, over conditions from the smallest to the largest: "0.06–0.08°".
+/// Returns the range of a method's typical values of a metric over conditions: "0.06–0.08°".
 std::string ValuesOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric) {
   const MetricWords words = WordsFor(metric);
   std::optional<double> low, high;
@@ -115,8 +115,8 @@ std::string ValuesOf(const ScenarioSummary& scenario, const std::string& method,
   return low == high ? FormatValue(low, words) : FormatInterval(low, high, words) + words.suffix;
 }
 
-/// Returns the share of a method's cells that reached their goal. If the scenario has no success metric, returns the
-/// share of cells that ended ok.
+/// Returns the share of a method's cells that reached the task's goal. If the scenario has no success metric, returns
+/// the share of cells that ended ok.
 std::string SuccessOf(const ScenarioFindings& findings, const ScenarioSummary& scenario, const std::string& method) {
   if (!findings.successes.empty()) {
     const SuccessFinding& success = findings.successes.front();
@@ -133,7 +133,7 @@ std::string SuccessOf(const ScenarioFindings& findings, const ScenarioSummary& s
   return FormatShare(ok, attempted);
 }
 
-/// Returns the methods with which `asked` is compared, each once: first the baselines, then the strongest other
+/// Returns the methods with which method `asked` is compared, each once: first the baselines, then the strongest other
 /// methods.
 std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std::string& asked,
                                       const std::string& metric) {
@@ -220,7 +220,8 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);
     findings.rival = CompareInWords(scenario, asked, findings.metric, Against::kRival);
   }
-  // List all methods that are compared with others, and the yardsticks.
+  // List all methods that are compared with others, and the yardsticks (methods compared with none, such as natural
+  // motion).
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
     if (IsYardstick(scenario, scenario.methods[i])) {
       findings.yardsticks.push_back(scenario.methods[i]);
@@ -229,7 +230,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     }
   }
 
-  // Count statuses and reasons in one pass over all rows.
+  // Count the statuses and reasons of the cells in one pass over all rows.
   std::map<Status, int> statuses;
   std::map<std::pair<Status, std::string>, ReasonCounts> reasons;
   Successes successes;
@@ -257,7 +258,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
 
 RunFindings FindingsOf(const RunData& run) {
   RunFindings f;
-  // Count how the cells ended.
+  // Count how many cells were measured, unsolved, skipped or broken.
   ForEachRow(run, [&](const Row& row, std::size_t) {
     ++f.cells;
     switch (row.result.status) {
@@ -274,7 +275,7 @@ RunFindings FindingsOf(const RunData& run) {
         ++f.broken;
     }
   });
-  // Count how the expectations were decided.
+  // Count how many expectations were met, unmet and undecided.
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ExpectationResult& expectation : scenario.expectations) {
       if (expectation.outcome == ClaimOutcome::kMet) ++f.met;

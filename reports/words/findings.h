@@ -15,23 +15,24 @@
 
 namespace etude {
 
-/// Returns the name of a verdict, or "it depends" if the conditions differ.
+/// Returns the name of a verdict; "it depends" if the verdict differs between conditions (nullopt).
 inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
   return verdict ? VerdictName(*verdict) : "it depends";
 }
 
-/// The comparison of one method with another method by one metric, over all conditions.
+/// The comparison of `method` with another method by one metric, over all conditions.
 struct MethodFinding {
   std::string method;
-  /// The method on the other side. If the strongest other method differs by condition, it is the first condition's.
+  /// The other method of the comparison. If the strongest other method differs between conditions, the one of the first
+  /// condition.
   std::string baseline;
   SamplingUnit unit = SamplingUnit::kWorld;
   bool is_compared = false;             ///< false if the method was not compared by this metric
-  std::optional<Verdict> verdict = {};  ///< verdict on these worlds; empty if the verdict depends on the condition
-  BeyondFinding beyond = {};            ///< verdicts for other units
-  std::string others = {};              ///< all methods on the other side, over the conditions: “a” or “b”
-  std::string sentence = {};            ///< plain words, with the figures behind the verdicts
-  std::string why_open = {};            ///< the reason for an open verdict; set only if there is one condition
+  std::optional<Verdict> verdict = {};  ///< verdict on the run's worlds; nullopt if conditions differ
+  BeyondFinding beyond = {};            ///< verdicts generalised to other clips, people or libraries
+  std::string others = {};    ///< all methods with which `method` is compared, over the conditions: “a” or “b”
+  std::string sentence = {};  ///< states the comparison in words, with the numbers behind the verdicts
+  std::string why_open = {};  ///< why the verdict is inconclusive; set only if there is one condition
 
   /// Returns the verdict in words: "better on these clips".
   std::string Words() const { return fmt::format("{} on {}", VerdictWords(verdict), TheseUnits(unit)); }
@@ -39,21 +40,22 @@ struct MethodFinding {
   std::string BothVerdicts() const;
 };
 
-/// Key figures of the method in question, its baseline and the strongest other method.
+/// Key numbers of the method in question, its baseline and the strongest other method.
 struct KeyFigures {
   struct Method {
     std::string name;
     std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has no such value
   };
-  /// Names of the known figures: headline metric, success, processor time, worlds lost to the method.
+  /// Names of the key numbers that are known: headline metric, success, processor time, worlds in which the other
+  /// method wins.
   std::vector<std::string> labels;
   std::vector<Method> methods;  ///< the method in question first; empty if nothing is compared
 };
 
-/// Returns the figures as a table. Its columns are aligned as numbers if `has_number_columns`.
+/// Returns the key numbers as a table. Its columns are aligned as numbers if `has_number_columns`.
 Table FiguresTable(const KeyFigures& figures, bool has_number_columns);
 
-/// The cells of a method that ended with one status, for reasons of one kind, which are counted together.
+/// Counts the cells of one method that ended in one status for the same kind of reason.
 struct ReasonCount : CountedReason {
   Status status = Status::kFailed;
   std::string method = {};
@@ -63,51 +65,56 @@ struct ReasonCount : CountedReason {
 /// that a cell was measured.
 struct SuccessFinding {
   std::string metric;
-  std::vector<std::pair<std::string, double>> shares;  ///< per method: mean over its cells that have a value, 0…1
+  /// For each method, the mean of the success metric over the cells that have a value, 0…1.
+  std::vector<std::pair<std::string, double>> shares;
 };
 
-/// All findings on one scenario in words, which the page and the Markdown share.
+/// All findings about one scenario in words. The page and the Markdown text show the same findings.
 struct ScenarioFindings {
-  std::string metric;    ///< the first headline metric, which the question is about; "" if there is none
-  std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
-  MethodFinding answer;  ///< the comparison with the baseline
-  /// The comparison with the strongest other method. It is marked as not compared in old runs, and if no such method
-  /// exists.
+  std::string metric;  ///< the first headline metric, which the question is about; "" if there is none
+  /// The scenario's answer in one line: the method in question against the baseline, and against the strongest other
+  /// method.
+  std::string headline;
+  MethodFinding answer;  ///< comparison of the method in question with its baseline
+  /// Comparison of the method in question with the strongest other method. It is marked as not compared if there is no
+  /// other method, and for runs of old versions.
   MethodFinding rival;
   KeyFigures figures;
-  std::vector<MethodFinding> methods;  ///< every method compared with another, in the scenario's order
+  /// One finding for every method that is compared with another, in the scenario's order.
+  std::vector<MethodFinding> methods;
   std::vector<std::string> yardsticks;
   int cells = 0;
-  std::vector<std::pair<Status, int>> statuses;  ///< only statuses that occur, in the order of Status
+  std::vector<std::pair<Status, int>> statuses;  ///< number of cells in each status that occurs, in the order of Status
   std::vector<SuccessFinding> successes;         ///< one per success metric (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< reasons of all cells that are not ok, the most frequent first
 };
-/// Returns true if the strongest other method is not the baseline, so that the comparison with it adds something.
+/// Returns true if the strongest other method is not the baseline. Only then does the comparison with it add
+/// information.
 bool HasOtherRival(const ScenarioFindings& findings);
 
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario);
 
-/// The whole run in one sentence, and the counts in it.
+/// A sentence about the whole run, and the numbers of cells in it.
 struct RunFindings {
   int cells = 0;
-  int ok = 0;        ///< measured; the status does not say whether a goal was reached
-  int unsolved = 0;  ///< measured, but ended before the goal was reached
-  int skipped = 0;   ///< not run, because the world lacked something that the task needs
-  int broken = 0;    ///< failed, crashed, timed out or answered badly
+  int ok = 0;        ///< cells that were measured; their status does not say whether they reached a goal
+  int unsolved = 0;  ///< cells that were measured, but ended before they reached the goal
+  int skipped = 0;   ///< cells that were not run, because the world lacked something that the task needs
+  int broken = 0;    ///< cells that failed, crashed, timed out or gave an invalid answer
   int met = 0, unmet = 0, undecided = 0;
   std::string sentence;
 };
 RunFindings FindingsOf(const RunData& run);
 
-/// Returns a finding on success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %." If there are many
-/// methods, it names only those with the smallest and the largest share.
+/// Returns a sentence about success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %." If there are
+/// many methods, names only those with the smallest and the largest share.
 std::string SuccessSentence(const SuccessFinding& finding);
 
-/// Returns the counts of the statuses: "480 cells: 470 ok, 8 unsolved, 2 failed".
+/// Returns how many cells ended in each status: "480 cells: 470 ok, 8 unsolved, 2 failed".
 std::string StatusSentence(const ScenarioFindings& findings);
 
-/// Returns the reasons for missing values of a metric in one method's cells under one condition: "2 × no effector seen;
-/// 1 × timeout".
+/// Returns the reasons why values of a metric are missing in one method's cells under one condition: "2 × no effector
+/// seen; 1 × timeout".
 std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<SweptValue>& condition,
                            const std::string& method, const std::string& metric);
 

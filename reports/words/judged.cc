@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The words for units, in the order of SamplingUnit: the units of this run, and other units like them.
+/// Names of the sampling units, in the order of SamplingUnit: those of this run, and those that were not run.
 constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUnitWords = {
     {{"these worlds", "other worlds"},
      {"these people", "other people"},
@@ -18,7 +18,8 @@ constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUn
      {"these clips", "other clips"},
      {"these libraries", "other libraries"}}};
 
-/// Returns the figures for other units: "middle of 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
+/// Returns the numbers behind a generalised verdict, which are the typical (pseudo-median) difference over sampling
+/// units and its interval: "middle of 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
 std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
   if (!beyond.difference) return CountUnits(beyond.units, unit);
   std::string text = fmt::format("middle of {} {}{}", CountUnits(beyond.units, unit),
@@ -27,7 +28,7 @@ std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUn
   return text;
 }
 
-/// Returns the first reason why conditions have no verdict for other units.
+/// Returns the reason for the first condition that has no verdict generalised to other sampling units.
 std::string WhyNone(const std::vector<Judged>& judged, SamplingUnit unit) {
   for (const Judged& j : judged) {
     const Beyond& beyond = j.comparison->beyond;
@@ -152,10 +153,10 @@ std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
 }
 
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
-  // A scenario without metrics compares no methods at all; then no method counts as left out of comparisons.
+  // In a scenario without metrics, no methods are compared, so no method counts as one that is compared with none.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
-  // A method that is compared at all is compared under every condition.
+  // A compared method is compared under every condition, so it suffices to look at the first one.
   const std::vector<Comparison>& comparisons = scenario.conditions.front().comparisons;
   return std::ranges::find(comparisons, method, &Comparison::method) == comparisons.end();
 }

@@ -9,59 +9,62 @@
 
 namespace etude {
 
-/// The other side of a comparison: the baseline that the scenario names, or the strongest other method.
+/// With what a method is compared: with the baseline that the scenario names, or with the strongest other method.
 enum class Against { kBaseline, kRival };
 
 struct Judged {
   const Comparison* comparison;
   const ConditionSummary* condition;
-  /// The answer that the comparison decides or belongs to; null if the comparison stands alone.
+  /// The answer to which the comparison belongs; its verdicts replace those of the comparison. Null if there is none.
   const Answer* answer = nullptr;
 
-  /// These functions return the verdict on these worlds and the verdict for other units like them.
+  /// Here returns the verdict on the worlds of this run. Elsewhere returns the verdict generalised to other clips,
+  /// people or libraries; nullopt if there are too few of them.
   Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
   std::optional<Verdict> Elsewhere() const { return answer == nullptr ? comparison->beyond.verdict : answer->beyond; }
 };
 
-/// Returns the comparisons of `method` by `metric`, one per condition, in their order. Summaries written by old
-/// versions contain no comparisons with a rival.
+/// Returns the comparisons of `method` by `metric`, one per condition, in the conditions' order. Summaries written by
+/// old versions contain no comparisons with the strongest other method.
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Returns the answers on a method, one per condition. Each answer comes with the comparison that decides it: of
-/// success, or else of the value. If the summary has no answers, returns the comparisons by the first headline metric.
+/// Returns the answers about a method, one per condition. Each answer comes with the comparison that decides it: the
+/// comparison of success, or else that of the value metric. If the summary has no answers, returns the comparisons by
+/// the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
 /// Returns true if all comparisons are by the same metric.
 bool HaveOneMetric(const std::vector<Judged>& judged);
 
-/// Returns the methods that a comparison's baseline names: two if it is "a or b" (bench/statistics/scenario_table.h),
-/// else one.
+/// Returns the names in a comparison's baseline: two if it is "a or b" (two methods, each the strongest on half of the
+/// worlds; see bench/statistics/scenario_table.h), else one.
 std::vector<std::string> BaselinesOf(const Judged& judged);
 
-/// Names the methods on the other side: "“a”", or "“a” or “b”" if conditions or halves of the worlds have different
-/// rivals.
+/// Names the methods with which a method is compared: "“a”", or "“a” or “b”" if the strongest other method differs
+/// between conditions or halves of the worlds.
 std::string OthersOf(const std::vector<Judged>& judged);
 
-/// Returns the verdict on these worlds if it is the same for all `judged`, else nothing. `judged` must not be empty.
+/// Returns the verdict on the worlds of this run if it is the same in all of `judged`, else nullopt. `judged` must not
+/// be empty.
 std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged);
 
-/// Returns "both conditions", "all 4 conditions".
+/// Returns the words for a number of conditions: "both conditions", "all 4 conditions".
 std::string AllConditions(std::size_t count);
 
-/// Counts verdicts in words: "better under 3 of 4, inconclusive under 1 of 4", "worse under all 4 conditions"; "" for
-/// no verdicts.
+/// Counts equal verdicts in words: "better under 3 of 4, inconclusive under 1 of 4", "worse under all 4 conditions"; ""
+/// for no verdicts.
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions);
 
-/// Returns the verdict on these worlds of each of `judged`.
+/// Returns the verdict of each entry of `judged` on the worlds of this run.
 std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged);
 
-/// Returns true if a method is compared with no other one (its `against` names itself). Returns false for the first
-/// method, because it is the baseline of the others.
+/// Returns true if a method is compared with no other method (its `against` names itself). Returns false for the first
+/// method, because other methods are compared with it.
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method);
 
-/// Returns true for a yardstick, such as natural motion: a method that is not compared with any other method in either
-/// direction.
+/// Returns true for a yardstick, such as natural motion: a method that is compared with no other method, and no other
+/// method is compared with it.
 bool IsYardstick(const ScenarioSummary& scenario, const std::string& method);
 
 /// Returns the method's index in the scenario, which selects its colour and mark; the number of methods if it is not
@@ -71,21 +74,24 @@ std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method);
 /// Returns the name of a method, with a mark if it is a yardstick: "natural (yardstick)".
 std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method);
 
-/// Returns the units of a verdict on the worlds that were run: "these worlds", "these people", "these clips".
+/// Returns the name of the sampling units of this run: "these worlds", "these people", "these clips".
 std::string_view TheseUnits(SamplingUnit unit);
-/// Returns the words for other units of the same kind: "other worlds", "other people", "other clips".
+/// Returns the name of sampling units that were not run, to which a verdict generalises: "other worlds", "other
+/// people", "other clips".
 std::string_view OtherUnits(SamplingUnit unit);
 
-/// The verdicts of comparisons for other units, summarised over all conditions.
+/// The verdicts generalised to sampling units that were not run (other clips, people or libraries), summarised over all
+/// conditions.
 struct BeyondFinding {
-  bool on_these_only = true;            ///< no condition has a verdict for other units
-  bool as_on_these = false;             ///< every condition has a verdict for other units, as on these worlds
-  std::optional<Verdict> verdict = {};  ///< the verdict for other units, if all conditions that have one agree
+  bool on_these_only = true;  ///< true: no condition has a generalised verdict
+  /// true: every condition has a generalised verdict that equals the verdict on the run's worlds.
+  bool as_on_these = false;
+  std::optional<Verdict> verdict = {};  ///< the generalised verdict, if all conditions that have one agree
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);
 
-/// Returns the finding of one comparison, short enough for a table's cell or an XML attribute.
+/// Returns the generalised verdict of one comparison in words, short enough for a table cell or an XML attribute.
 std::string ShortBeyond(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude
