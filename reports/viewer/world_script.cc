@@ -67,7 +67,8 @@ std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   return {"error of the sensor", "cm"};
 }
 
-/// A named motion of arbitrary joints; `points` has the first joint's positions in all frames, then the next joint's.
+/// A named motion of arbitrary joints; `points` has the positions of all joints in the first frame, then those in the
+/// next frame.
 struct TrackPoints {
   std::string track;
   std::size_t joints = kRoleCount;

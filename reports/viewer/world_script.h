@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// A motion in 16-bit steps: coordinate `axis` of point i is low + step · steps[3 i + axis], metres. The points of the
-/// first joint in all frames come first, then those of the next joint. A missing point has the steps kNoStep, which no
+/// A motion in 16-bit steps: coordinate `axis` of point i is low + step · steps[3 i + axis], metres. The points of all
+/// joints in the first frame come first, then those of the next frame. A missing point has the steps kNoStep, which no
 /// other point has.
 struct QuantisedMotion {
   static constexpr std::uint16_t kNoStep = 65535;
