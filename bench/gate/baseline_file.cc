@@ -60,10 +60,11 @@ class Lines {
   std::optional<Error> error_;
 };
 
-// The letters 'm', 't' and 'c' are missing, because a run with such a cell gives no baseline.
+// The status letters that may occur in a baseline. The letters 'm', 't' and 'c' are missing, because no baseline is
+// made of a run with such a cell.
 constexpr std::string_view kLetters = "oufbs";
 constexpr std::string_view kAnswers = "ou";     // statuses with an answer
-constexpr std::int64_t kMaxTrials = 1'000'000;  // the same limit as in a scenario file
+constexpr std::int64_t kMaxTrials = 1'000'000;  // as in a scenario file
 constexpr std::int64_t kMaxVersions = 1'000'000;
 
 /// Returns the seal of a baseline: the digest of its JSON values without the key `seal`. White space does not affect
@@ -74,7 +75,7 @@ Result<std::string> SealOf(Json baseline) {
   return Digest().Add(std::string_view(text)).Hex();
 }
 
-/// The cells that are filled by a line of statuses or of values.
+/// The cells that a line with statuses or values of one scenario, condition and method fills.
 struct Slot {
   std::size_t trials = 0;
   SnapshotCells* cells = nullptr;
@@ -100,7 +101,7 @@ class BaselineReader {
     if (is_sealed != head.Has("seal")) {
       return Fail(head.place(), "a baseline of schema {} {}", schema, is_sealed ? "lacks its 'seal'" : "has a 'seal'");
     }
-    // Read the scenarios, which declare the cells, and then the lines that fill the cells.
+    // Read the scenarios, which say which cells exist, and then the lines with the cells' statuses and values.
     ASSIGN_OR_RETURN(snapshot_.suite, head.Text("suite"));
     ASSIGN_OR_RETURN(snapshot_.program_version, head.Text("etude"));
     RETURN_IF_ERROR(ForEach(head, "scenarios",
@@ -112,7 +113,7 @@ class BaselineReader {
                             [this](const Json& entry, const Place& place) { return ReadStatuses(entry, place); }));
     RETURN_IF_ERROR(
         ForEach(head, "values", [this](const Json& entry, const Place& place) { return ReadValues(entry, place); }));
-    // At least one cell must have an answer, and the seal must match.
+    // Fail if no cell has an answer, or if the seal does not match.
     const auto has_answer = [](const auto& slot) {
       return slot.second.cells->statuses.find_first_of(kAnswers) != std::string::npos;
     };
@@ -154,9 +155,9 @@ class BaselineReader {
   }
 
   Result<void> ReadScenario(const Json& entry, const Place& place) {
-    ASSIGN_OR_RETURN(const auto line, JsonObject::Of(entry, place, "a scenario",
-                                                     {"scenario", "seed", "trials", "metrics", "worlds", "methods"},
-                                                     {"files"}));
+    ASSIGN_OR_RETURN(const auto line,
+                     JsonObject::Of(entry, place, "a scenario",
+                                    {"scenario", "seed", "trials", "metrics", "worlds", "methods"}, {"files"}));
     // Read name, seed and trials.
     SnapshotScenario scenario;
     ASSIGN_OR_RETURN(scenario.name, line.Text("scenario"));
@@ -189,7 +190,7 @@ class BaselineReader {
     return {};
   }
 
-  /// Reads the names of worlds made of files and the digests of their truths.
+  /// Reads, for a task that judges files, the names of the worlds and the digests of their ground truths.
   static Result<void> ReadFiles(const JsonObject& line, SnapshotScenario& scenario) {
     if (!line.Has("files")) return {};
     ASSIGN_OR_RETURN(const Json* files, line.List("files"));
@@ -203,8 +204,9 @@ class BaselineReader {
     return Fail(line.place(), "{} files; its scenario has {} trials", scenario.files.size(), scenario.trials);
   }
 
-  /// Checks the number of lines before the table is allocated, because two long lists of names in a small file could
-  /// declare a huge table. Duplicate lines are refused, so every cell is filled if there are as many lines as cells.
+  /// Checks the number of lines before the table of cells is allocated, because two long lists of names in a small file
+  /// could declare a huge table. Duplicate lines are refused, so every cell has a line if there are as many lines as
+  /// cells.
   Result<void> CountLines(const JsonObject& head) const {
     std::size_t cells = 0, lists = 0;
     for (const SnapshotScenario& scenario : snapshot_.scenarios) {
@@ -254,7 +256,8 @@ class BaselineReader {
     if (statuses.find_first_not_of(kLetters) != std::string::npos || statuses.size() != cells.trials) {
       return Fail(place, "the statuses of {} are not {} letters of '{}'", name, cells.trials, kLetters);
     }
-    const bool skipped = statuses.find_first_not_of('s') == std::string::npos;  // skipped cells are not judged
+    // A method whose cells were all skipped needs no answer.
+    const bool skipped = statuses.find_first_not_of('s') == std::string::npos;
     if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
     return Fail(place,
                 "all {} cells of {} failed, so no run could be worse; allowed: a baseline in which each method has "
@@ -289,8 +292,8 @@ class BaselineReader {
     return CheckNulls(line, *kept, name);
   }
 
-  /// Fails if the number of nulls differs from the declared one. A world with a null cannot get worse, so an additional
-  /// null would weaken the gate.
+  /// Fails if the number of missing values (null) differs from the number that the line declares. A world with a null
+  /// cannot get worse, so an additional null would weaken the gate.
   Result<void> CheckNulls(const JsonObject& line, const SnapshotValues& kept, const std::string& name) const {
     std::int64_t allowed = 0;
     if (line.Has("nulls")) {
@@ -314,7 +317,7 @@ class BaselineReader {
 }  // namespace
 
 Result<std::string> WriteBaseline(const Snapshot& snapshot) {
-  // Encode each scenario and each list of statuses and values as a line.
+  // Write each scenario as a line, and each method's statuses and metrics as further lines.
   Lines scenarios, statuses, values;
   for (const SnapshotScenario& scenario : snapshot.scenarios) {
     scenarios.Add(EncodeScenario(scenario));

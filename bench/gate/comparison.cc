@@ -30,8 +30,8 @@ const SnapshotValues* FindValues(const SnapshotCells& cells, const std::string& 
   return FindIn(cells.metrics, [&](const SnapshotValues& values) { return values.metric == metric; });
 }
 
-/// Lists the scenarios, cells and metrics that `one` contains and `other` does not. If a whole scenario or cell is
-/// missing, only its name is listed.
+/// Lists the scenarios, cells and metrics that `one` contains and `other` does not. If `other` lacks a whole scenario
+/// or cell, only the name of that scenario or cell is listed.
 std::vector<std::string> OnlyIn(const Snapshot& one, const Snapshot& other) {
   std::vector<std::string> only;
   for (const SnapshotScenario& scenario : one.scenarios) {
@@ -57,16 +57,18 @@ const std::string* FindDigest(const NamedDigests& digests, const std::string& na
   return found == nullptr ? nullptr : &found->second;
 }
 
-/// The trials of the worlds that two snapshots of a scenario share. `before[i]` and `after[i]` are the same world.
+/// The trials of the worlds that exist in both snapshots of a scenario. Trial `before[i]` of one and trial `after[i]`
+/// of the other are the same world.
 struct SharedWorlds {
   std::vector<std::size_t> before, after;
 };
 
-/// Pairs the worlds of two snapshots. Worlds made of files form a pair if they have the same name and the same truth;
-/// other worlds, if they have the same trial. Files that only one snapshot has are added to the lists of `comparison`.
+/// Pairs the worlds of two snapshots. Worlds made of files form a pair if they have the same name and the same ground
+/// truth; other worlds form a pair if they have the same trial. Files that only one snapshot has are added to the lists
+/// of `comparison`.
 SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& after, SnapshotComparison& comparison) {
   SharedWorlds shared;
-  // Without files, pair equal trials.
+  // If the worlds are not made of files, pair equal trials.
   if (before.files.empty() || after.files.empty()) {
     for (int t = 0; t < std::min(before.trials, after.trials); ++t) {
       shared.before.push_back(static_cast<std::size_t>(t));
@@ -74,8 +76,8 @@ SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& 
     }
     return shared;
   }
-  // With files, pair worlds of the same name and truth. List the files of `before` without a partner, then the files of
-  // `after` without one.
+  // If the worlds are made of files, pair worlds of the same name and ground truth. List the files of `before` that
+  // have no pair, then those of `after`.
   std::map<std::string, std::size_t> trial_of;
   for (std::size_t t = 0; t < after.files.size(); ++t) trial_of[after.files[t].first] = t;
   for (std::size_t t = 0; t < before.files.size(); ++t) {
@@ -99,7 +101,7 @@ SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& 
   return shared;
 }
 
-/// Returns the elements at the indices `places`.
+/// Returns the elements whose indices are in `places`.
 template <typename Elements>
 Elements Picked(const Elements& elements, const std::vector<std::size_t>& places) {
   Elements picked;
@@ -107,7 +109,7 @@ Elements Picked(const Elements& elements, const std::vector<std::size_t>& places
   return picked;
 }
 
-/// Returns a copy of the cells that has only the statuses and values of `trials`.
+/// Returns a copy of the cells that has only the statuses and values of the given trials.
 SnapshotCells Picked(const SnapshotCells& cells, const std::vector<std::size_t>& trials) {
   SnapshotCells picked{cells.condition, cells.method, Picked(cells.statuses, trials), {}};
   for (const SnapshotValues& values : cells.metrics) {
@@ -132,9 +134,9 @@ int CountDiffering(const SnapshotCells& before, const SnapshotCells& after, cons
   return differing;
 }
 
-/// Multiplies both values of each world by its weight (MetricInfo::weight) divided by the mean weight of the worlds
-/// with both values. The plain mean of the products is then the weighted mean. Does nothing if the metric has no weight
-/// or the snapshot does not keep it.
+/// Multiplies both values of each world by the world's weight (MetricInfo::weight), divided by the mean weight of the
+/// worlds with both values. The plain mean of the products is then the weighted mean. Does nothing if the metric has no
+/// weight, or if the snapshot does not contain the weights.
 void Weigh(const SnapshotCells& cells, const MetricInfo& metric, MoveColumns& columns) {
   const SnapshotValues* weights = metric.weight.empty() ? nullptr : FindValues(cells, metric.weight);
   if (weights == nullptr) return;
@@ -170,8 +172,8 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
     if (a != b) reasons.push_back(fmt::format("{}: {} {} and {}", before.name, what, a, b));
   };
   differ("seed", before.seed, after.seed);
-  // For worlds made of files, the numbers of trials may differ, because an added or removed file does not change the
-  // other worlds.
+  // If the worlds are made of files, the numbers of trials may differ, because an added or removed file does not change
+  // the other worlds.
   const bool are_files = !before.files.empty() && !after.files.empty();
   if (!are_files) differ("trials", before.trials, after.trials);
   for (const auto& [condition, digest] : before.worlds) {
@@ -235,7 +237,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       const SnapshotCells cells = Picked(all_cells, shared.before), kept_others = Picked(*all_others, shared.after);
       const SnapshotCells* others = &kept_others;
       const std::vector<bool> compared = WorldsToCompare(cells, *others);
-      // Compare the share of ok cells and every metric, world by world.
+      // Compare the share of ok cells and the values of every metric, world by world.
       const auto add = [&](const std::string& metric, const auto& values, const auto& other_values) {
         const MoveColumns columns{values, other_values, compared, cells.statuses, others->statuses};
         MoveColumns weighed = columns;
@@ -246,7 +248,8 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
         for (TailWorld& world : move.tail) world.trial = static_cast<int>(shared.after[world.trial]);
       };
       add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses));
-      // An exact comparison also counts a change between `unsolved` and `failed`, which kOkShare does not show.
+      // An exact comparison also counts cells whose status changed between `unsolved` and `failed`; the share of ok
+      // cells does not show such changes.
       if (exact.contains(scenario.name)) comparison.moves.back().differing = CountDiffering(cells, *others, compared);
       for (const SnapshotValues& values : cells.metrics) {
         const SnapshotValues* other = FindValues(*others, values.metric);
@@ -254,7 +257,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       }
     }
   }
-  // Judge all moves as one family of tests, then judge single worlds by the tail rule.
+  // Judge the changes of all metrics together (Holm's correction), then judge single worlds by the tail rule.
   JudgeMoves(comparison.moves, exact);
   for (MetricMove& move : comparison.moves) JudgeTail(move, RuleOf(move.identity.scenario, tails));
   return comparison;

@@ -9,23 +9,24 @@
 
 namespace etude {
 
-/// The comparison of two snapshots. Every entry of either snapshot is listed, even if only one of them has it.
+/// The comparison of two snapshots. It lists every entry of either snapshot, including entries that only one of them
+/// has.
 struct SnapshotComparison {
-  std::vector<MetricMove> moves;                     ///< every metric in both, changed or not
+  std::vector<MetricMove> moves;                     ///< one for every metric that both snapshots have, changed or not
   std::vector<std::string> only_before, only_after;  ///< "ik-weights, joint_noise_deg=5, fixed, iterations"
   std::vector<std::string> settings_changed;         ///< methods with the same name but different settings
 };
 
-/// Returns the reasons why the worlds of two snapshots cannot be paired. Possible reasons are different seeds, numbers
-/// of trials, parameters of the task, clips, or versions of a metric. Empty = they can be compared.
+/// Returns the reasons why the worlds of two snapshots cannot be paired: different seeds, numbers of trials, parameters
+/// of the task, clips, or versions of a metric. Empty if the worlds can be paired.
 std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot& after);
 
 /// Removes the scenarios that cannot be compared from both snapshots, and returns the reasons (WhyNotComparable).
 std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after);
 
-/// Compares two snapshots world by world and judges each difference with JudgeMoves, then JudgeTail. `exact` names the
-/// scenarios in which no value may differ. A world in which a cell timed out, crashed or ran out of memory is left
-/// out. Precondition: WhyNotComparable returns no reason.
+/// Compares two snapshots world by world, and judges each difference with JudgeMoves, then with JudgeTail. `exact`
+/// names the scenarios in which no value may differ. A world in which a cell timed out, crashed or ran out of memory is
+/// left out. Precondition: WhyNotComparable returns no reason.
 SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
                                     const TailRules& tails = {});
 

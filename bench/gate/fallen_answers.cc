@@ -14,7 +14,7 @@ bool Keeps(const SnapshotScenario& snapshot, const std::string& metric) {
   return std::ranges::find(snapshot.metrics, metric, &std::pair<std::string, int>::first) != snapshot.metrics.end();
 }
 
-/// Returns true if a snapshot keeps every metric that is needed to compute the answers of a study.
+/// Returns true if a snapshot contains every metric that is needed to compute the answers of a study.
 bool KeepsAnswers(const Study& study, const SnapshotScenario& snapshot) {
   std::vector<std::string> needed = study.metrics;
   if (!study.success.empty()) needed.push_back(study.success);
@@ -24,12 +24,13 @@ bool KeepsAnswers(const Study& study, const SnapshotScenario& snapshot) {
   return std::ranges::all_of(needed, [&](const std::string& id) { return Keeps(snapshot, id); });
 }
 
-/// Returns the judged summary of a study, computed from the kept values. Each world counts as a unit of its own,
-/// because snapshots do not keep the units and only the verdicts on these worlds are compared.
+/// Computes the summary of a study, with its verdicts, from the values in a snapshot. Each world counts as its own
+/// sampling unit: snapshots do not contain the units, and only the verdicts on the run's worlds are compared.
 ScenarioSummary SummaryOf(Study study, const SnapshotScenario& snapshot) {
   study.unit = SamplingUnit::kWorld;
   study.expectations.clear();
-  for (ComparedMethod& method : study.methods) method.has_oracle = true;  // oracles: no rivals are computed
+  // Methods with oracles are not compared with the strongest other method, which is not needed here.
+  for (ComparedMethod& method : study.methods) method.has_oracle = true;
   ScenarioTable table(study);
   Row row;
   row.scenario = study.scenario;

@@ -10,20 +10,20 @@
 
 namespace etude {
 
-/// An answer whose verdict has become worse. An answer compares a method with the baseline that the scenario names.
+/// An answer (method against the scenario's baseline method) whose verdict is worse than in the baseline snapshot.
 struct FallenAnswer {
   std::string scenario, condition;  ///< the condition as a CompactLabel
   std::string method, baseline;
-  Verdict before = Verdict::kInconclusive, after = Verdict::kInconclusive;  ///< verdicts on each snapshot's worlds
+  Verdict before = Verdict::kInconclusive, after = Verdict::kInconclusive;  ///< verdict on the worlds of each snapshot
 
-  /// Returns true if "better" became "worse". Only this is a regression: near a practical threshold, a tiny change
-  /// turns "better" into "no difference".
+  /// Returns true if the verdict changed from "better" to "worse". Only such a change is a regression: near a practical
+  /// threshold, a tiny change of the values turns "better" into "no difference".
   bool Flips() const { return before == Verdict::kBetter && after == Verdict::kWorse; }
 };
 
-/// Returns the answers that fell from "better" to "no difference" or "worse", or from "no difference" to "worse". An
-/// answer may fall although neither method moved by a practical threshold: one became a little worse, the other a
-/// little better. An answer that is inconclusive in either snapshot has not fallen.
+/// Returns the answers whose verdict fell from "better" to "no difference" or "worse", or from "no difference" to
+/// "worse". An answer may fall although neither method's values moved by a practical threshold: the method became a
+/// little worse, its baseline method a little better. An answer that is inconclusive in either snapshot has not fallen.
 std::vector<FallenAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
                                             std::span<const MetricMove> moves);
 

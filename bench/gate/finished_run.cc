@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::string_view kStatusLetters = "ouftcmbs";  // in the order of Status
 
-/// Checks the rows of a run that does not fit into memory. They must be complete and in canonical order (CellsOf).
+/// Checks the rows of a run that does not fit into memory. The run must have all its rows, in canonical order
+/// (CellsOf).
 Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   std::vector<std::string> wanted;
   std::size_t scenario = 0, next = 0;
@@ -54,7 +55,8 @@ class ScenarioTaker {
   }
 
   void Take(const Row& row) {
-    if (row.condition != condition_ || label_.empty()) {  // once for each condition, because its rows are consecutive
+    // Computed once for each condition, whose rows are consecutive.
+    if (row.condition != condition_ || label_.empty()) {
       condition_ = row.condition;
       label_ = CompactLabel(row.condition);
     }
@@ -92,7 +94,7 @@ std::vector<std::string> CellsOf(const Study& study) {
 }
 
 Result<void> CheckRows(FinishedRun& run, const Place& place) {
-  constexpr std::size_t kMaxNames = 100'000;  // of cells, that are held in memory
+  constexpr std::size_t kMaxNames = 100'000;  // maximum number of cell names that are held in memory
   if (CountRows(run.data) > kMaxNames) return CheckRowsInOrder(run, place);
   std::set<std::string> rows;
   std::string twice;

@@ -12,35 +12,36 @@
 
 namespace etude {
 
-/// Names (of conditions, methods or worlds), each with the digest of everything that its values depend on. If the
-/// digests are equal, so are the values.
+/// Names (of conditions, methods or worlds), each with the digest of everything on which its values depend. Equal
+/// digests mean that the values must be equal.
 using NamedDigests = std::vector<std::pair<std::string, std::string>>;
 
 struct FinishedScenario {
   Study study;
   std::uint64_t seed = 1;
-  NamedDigests worlds;   ///< by condition (CompactLabel): the task's parameters and the clips
-  NamedDigests methods;  ///< by method: its settings
-  /// For a task that judges files: the name of each world and the digest of its truth, by trial. Empty for other tasks.
+  NamedDigests worlds;   ///< by condition (CompactLabel): digest of the task's parameters and the clips
+  NamedDigests methods;  ///< by method: digest of its settings
+  /// For a task that judges files: the name of each world and the digest of its ground truth, by trial. Empty for other
+  /// tasks.
   NamedDigests files = {};
 };
 
-/// A result folder and everything else that a gate needs. bench/finished_runs reads it.
+/// The contents of a result folder that a gate needs. bench/finished_runs reads them.
 struct FinishedRun {
   RunData data;
   std::vector<FinishedScenario> scenarios;
-  /// The reasons why there is no verdict: the run did not end, or rows are missing. Empty = the run is complete.
+  /// The reasons why the gate gives no verdict: the run did not end, or rows are missing. Empty if the run is complete.
   std::vector<std::string> incomplete;
 };
 
-/// Returns the identities of all cells that a scenario requires, in canonical order.
+/// Returns the identities of all cells that a scenario requires, in canonical order: condition, trial, method.
 std::vector<std::string> CellsOf(const Study& study);
 
-/// Checks that the rows are the cells that the scenarios require. Missing rows are added to `incomplete`. Fails on a
-/// duplicate row, and on a row that no scenario requires.
+/// Checks that the run has one row for each cell that the scenarios require, and no other rows. Missing rows are added
+/// to `incomplete`. Fails on a duplicate row, and on a row that no scenario requires.
 Result<void> CheckRows(FinishedRun& run, const Place& place);
 
-/// The values of one metric, by trial; nullopt if a cell has none.
+/// The values of one metric, by trial; nullopt if the cell of a trial has no value.
 struct SnapshotValues {
   std::string metric;
   std::vector<std::optional<double>> values;
@@ -58,14 +59,14 @@ struct SnapshotScenario {
   std::string name;
   std::uint64_t seed = 1;
   int trials = 1;
-  NamedDigests worlds;                               ///< by condition: the task's parameters and the clips
-  NamedDigests methods;                              ///< by method: its settings
-  std::vector<std::pair<std::string, int>> metrics;  ///< the metrics kept, with their versions
-  std::vector<SnapshotCells> cells;                  ///< conditions × methods
-  NamedDigests files = {};  ///< as FinishedScenario::files: name of each world and digest of its truth
+  NamedDigests worlds;                               ///< by condition: digest of the task's parameters and the clips
+  NamedDigests methods;                              ///< by method: digest of its settings
+  std::vector<std::pair<std::string, int>> metrics;  ///< the metrics in the snapshot, with their versions
+  std::vector<SnapshotCells> cells;                  ///< one for each condition and method
+  NamedDigests files = {};  ///< as in FinishedScenario::files: name of each world and digest of its ground truth
 };
 
-/// The part of a run that is kept as a baseline. Later runs are compared with it world by world.
+/// The part of a run that a baseline file stores. Later runs are compared with it world by world.
 struct Snapshot {
   std::string suite;
   std::string program_version;
@@ -79,7 +80,7 @@ char StatusLetter(Status status);
 /// Returns the status that a letter stands for; kFailed for an unknown letter.
 Status StatusOf(char letter);
 
-/// Returns the snapshot of a complete run. It contains the gated metrics only.
+/// Returns the snapshot of a complete run. The snapshot contains only the metrics that the gate compares.
 Snapshot TakeSnapshot(const FinishedRun& run);
 
 }  // namespace etude

@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-/// Returns the processor times of one method, seconds, by world (condition, trial). Cells whose status depends on the
-/// machine (DependsOnMachine), and cells that took less than the clock's resolution, are left out.
+/// Returns the processor times of one method's cells, seconds, by world (condition, trial). A cell is left out if its
+/// status depends on the machine (DependsOnMachine), or if it took less time than the clock can resolve.
 std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, const std::string& scenario,
                                                         const std::string& method) {
   std::map<std::pair<std::string, int>, double> seconds;
@@ -89,7 +89,7 @@ std::vector<std::string> WhyIncomplete(const FinishedRun& run) {
     int cells = 0;
     std::string first;
   };
-  std::map<std::pair<std::string, std::string>, Ends> ends;  // by scenario and status
+  std::map<std::pair<std::string, std::string>, Ends> ends;  // how cells of each scenario ended, by scenario and status
   bool all_skipped = true;
   std::string why_skipped;
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
@@ -116,7 +116,7 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     ReasonCounts causes;
   };
   constexpr std::size_t kMaxKeptCauses = 1000, kMaxShownCauses = 3;
-  // Collect the causes, by scenario and method.
+  // Collect the reasons why cells have no answer, by scenario and method.
   std::map<std::pair<std::string, std::string>, Cells> methods;
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
     const CellResult& result = row.result;
@@ -127,7 +127,7 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     if (cells.has_answer || cells.causes.size() == kMaxKeptCauses) return;
     cells.causes.Add(result.reason, fmt::format("{}: ", StatusName(result.status)));
   });
-  // For each method without an answer, describe its most frequent causes.
+  // For each method without any answer, write its most frequent reasons.
   std::vector<std::string> sentences;
   for (const auto& [name, cells] : methods) {
     if (cells.has_answer) continue;
@@ -159,13 +159,13 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
     }
   }
   if (!report.incomplete.empty()) return report;
-  // Find the cells that prevent a verdict, and the methods without answers.
+  // Find the cells that prevent a verdict, and the methods without any answer.
   report.incomplete = WhyIncomplete(run);
   report.silent = DescribeSilentMethods(run);
   for (const FinishedScenario& scenario : run.scenarios) {
     for (const ComparedMethod& method : scenario.study.methods) report.runs_programs |= method.settings.empty();
   }
-  // Judge the time rules, and compare with the baseline.
+  // Judge the rules on processor times, and compare with the baseline.
   report.ratios = JudgeTimeRatios(run);
   if (baseline == nullptr) return report;
   report.baseline_version = baseline->program_version;

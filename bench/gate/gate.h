@@ -13,14 +13,17 @@ namespace etude {
 struct RatioResult {
   std::string scenario;
   TimeRatio rule;
-  int pairs = 0;  ///< worlds of all conditions in which neither method timed out, crashed or ran out of memory
-  std::optional<double> median, ci_low, ci_high;  ///< median of the ratios of processor times, and its interval
-  /// Unmet if the whole confidence interval lies above the limit. Undecided if only the median lies above it (times
-  /// vary on a busy machine), or if too few worlds have both times. Otherwise met.
+  /// Number of worlds, over all conditions, in which neither method timed out, crashed or ran out of memory.
+  int pairs = 0;
+  /// Median over worlds of the ratio of processor times, and its 95 % interval.
+  std::optional<double> median, ci_low, ci_high;
+  /// Unmet if the whole interval is above the limit. Undecided if only the median is above the limit (times vary on a
+  /// busy machine), or if too few worlds have the times of both methods. Otherwise met.
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
 };
 
-/// Judges the time rules of all scenarios. Each ratio compares two methods in the same world of the same run.
+/// Judges the rules on processor times of all scenarios. Each ratio compares two methods in the same world of the same
+/// run.
 std::vector<RatioResult> JudgeTimeRatios(const FinishedRun& run);
 
 enum class GateVerdict { kPassed, kRegressed, kIncomplete };
@@ -30,7 +33,7 @@ struct GateExpectation {
   ExpectationResult result;
 };
 
-/// The answer that the run itself gives about a method (summary.json). The report shows it next to the moves.
+/// The run's own answer about a method (summary.json). The report shows it next to the changes since the baseline.
 struct GateAnswer {
   std::string scenario, condition;
   Answer answer;
@@ -43,35 +46,40 @@ struct GateReport {
   std::string baseline_version;  ///< the version of the program that made the baseline
   std::string program_version;   ///< the version of the program that made the run
   std::vector<GateExpectation> expectations;
-  std::vector<GateAnswer> answers;  ///< comparisons with baselines; of these, only `fallen` affects the verdict
+  /// Comparisons of methods with their baseline methods; only those in `fallen` affect the gate's verdict.
+  std::vector<GateAnswer> answers;
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
-  std::vector<FallenAnswer> fallen;     ///< answers with a worse verdict than before; one that flips fails the gate
-  std::vector<std::string> silent;      ///< a sentence per method without any answer: each fails the gate
-  std::vector<std::string> incomplete;  ///< why there is no verdict
-  bool runs_programs = false;           ///< true: some methods are programs, so `etude replay` needs permission
+  /// Answers whose verdict became worse; an answer that changed from better to worse fails the gate.
+  std::vector<FallenAnswer> fallen;
+  /// One sentence for each method without any answer; each such method fails the gate.
+  std::vector<std::string> silent;
+  std::vector<std::string> incomplete;  ///< the reasons why the gate gives no verdict
+  /// true: some methods are outside programs, so `etude replay` needs permission to run them.
+  bool runs_programs = false;
 };
 
-/// Judges a finished run by its scenarios' expectations and time rules, and by comparison with a baseline if there is
-/// one (nullptr = none). Fails if the baseline's worlds differ from the run's (WhyNotComparable).
+/// Judges a finished run by its scenarios' expectations and rules on processor times, and by comparison with a baseline
+/// unless `baseline` is null. Fails if the baseline's worlds differ from the run's (WhyNotComparable).
 Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, const std::string& baseline_file);
 
 std::set<std::string> ExactScenarios(const FinishedRun& run);
 TailRules TailRulesOf(const FinishedRun& run);
 
-/// Returns the reasons why there is no verdict: the run is incomplete, every cell was skipped, or the machine ended
-/// cells. For the last reason there is one sentence per scenario and status (timeout, crashed, out of memory).
+/// Returns the reasons why the gate gives no verdict: the run is incomplete, every cell was skipped, or cells ended
+/// because of the machine. For the last reason there is one sentence per scenario and status (timeout, crashed, out of
+/// memory).
 std::vector<std::string> WhyIncomplete(const FinishedRun& run);
 
 /// Returns one sentence for each method that has no answer (status ok or unsolved) in any cell. The sentence gives the
-/// most frequent causes. A method whose cells were all skipped is left out.
+/// most frequent reasons. A method whose cells were all skipped is left out.
 std::vector<std::string> DescribeSilentMethods(const FinishedRun& run);
 
-/// Returns true if a move makes the gate fail.
+/// Returns true if the change of this metric makes the gate fail.
 bool IsRegression(const MetricMove& move);
 
-/// Returns the verdict. A run with missing cells is incomplete, not regressed, however bad its other cells are; the
-/// report still lists the moves. An undecided expectation, time rule or difference passes.
+/// Returns the verdict of the gate. A run with missing cells is incomplete, not regressed, however bad its other cells
+/// are; the report still lists the changes. An undecided expectation, rule on processor times or difference passes.
 GateVerdict GateVerdictOf(const GateReport& report);
 
 }  // namespace etude

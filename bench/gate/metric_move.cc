@@ -37,8 +37,8 @@ Movement MovementOf(const Comparison& comparison, const MetricInfo& metric) {
   return Movement::kUnclear;
 }
 
-/// Returns whichever of two results about the same metric comes first in the order worse, better, unclear. Returns
-/// kNoMatter if neither is one of these.
+/// Combines two results about the same metric: returns the one that comes first in the order worse, better, unclear.
+/// Returns kNoMatter if neither is one of these.
 Movement MoreImportant(Movement a, Movement b) {
   for (Movement movement : {Movement::kWorse, Movement::kBetter, Movement::kUnclear}) {
     if (a == movement || b == movement) return movement;
@@ -66,7 +66,7 @@ void JudgeByThreshold(MetricMove& move) {
   }
 }
 
-/// Applies Holm's correction to all comparisons in which at least one world differs.
+/// Applies Holm's correction for multiple testing to all comparisons in which at least one world differs.
 void CorrectTogether(std::span<MetricMove> moves) {
   std::vector<Comparison*> family;
   std::vector<std::optional<double>> p_values;
@@ -84,7 +84,8 @@ void CorrectTogether(std::span<MetricMove> moves) {
 
 constexpr char kOk = 'o', kUnsolved = 'u';
 
-/// Returns how much worse a world became, in practical thresholds; negative = it became better.
+/// Returns how much worse a world became, as a multiple of the practical threshold; negative if the world became
+/// better.
 double Worse(double before, double after, const MetricInfo& metric) {
   switch (metric.direction) {
     case Direction::kLowerIsBetter:
@@ -109,7 +110,7 @@ const MetricInfo* FindGateMetric(std::string_view id) {
     metric.direction = Direction::kHigherIsBetter;
     metric.aggregate = Aggregate::kMean;
     metric.reading = Reading::kYesNo;
-    metric.practical = 0.02;  // the value of the catalogue's shares of solved problems
+    metric.practical = 0.02;  // as the catalogue defines for shares of solved problems
     return metric;
   }();
   return id == kOkShare ? &ok : FindMetric(id);
@@ -138,14 +139,14 @@ MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::u
     presence.push_back({before ? 1.0 : 0.0, after ? 1.0 : 0.0});
     if (before && after) values.push_back({*before, *after});
   }
-  // Compute the aggregates before and after.
+  // Compute the metric's aggregate over worlds, before and after.
   const MetricInfo& metric = *FindGateMetric(move.identity.metric);
   move.worlds = static_cast<int>(presence.size());
   move.before = AggregateOfPresent(all_before, metric.aggregate);
   move.after = AggregateOfPresent(all_after, metric.aggregate);
   const std::string purpose = fmt::format("gate/{}/{}/{}/{}", move.identity.scenario, move.identity.condition,
                                           move.identity.metric, move.identity.method);
-  if (move.differing == 0) return move;  // the usual case: there is nothing to test
+  if (move.differing == 0) return move;  // usually, no value differs and nothing need be tested
   move.comparison = ComparePaired(values, metric, seed, purpose);
   if (move.lost + move.gained > 0) {
     move.presence = ComparePaired(presence, *FindGateMetric(kOkShare), seed, purpose + "/presence");
@@ -194,7 +195,7 @@ std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& me
 
 int WorldsThatFail(int compared, const TailRule& rule) {
   if (rule.worlds == 0) return 0;
-  constexpr double kRounding = 1e-9;  // rounding tolerance: 0.02 × 150 must give 3
+  constexpr double kRounding = 1e-9;  // tolerance for rounding errors: 0.02 × 150 must give 3
   return std::max(rule.worlds, static_cast<int>(std::ceil(rule.share * compared - kRounding)));
 }
 

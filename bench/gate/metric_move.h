@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// The id of a pseudo-metric: 1 in every world whose cell ended with status ok, else 0.
+/// The id of a metric that the gate itself defines: 1 in every world whose cell ended with status ok, else 0.
 constexpr const char* kOkShare = "ok_share";
 
 /// Returns the catalogue's definition of a metric, or the gate's own definition of kOkShare; null if the id is unknown.
@@ -25,8 +25,8 @@ enum class Movement {
   kBetter,    ///< clearly better, by at least the practical threshold
   kWorse,     ///< clearly worse, by at least the practical threshold
   kNoMatter,  ///< the difference is clearly below the practical threshold
-  kUnclear,   ///< values differ, but no other verdict is clear; or the metric has no direction
-  kChanged,   ///< values differ in a scenario whose rule is `exact`
+  kUnclear,   ///< values differ, but the test supports none of the results above; or the metric has no direction
+  kChanged,   ///< values differ in a scenario whose gate rule is `exact`
 };
 /// Returns "same", "better", "worse", "too small to matter", "unclear" or "changed".
 std::string_view MovementWords(Movement movement);
@@ -35,10 +35,10 @@ struct MoveIdentity {
   std::string scenario, condition, method, metric;
 };
 
-/// A world that is far worse than before (TailRule).
+/// A world whose value became far worse between two snapshots (TailRule).
 struct TailWorld {
   int trial = 0;
-  std::optional<double> before, after;         ///< nullopt = the cell has no value
+  std::optional<double> before, after;         ///< the metric's value in each snapshot; nullopt if the cell has none
   char ended_before = 'o', ended_after = 'o';  ///< status letter of the cell in each snapshot (StatusLetter)
   bool lost = false;                           ///< true: the cell had a value or an answer before, and has none now
 };
@@ -47,29 +47,31 @@ struct TailWorld {
 struct MetricMove {
   MoveIdentity identity;
   Movement movement = Movement::kSame;
-  int worlds = 0;                       ///< worlds with no cell that timed out, crashed or ran out of memory
-  int differing = 0;                    ///< worlds among these whose values differ, were lost or were gained
-  int lost = 0;                         ///< values that the second snapshot does not have
-  int gained = 0;                       ///< values that the first snapshot does not have
-  std::optional<double> before, after;  ///< the metric's aggregate over the present values
-  Comparison comparison;                ///< the comparison over worlds with both values; later − earlier
-  /// True if the verdict comes from the difference of means; false if it comes from the metric's own aggregate.
+  int worlds = 0;     ///< number of worlds in which no cell timed out, crashed or ran out of memory
+  int differing = 0;  ///< number of these worlds in which the value differs, or exists in one snapshot only
+  int lost = 0;       ///< number of worlds with a value in the first snapshot only
+  int gained = 0;     ///< number of worlds with a value in the second snapshot only
+  std::optional<double> before, after;  ///< the metric's aggregate over the values in each snapshot
+  Comparison comparison;  ///< paired comparison, later − earlier, of the worlds with a value in both snapshots
+  /// True if `movement` follows from the difference of means; false if it follows from the metric's own aggregate.
   bool by_mean = false;
   std::optional<Comparison> presence;  ///< if values were lost or gained: the comparison of "has a value" (1 or 0)
-  std::vector<TailWorld> tail;         ///< lost worlds first, then the worst
-  bool by_tail = false;                ///< true: the tail rule decided, and the other rules would have passed
+  /// Far worse worlds: first those that lost their value, then the others from the worst on.
+  std::vector<TailWorld> tail;
+  bool by_tail = false;  ///< true: only the tail rule makes this change a regression
 };
 
-/// The values before and after, and whether each trial is compared. All members are indexed by trial and have the same
-/// length.
+/// The values of one metric in both snapshots, and whether each trial is compared. All members are indexed by trial and
+/// have the same length.
 struct MoveColumns {
   std::vector<std::optional<double>> before, after;
   std::vector<bool> compared;
-  std::string ended_before, ended_after;  ///< letters of StatusLetter, by trial; used by the tail rule only
+  /// The cell's status in each snapshot (StatusLetter), by trial; only the tail rule needs it.
+  std::string ended_before, ended_after;
 };
 
-/// Compares two columns world by world. `movement` stays kSame until JudgeMoves sets it. `seed` keys the random
-/// streams.
+/// Compares the values of two snapshots world by world. `movement` of the result stays kSame until JudgeMoves sets it.
+/// `seed` seeds the random numbers of the bootstrap and of the tests.
 MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed);
 
 /// Judges each move. In a scenario that `exact` names, any difference is kChanged. In other scenarios, three
@@ -90,12 +92,13 @@ using TailRules = std::map<std::string, TailRule>;
 /// worst on.
 std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);
 
-/// Returns the smallest number of far worse worlds, among `compared` worlds, that counts as a regression; 0 = no number
-/// does.
+/// Returns the smallest number of far worse worlds, among `compared` worlds, that counts as a regression; 0 if no
+/// number of worlds counts as one.
 int WorldsThatFail(int compared, const TailRule& rule);
 bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule);
 
-/// Sets `move.movement` to kWorse if the move's tail is a regression, unless it is already kWorse or kChanged.
+/// Sets `move.movement` to kWorse if the far worse worlds of the metric are a regression, unless `movement` is already
+/// kWorse or kChanged.
 void JudgeTail(MetricMove& move, const TailRule& rule);
 
 }  // namespace etude

@@ -10,9 +10,9 @@ namespace {
 
 struct Level {
   bool is_object = false;
-  bool key_comes = false;           ///< the next string is a key
-  std::string key;                  ///< the last key
-  std::map<std::string, int> keys;  ///< the keys so far, with their lines
+  bool key_comes = false;           ///< true: the next string is a key, not a value
+  std::string key;                  ///< the key that was read last
+  std::map<std::string, int> keys;  ///< the keys of this object that were read so far, with their lines
 };
 
 class Walk {
@@ -61,7 +61,7 @@ class Walk {
                 Quote(level.key), first->second);
   }
 
-  /// Records the current line if the value that begins here is an entry of a list in the outermost object.
+  /// Records the current line number if the value that begins here is an entry of a list in the outermost object.
   void NoteEntry() {
     if (levels_.size() == 2 && levels_[0].is_object && !levels_[1].is_object) {
       places_.lines[levels_[0].key].push_back(line_);
@@ -120,7 +120,7 @@ Result<std::string> JsonObject::Text(std::string_view key) const {
 Result<std::int64_t> JsonObject::Whole(std::string_view key, std::int64_t lowest, std::int64_t highest) const {
   const Json& value = At(key);
   const std::string allowed = fmt::format("a whole number, {}…{}", lowest, highest);
-  // A number above INT64_MAX would become negative.
+  // Without this check, a number above INT64_MAX would become negative.
   const bool fits =
       value.is_number_integer() && !(value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX);
   if (!fits || value.get<std::int64_t>() < lowest || value.get<std::int64_t>() > highest) return Wrong(key, allowed);

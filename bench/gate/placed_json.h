@@ -39,7 +39,8 @@ class JsonObject {
   Result<std::int64_t> Whole(std::string_view key, std::int64_t lowest, std::int64_t highest) const;
   Result<std::uint64_t> Unsigned(std::string_view key) const;
   Result<const Json*> List(std::string_view key) const;
-  /// Calls `take` for each key of the object at `key`. Stops at the first error of `take` and returns it.
+  /// Calls `take` for each key of the object that is the value of `key`. Stops at the first error of `take` and returns
+  /// it.
   Result<void> Each(std::string_view key,
                     const std::function<Result<void>(const std::string&, const JsonObject&)>& take) const;
   bool Has(std::string_view key) const;

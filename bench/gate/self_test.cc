@@ -31,7 +31,7 @@ bool Alarms(const SnapshotComparison& comparison) {
   return std::any_of(comparison.moves.begin(), comparison.moves.end(), IsRegression);
 }
 
-/// Returns a copy of the snapshot that keeps only the cells of `method`, under the name of the first method.
+/// Returns a copy of the snapshot that has only the cells of `method`, renamed to the first method.
 Snapshot WithMethodAsFirst(Snapshot snapshot, const std::string& method) {
   for (SnapshotScenario& scenario : snapshot.scenarios) {
     const std::string first = scenario.methods.front().first;
@@ -61,14 +61,15 @@ void Inject(SnapshotValues& values, double size, std::uint64_t seed) {
   }
 }
 
-constexpr double kBeyondRule = 2, kWithinRule = 0.9;  // multiples of the tail rule's `times`, above and below the rule
+// Worsening, as a multiple of the tail rule's `times`, that must be found, and that must not be found.
+constexpr double kBeyondRule = 2, kWithinRule = 0.9;
 
 template <typename AnySnapshot>
 auto& TargetOf(AnySnapshot& snapshot, const std::string& metric) {
   return *std::ranges::find(snapshot.scenarios.front().cells.front().metrics, metric, &SnapshotValues::metric);
 }
 
-/// Returns `count` different trials that have a value, in the order drawn. Returns fewer if there are not enough.
+/// Draws `count` different trials that have a value, at random. Returns fewer if there are not enough.
 std::vector<std::size_t> DrawTrials(const SnapshotValues& values, std::size_t count, std::uint64_t seed) {
   std::vector<std::size_t> trials;
   for (std::size_t t = 0; t < values.values.size(); ++t) {
@@ -103,18 +104,18 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
     const Snapshot first = TakeSnapshot(*first_run);
     const std::string& name = first.scenarios.front().name;
     const TailRules rules = TailRulesOf(*first_run), no_tails = {{name, TailRule{.worlds = 0, .lost = 0}}};
-    // Compare two runs of one seed: neither the exact rule nor the tail rule may alarm.
+    // Compare two runs of one seed: neither the exact rule nor the tail rule may report a regression.
     reruns.Add(Alarms(CompareSnapshots(first, TakeSnapshot(*same_run), {name})));
 
     tail_reruns.Add(Alarms(CompareSnapshots(first, TakeSnapshot(*same_run), {}, rules)));
 
-    // Count false alarms between two seeds, with the tail rule off.
+    // Count false alarms: compare runs of two seeds, with the tail rule off.
     const SnapshotComparison nothing_changed = CompareSnapshots(first, TakeSnapshot(*other_run), {}, no_tails);
     gates.Add(Alarms(nothing_changed));
     for (const MetricMove& move : nothing_changed.moves) comparisons.Add(IsRegression(move));
     report.comparisons = static_cast<int>(nothing_changed.moves.size());
 
-    // Inject differences of known size, then make a few worlds far worse.
+    // Add random differences of known mean to one metric. Then make a few worlds far worse.
     for (std::size_t k = 0; k < kSizes.size(); ++k) {
       Snapshot worse = first;
       SnapshotValues* values = FindTarget(worse);
@@ -125,7 +126,7 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
     }
     tails.Try(first, target, first_seed, rules.at(name));
 
-    // Compare the first method with each other method in its place.
+    // Replace the first method by each other method, and count the gates that notice.
     methods = first.scenarios.front().methods;
     real.resize(methods.size());
     const Snapshot before = WithMethodAsFirst(first, methods.front().first);
@@ -163,8 +164,8 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   const auto worse_by = [&](double times) { return [=](std::optional<double>& value) { *value += times * worse; }; };
   const auto present = static_cast<int>(DrawTrials(TargetOf(first, target), SIZE_MAX, seed).size());
   const int needed = WorldsThatFail(present, rule);
-  // Make worlds worse by 2 × `rule.times` practical thresholds. The gate must find them if the tail rule regards that
-  // many worlds as a regression.
+  // Make worlds worse by 2 × `rule.times` practical thresholds. The gate must report a regression exactly if the tail
+  // rule counts that many worlds as one.
   std::set<int> counts = {1, 2, 3, 5, 10};
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {
@@ -173,8 +174,8 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
                       kBeyondRule * rule.times),
           needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kBeyondRule)));
   }
-  // Make worlds worse by 0.9 × `rule.times` practical thresholds: the gate must not find them. Remove a value: the gate
-  // must find it if `rule.lost` is 1.
+  // Make worlds worse by 0.9 × `rule.times` practical thresholds, which the gate must not report. Then remove a value,
+  // which the gate must report if `rule.lost` is 1.
   if (needed > 0 && needed <= present) {
     Count(fmt::format("{} in {} of {} worlds worse by {} × the difference that matters", target, needed, present,
                       kWithinRule * rule.times),

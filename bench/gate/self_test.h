@@ -10,51 +10,54 @@
 
 namespace etude {
 
-/// A number of events among `of` cases, with the 95 % Wilson interval of its share.
+/// The number of positive cases among `of` cases, with the 95 % Wilson interval of their share.
 struct Rate {
   int count = 0;
   int of = 0;
   double low = 0, high = 1;
 };
 
-/// The rate at which gates found one injected change.
+/// How often gates found one kind of injected change (statistical power).
 struct PowerResult {
   std::string change;
   Rate found;
 };
 
 struct SelfTestReport {
-  int comparisons = 0;                ///< number of comparisons of one gate
-  Rate rerun_alarms;                  ///< alarms of the rule `exact` between two runs of one seed: must be zero
-  Rate tail_rerun_alarms;             ///< alarms of the tail rule between two runs of one seed: must be zero
-  Rate false_alarms;                  ///< gates that alarm although they compare two seeds of the same methods
-  Rate false_alarm_comparisons;       ///< comparisons that alarm in these gates
-  std::vector<PowerResult> injected;  ///< changes of known size, injected into one metric of one method
-  std::vector<PowerResult> tails;     ///< a few worlds of the same metric made far worse, or with their value removed
+  int comparisons = 0;     ///< number of comparisons that one gate makes
+  Rate rerun_alarms;       ///< regressions that the rule `exact` reports between two runs of one seed; must be zero
+  Rate tail_rerun_alarms;  ///< regressions that the tail rule reports between two runs of one seed; must be zero
+  Rate false_alarms;       ///< gates that report a regression although they compare the same methods under two seeds
+  Rate false_alarm_comparisons;       ///< single comparisons that report a regression in these gates
+  std::vector<PowerResult> injected;  ///< random differences of known mean, added to one metric of one method
+  std::vector<PowerResult> tails;     ///< the same metric, made far worse in a few worlds, or with values removed
   std::vector<PowerResult> real;      ///< the first method replaced by each other method
 
-  /// Returns true if the gate works as specified: reruns never alarm, the interval of false alarms does not lie above
-  /// kFalseAlarmLimit, and the tail rule finds exactly what it must find.
+  /// Returns true if the gate works as specified: it never reports a regression between two runs of one seed, the
+  /// interval of the false alarms does not lie above kFalseAlarmLimit, and the tail rule finds exactly the changes that
+  /// it must find.
   bool Holds() const;
-  bool tails_found = true;  ///< true: the tail rule alarmed exactly when it had to
+  bool tails_found = true;  ///< true: the tail rule reported a regression exactly when it had to
 };
 
-/// The largest allowed share of gates that report a regression although nothing changed: the alpha of Holm's
-/// correction.
+/// The largest allowed share of gates that report a regression although nothing changed: the significance level of
+/// Holm's correction.
 constexpr double kFalseAlarmLimit = 0.05;
 
 using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 
 /// Measures the gate on `repetitions` pairs of seeds (2i − 1, 2i):
-/// - false alarms: trial t of one seed against trial t of the other. Both have the same distribution, so the sign of
-///   every difference is random and every alarm is false. The differences are far larger than in a real gate, because
-///   the worlds differ; the test is the same. The tail rule, which requires equal worlds, is off.
-/// - reruns: the first seed against a second run of it.
-/// - injected: the first seed against itself, with a random difference added to every value of one metric, in the
-///   first method and condition. The metric is the first gated one that is a median and has a direction. The
+/// - false alarms: compares trial t of one seed with trial t of the other. Both have the same distribution, so the sign
+/// of
+///   every difference is random, and every reported regression is false. The differences are far larger than in a real
+///   gate, because the worlds differ; the test is the same. The tail rule, which requires equal worlds, is off.
+/// - reruns: compares the first seed with a second run of this seed.
+/// - injected: compares the first seed with a copy in which a random difference is added to every value of one metric,
+/// in
+///   the first method and condition. This metric is the first one compared that is a median and has a direction. The
 ///   differences are normal: mean k practical thresholds (worse), standard deviation three thresholds.
-/// - tails: the first seed against itself, with a few worlds of that metric changed (InjectedTails).
-/// - real: the first seed's first method against each other method in its place.
+/// - tails: compares the first seed with a copy in which a few worlds of that metric are changed (InjectedTails).
+/// - real: compares the first seed's first method with each other method under the first method's name.
 /// Fails if a run fails, or if the scenario has no metric for injection.
 Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
 

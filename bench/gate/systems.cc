@@ -19,18 +19,18 @@ struct Difference {
   double most;
 };
 
-/// A system on which the quick suite was run, and how its results differ from those on Debian 12. The test
-/// tests/cli/systems_test.py measures it; docs/guide/install.md shows it.
+/// A system on which the quick suite was run, and the differences of its results from those on Debian 12. The test
+/// tests/cli/systems_test.py measures these differences; docs/guide/install.md shows them.
 struct MeasuredSystem {
   const char* name;
-  const char *compiler, *glibc, *ceres, *mesa;  ///< prefixes of versions
+  const char *compiler, *glibc, *ceres, *mesa;  ///< beginnings of the libraries' version texts
   int cells_that_differ;
   std::span<const Difference> differences;
 };
 
 constexpr int kQuickCells = 2192;
-/// The differences on Debian sid. All concern task capture: Mesa 26.2 draws some pixels a few levels differently, and
-/// the last digits of a camera differ.
+/// The differences between Debian sid and Debian 12. All concern task capture: Mesa 26.2 draws some pixels a few levels
+/// differently, and the last digits of a camera differ.
 constexpr std::array<Difference, 13> kSidDiffers = {{
     {"auc_200mm", 3.2e-4},
     {"bone_length_error_cm", 4e-16},
@@ -70,7 +70,8 @@ std::string Describe(const RunSystem& system, const MeasuredSystem* measured) {
 
 using LargestDifferences = std::map<std::string, double, std::less<>>;
 
-/// Returns the largest difference of each metric between two snapshots; metrics without a difference are left out.
+/// Returns the largest difference of each metric's values between two snapshots; metrics without a difference are left
+/// out.
 LargestDifferences DifferencesOf(const Snapshot& before, const Snapshot& after) {
   LargestDifferences largest;
   const auto add = [&](const SnapshotCells& a, const SnapshotCells& b) {

@@ -18,9 +18,9 @@ std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer);
 Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const FilePath& folder);
 
 /// Draws all processing stages of a capture's moments in the layout of paper B's figures 5.3 to 5.14. Each moment and
-/// camera has a row: the picture, the person cut out of it, the marks of the limbs, the skeleton with its bone lengths fixed,
-/// and the skeleton after inverse kinematics. The rows below show the whole motion as the cameras saw it, and its
-/// skeletons, as in figure 5.15. At most two cameras are shown. Returns nullopt if the recording keeps no moments.
+/// camera has a row: the picture, the person cut out of it, the marks of the limbs, the skeleton with its bone lengths
+/// fixed, and the skeleton after inverse kinematics. The rows below show the whole motion as the cameras saw it, and
+/// its skeletons, as in figure 5.15. At most two cameras are shown. Returns nullopt if the recording keeps no moments.
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
 /// Finds the captures that a film compares: at most three of the methods that were recorded in the world of `typical`

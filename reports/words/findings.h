@@ -46,8 +46,8 @@ struct KeyFigures {
     std::string name;
     std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has no such value
   };
-  /// Names of the key numbers that are known: headline metric, success, processor time, worlds in which a method loses to
-  /// the method in question.
+  /// Names of the key numbers that are known: headline metric, success, processor time, worlds in which a method
+  /// loses to the method in question.
   std::vector<std::string> labels;
   std::vector<Method> methods;  ///< the method in question first; empty if nothing is compared
 };
