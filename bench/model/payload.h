@@ -15,7 +15,7 @@ struct Attachment {
   std::string bytes;
 };
 
-/// A function that receives files one by one, for use where there are too many to keep in memory. It may fail.
+/// A function that receives files one by one, because all of them together might not fit into memory. It may fail.
 using AttachmentSink = std::function<Result<void>(const Attachment&)>;
 
 /// The data that an outside method receives about a world, or the truth about it (docs/outside-methods.md).

@@ -6,8 +6,8 @@
 namespace etude {
 namespace {
 
-/// Returns a reason without its numbers and without a file name at its beginning, so that reasons of one kind become
-/// equal. A reason with a file name is for instance "t/walk.bvh:3:1: found 'x'".
+/// Returns a reason without numbers and without the place at its beginning, so that reasons of one kind become equal. A
+/// reason with a place is for instance "t/walk.bvh:3:1: found 'x'".
 std::string KindOf(std::string_view reason) {
   const std::size_t colon = reason.find(": ");
   if (colon != std::string_view::npos && reason.substr(0, colon).find(' ') == std::string_view::npos) {

@@ -7,14 +7,15 @@
 
 namespace etude {
 
-/// One kind of reason why cells ended as they did, and the number of these cells.
+/// One kind of reason why cells have their status, and the number of cells with such a reason.
 struct CountedReason {
-  std::string reason = {};  ///< the reason of the first cell
+  std::string reason = {};  ///< the reason of the first cell that was counted
   int cells = 0;
-  bool is_one = true;  ///< false: the reasons of other cells have other numbers, or name other files
+  /// true: all cells have exactly this reason; false: some reasons have other numbers or file names.
+  bool is_one = true;
 
-  /// Returns the reason, e.g. "solve failed". If the cells' reasons differ, returns one of them as an example: "for
-  /// example: 3 of 20 effectors missed".
+  /// Returns the reason, e.g. "solve failed". If the counted cells' reasons differ, returns the first one as an
+  /// example: "for example: 3 of 20 effectors missed".
   std::string Words() const { return is_one ? reason : "for example: " + reason; }
 };
 
@@ -22,7 +23,7 @@ struct CountedReason {
 /// beginning.
 class ReasonCounts {
  public:
-  /// `label` is put before the reason. Reasons with different labels are never of one kind.
+  /// Counts a reason. `label` is put before the reason; reasons with different labels are never of one kind.
   void Add(std::string_view reason, std::string_view label = "");
   std::size_t size() const { return counts_.size(); }
   std::vector<CountedReason> MostFrequentFirst() const;

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// A motion of a recording, with its name.
+/// One motion of a recording, and its name ("truth", "solution", …).
 struct Track {
   std::string name;  ///< "truth", "recovered", "coach", …
   BodyMotion motion;

@@ -18,7 +18,8 @@ struct CellUsage {
   /// The largest resident memory of the worker or of the outside method while the cell ran, MB. It is sampled, so cells
   /// that are shorter than the sampling interval may share one sample.
   double peak_mb = 0;
-  /// The time to build the world, seconds. Only the first cell that ran in the world contains it.
+  /// The time to build the world, seconds. Only the first cell that ran in a world has it; it is 0 in the world's other
+  /// cells.
   double world_wall_s = 0, world_cpu_s = 0;
 };
 
@@ -34,15 +35,15 @@ inline constexpr std::array<Named<Status>, 8> kStatuses = {{{"ok", Status::kOk},
                                                             {"skipped", Status::kSkipped}}};
 
 std::string_view StatusName(Status status);
-/// Returns true if the status depends on the limits of the machine (timeout, crashed, out of memory). Another run may
-/// then end with another status.
+/// Returns true if the status depends on the limits of the machine (timeout, crashed, out of memory). Another run of
+/// the cell may then end with another status.
 bool DependsOnMachine(Status status);
-/// Returns the status with this name; nothing if there is none.
+/// Returns the status with this name; nullopt if no status has it.
 std::optional<Status> FindStatus(std::string_view name);
 
 /// One measured value of a cell. A missing value has a reason and never counts as zero.
 struct MetricValue {
-  std::string id;  ///< an id of bench/metrics, unit in the name
+  std::string id;  ///< id of a metric in bench/metrics; the id names the unit
   std::optional<double> value;
   std::string null_reason;  ///< why `value` is empty; "" if it is not
 };
@@ -55,9 +56,9 @@ struct Series {
   std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into them
 };
 
-struct Track;  // defined in bench/model/recording.h, which also includes motions
+struct Track;  // Track is defined in bench/model/recording.h, which also includes motions.
 
-/// All data needed to show a cell again, e.g. in a film, without running it.
+/// The motions and other data from which a cell can be shown again, e.g. in a film, without running it.
 struct Recording {
   Recording();
   Recording(std::vector<Track> motions, std::string extras);
@@ -68,7 +69,7 @@ struct Recording {
   ~Recording();
 
   std::vector<Track> tracks;
-  /// Data for the viewer, written by the task as JSON text (cameras, masks, captions).
+  /// Data besides the motions, as JSON text that the task writes (cameras, masks, captions).
   std::string extras_json;
 };
 
@@ -108,18 +109,21 @@ struct SweptValue {
 struct Row {
   std::string scenario;
   std::string task;
-  std::vector<SweptValue> condition;  ///< empty if nothing is swept
+  std::vector<SweptValue> condition;  ///< the swept parameters and their values; empty if nothing is swept
   int trial = 0;
-  std::string clip;                ///< "" for tasks without clips
-  std::vector<std::string> units;  ///< units from which the world was drawn (Study::unit); empty if it is its own unit
+  std::string clip;  ///< "" for tasks without clips
+  /// Sampling units (clips, people, …) from which the world was drawn (Study::unit); empty if the world is its own
+  /// unit.
+  std::vector<std::string> units;
   std::string method;
   CellResult result;  ///< `series` and `recording` are stored in files of their own
 
-  /// "scenario/key=value,key=value/trial/method", unique in a run; a condition without sweep is "-".
+  /// Returns the cell's identity "scenario/key=value,key=value/trial/method", which is unique in a run. If nothing is
+  /// swept, the condition is "-".
   std::string Id() const;
 };
 
-/// Returns a row's value of a metric; nothing if the value is missing or the metric was not measured.
+/// Returns a row's value of a metric; nullopt if the value is missing or the metric was not measured.
 std::optional<double> ValueOf(const Row& row, std::string_view metric);
 
 /// Returns a condition as text for display: "key=value, key=value", or "" if nothing is swept.

@@ -20,13 +20,13 @@ class RowSource {
  public:
   virtual ~RowSource() = default;
   virtual std::size_t size() const = 0;
-  /// Chooses evenly spaced worlds and returns the indices of all their rows. These are about `rows` rows, or all rows
-  /// if there are fewer.
+  /// Chooses evenly spaced worlds and returns the indices of all their rows. The result has about `rows` indices, or
+  /// those of all rows if the run has fewer.
   virtual std::vector<std::size_t> SampleRowIndices(std::size_t rows) const = 0;
   /// Replaces `row` by the row at index `place`, reusing its memory. Series and recording are not read.
   virtual void Read(std::size_t place, Row& row) const = 0;
   virtual std::vector<Series> SeriesOf(std::size_t place) const = 0;
-  /// Returns the processor time of the cell at index `place`, seconds; nothing if the folder does not record it.
+  /// Returns the processor time of the cell at index `place`, seconds; nullopt if the result folder does not record it.
   virtual std::optional<double> CpuSecondsOf(std::size_t place) const = 0;
 };
 
@@ -40,7 +40,7 @@ struct CellRecording {
   Recording recording;
 };
 
-/// The software, apart from this program, that a result may depend on. The run's manifest records it.
+/// The software, apart from this program, on which a result may depend. The run's manifest records it.
 struct RunSystem {
   std::string compiler;  ///< "12.2.0"
   std::string glibc;     ///< "2.36"
@@ -49,28 +49,29 @@ struct RunSystem {
   friend bool operator==(const RunSystem&, const RunSystem&) = default;
 };
 
-/// A result folder in memory. It contains all rows or, for a very large run, the rows of some worlds and a source that
-/// reads all rows.
+/// A result folder in memory. It contains all rows. For a very large run, it contains only the rows of some worlds, and
+/// a source that reads all rows.
 struct RunData {
   std::string suite;
-  std::uint64_t seed = 1;  ///< for secret worlds a number derived from the digest of their key
+  std::uint64_t seed = 1;  ///< seed of the worlds; for secret worlds, a number derived from the digest of their key
   std::string key_digest;  ///< for secret worlds; "" otherwise
   std::string fence;       ///< the sandbox in which outside methods ran; "" = there were none
   std::string program_version;
-  std::string command_line;  ///< the command line in host.json
-  std::string host;          ///< one line about the machine
+  std::string command_line;  ///< the command line of the run, as host.json records it
+  std::string host;          ///< describes the machine in one line
   RunSystem system;
   double wall_seconds = 0;
   std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
-  /// The source of all rows of a run that does not fit into memory; null for other runs. If it is set, `rows`, `series`
-  /// and `cpu_seconds` contain the data of some evenly spaced worlds only.
+  /// The source of all rows if the run does not fit into memory, else null. If it is set, `rows`, `series` and
+  /// `cpu_seconds` contain only the data of some evenly spaced worlds.
   std::shared_ptr<const RowSource> source;
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;
   std::string seal;      ///< the text of the folder's seal; "" = it has none, or the seal was not loaded
   std::string unsealed;  ///< why the seal does not match, if the folder was read nevertheless; else ""
-  std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty if the folder does not record it
+  /// Processor times of cells, by Row::Id(); empty if the result folder does not record them.
+  std::map<std::string, double> cpu_seconds;
 };
 
 /// Returns a text that says how the worlds were drawn and whether an outside program could have known them: "seed 1",
@@ -83,11 +84,11 @@ std::string DescribeWorlds(const RunData& run);
 std::size_t CountRows(const RunData& run);
 /// Calls `use` for every row of the run with the row's index, including rows that are not in memory.
 void ForEachRow(const RunData& run, const std::function<void(const Row& row, std::size_t place)>& use);
-/// Returns the row at index `place`. Series and recording are missing if it is read from `source`.
+/// Returns the row at index `place`. A row that is read from `source` has no series and no recording.
 Row RowAt(const RunData& run, std::size_t place);
-/// Returns the index of the row with this identity (Row::Id); nothing if there is none.
+/// Returns the index of the row with this identity (Row::Id); nullopt if no row has it.
 std::optional<std::size_t> FindRow(const RunData& run, const std::string& id);
-/// Returns the processor time of the row at index `place`, seconds; nothing if the folder does not record it.
+/// Returns the processor time of the row at index `place`, seconds; nullopt if the result folder does not record it.
 std::optional<double> CpuSecondsOf(const RunData& run, const Row& row, std::size_t place);
 
 }  // namespace etude

@@ -13,12 +13,14 @@ namespace etude {
 /// A claim that a scenario makes about its results. It is judged after the run and shown in the report.
 struct Expectation {
   std::string metric;
-  std::string of;            ///< the method that is judged
-  std::string below, above;  ///< the method that `of` must be below (or above) in the same worlds; at most one is set
-  std::optional<double> at_most, at_least;  ///< the bound of `statistic`, if `of` is not compared with a method
-  std::string statistic = "median";         ///< median, mean or p95; only for bounds
+  std::string of;  ///< the method to which the claim applies
+  /// The method below (or above) which `of` must be in the same worlds; at most one of the two is set.
+  std::string below, above;
+  /// The largest or smallest allowed value of `statistic`, if `of` is not compared with another method.
+  std::optional<double> at_most, at_least;
+  std::string statistic = "median";  ///< median, mean or p95; only for bounds
   double confidence = 0.95;  ///< confidence level of a comparison's interval; the level of its test is 1 − confidence
-  std::vector<SweptValue> where;  ///< the conditions in which it is judged; empty = all of them
+  std::vector<SweptValue> where;  ///< the conditions under which the claim is judged; empty = all conditions
   Place place;
 };
 
@@ -30,22 +32,25 @@ struct TimeRatio {
   Place place;
 };
 
-/// The rule by which a few worlds alone are a regression, even if the statistics over all worlds show no change. Both
-/// runs have the same worlds, so every difference comes from the code. docs/gate.md explains how the defaults were
-/// measured.
+/// The rule by which a few far worse worlds alone are a regression, even if the statistics over all worlds show no
+/// change. Both runs have the same worlds, so every difference comes from the code. docs/gate.md explains how the
+/// defaults were measured.
 struct TailRule {
   double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
-  int worlds = 4;     ///< at least this many far worse worlds of one comparison are a regression; 0 = never
-  /// In a regression, the far worse worlds must also be at least this share of the compared worlds, because in a large
-  /// number of worlds rounding may change a few.
+  /// Minimum number of far worse worlds in one comparison that is a regression; 0 = never a regression.
+  int worlds = 4;
+  /// The minimum share of the compared worlds that must be far worse, in addition to their number. In a large number of
+  /// worlds, rounding may change a few.
   double share = 0.05;
-  int lost = 1;  ///< this many worlds that lost their value or answer are a regression; 0 = never
+  /// Minimum number of worlds without the value or answer that they had before, which is a regression; 0 = never.
+  int lost = 1;
 };
 
 /// The rules by which `etude gate` compares one scenario with a baseline.
 struct GateRules {
-  std::vector<std::string> metrics;  ///< metrics to compare; success and the headline metrics if the file names none
-  bool exact = false;                ///< true: every difference is a regression, even below the practical threshold
+  /// Metrics to compare; if the scenario names none, success and the headline metrics.
+  std::vector<std::string> metrics;
+  bool exact = false;  ///< true: every difference is a regression, even below the practical threshold
   TailRule tail;
   std::vector<TimeRatio> time_ratios;
 };
@@ -53,15 +58,16 @@ struct GateRules {
 /// One of the methods that a scenario compares.
 struct ComparedMethod {
   std::string name;
-  std::string against;      ///< the method with which it is compared; the first method is compared with itself
-  bool has_oracle = false;  ///< true: the truth replaces some stages, so it is an upper bound and no competitor
-  std::vector<std::string> oracle = {};  ///< the stages that the truth replaces
+  std::string against;  ///< the method with which this one is compared; the first method names itself
+  /// true: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
+  bool has_oracle = false;
+  std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces
   std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method
-  std::string description = {};  ///< a sentence about the method, or its settings
+  std::string description = {};  ///< a sentence about the method, or the method's settings
 };
 
-/// The comparisons and expectations of a scenario, with everything that is needed to judge its rows. It does not
-/// describe how the scenario's worlds are made.
+/// The comparisons and expectations of a scenario, and everything else that is needed to judge the scenario's rows. It
+/// does not describe how the scenario's worlds are made.
 struct Study {
   std::string scenario;
   std::string task;
@@ -72,8 +78,9 @@ struct Study {
   std::vector<ComparedMethod> methods;              ///< at least one
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
-  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
-  /// The metric that says whether the task's goal was reached; answers compare it first. "" = there is none.
+  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
+  /// The metric that says whether the task's goal was reached; answers compare it before the value metric. "" = the
+  /// task has none.
   std::string success;
   double success_matters = 0.05;  ///< the smallest difference of success that matters, as a share
   std::string rival;              ///< the method that all others must beat; "" = the best method is found

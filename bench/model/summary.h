@@ -16,11 +16,11 @@ namespace etude {
 enum class IntervalKind {
   kNone,
   kBca,              ///< bias-corrected and accelerated bootstrap
-  kPercentile,       ///< percentile bootstrap, where the BCa correction is undefined, e.g. all values equal
-  kWilson,           ///< score interval of a share
-  kAdjustedWald,     ///< Bonett and Price's interval of the difference of two shares on the same worlds
-  kStudent,          ///< Student's t interval of a mean over units, or over very many worlds
-  kOrderStatistics,  ///< interval of the median of very many worlds, from order statistics
+  kPercentile,       ///< percentile bootstrap; used if the BCa correction is undefined, e.g. if all values are equal
+  kWilson,           ///< Wilson's score interval of a share
+  kAdjustedWald,     ///< Bonett and Price's adjusted Wald interval of the difference of two shares on the same worlds
+  kStudent,          ///< Student's t interval of a mean over sampling units, or over very many worlds
+  kOrderStatistics,  ///< order-statistics interval of the median of very many worlds
 };
 inline constexpr std::array<Named<IntervalKind>, 7> kIntervalKinds = {
     {{"none", IntervalKind::kNone},
@@ -36,9 +36,10 @@ std::string_view IntervalKindName(IntervalKind kind);
 struct MetricSummary {
   std::string id;
   int present = 0;
-  int missing = 0;  ///< cells without a value, for any reason
+  int missing = 0;  ///< number of cells without a value, for any reason
   std::optional<double> median, mean;
-  std::optional<double> ci_low, ci_high;  ///< 95 % interval of the metric's own aggregate (MetricInfo)
+  /// 95 % confidence interval of the median or mean that the metric defines as its aggregate (MetricInfo)
+  std::optional<double> ci_low, ci_high;
   IntervalKind interval = IntervalKind::kNone;
 };
 
@@ -46,8 +47,8 @@ struct MethodSummary {
   std::string method;
   std::vector<std::pair<Status, int>> statuses;  ///< number of cells that ended in each status; zeros are left out
   std::vector<MetricSummary> metrics;
-  int ok = 0;                             ///< cells of status ok
-  int attempted = 0;                      ///< all cells except skipped ones; failures count as attempts
+  int ok = 0;                             ///< number of cells with status ok
+  int attempted = 0;                      ///< number of cells that were not skipped; failed cells count
   std::optional<double> ok_low, ok_high;  ///< 95 % Wilson interval of ok / attempted
 };
 
@@ -60,61 +61,65 @@ std::string_view VerdictName(Verdict verdict);
 
 /// A test of paired differences (bench/statistics/paired_tests.h).
 struct PairedTest {
-  std::optional<double> p;  ///< two-sided; nothing if there are no pairs
+  std::optional<double> p;  ///< two-sided p-value; nullopt if there are no pairs
   std::string how;          ///< "exact", "normal approximation", "9,999 draws"
 };
 
-/// The mean difference of a comparison if the worlds of one unit are left out.
+/// The mean difference of a comparison when the worlds of one sampling unit (clip, person, …) are left out.
 struct LeftOut {
   std::string unit;
   double difference = 0;
 };
 
-/// The result of a comparison, generalised from the units of its worlds (clips, people, …) to other units like them
-/// (bench/statistics/beyond.h). If every world is its own unit, the result equals the result on the worlds.
+/// The result of a comparison, generalised from the sampling units of this run (clips, people, …) to units that were
+/// not run (bench/statistics/beyond.h). If every world is its own unit, the result equals the result on the worlds.
 struct Beyond {
-  int units = 0;      ///< units that have a pair
-  int differing = 0;  ///< units whose mean difference is not zero
-  /// The pseudo-median of the units' mean differences, and its 95 % interval. The verdict is judged from this interval.
+  int units = 0;      ///< number of sampling units with at least one pair (a world with values of both methods)
+  int differing = 0;  ///< number of these units whose mean difference is not zero
+  /// The pseudo-median (Hodges–Lehmann) of the units' mean differences, and its 95 % interval, which decides the
+  /// verdict.
   std::optional<double> difference, low, high;
-  std::optional<double> mean, mean_low, mean_high;  ///< the mean of the units' means, and its 95 % interval
-  PairedTest test;                                  ///< the test that decides the verdict
-  std::optional<double> p_holm;                     ///< p after Holm's correction over the scenario's comparisons
-  std::optional<Verdict> verdict;                   ///< nothing = too few units for a verdict
-  std::string why_open;                             ///< why there is no verdict or an inconclusive one
-  std::vector<LeftOut> left_out;                    ///< in the order of the units' names; empty if worlds are the units
+  std::optional<double> mean, mean_low, mean_high;  ///< the mean of the units' mean differences, and its 95 % interval
+  PairedTest test;                 ///< the test of the units' mean differences that decides the verdict
+  std::optional<double> p_holm;    ///< p-value of `test` after Holm's correction over the scenario's comparisons
+  std::optional<Verdict> verdict;  ///< verdict for units that were not run; nullopt = too few units in this run
+  std::string why_open;            ///< why there is no verdict, or why it is inconclusive
+  std::vector<LeftOut> left_out;   ///< one entry per unit, in the order of names; empty if every world is its own unit
 };
 
-/// The comparison of `method` with `baseline` on the same worlds: the median of the paired differences method −
-/// baseline. For shares and penalised costs it is the mean (MetricInfo).
+/// The comparison of `method` with `baseline` on the same worlds. It aggregates the paired differences method −
+/// baseline: by their median, or for shares and penalised costs by their mean (MetricInfo).
 struct Comparison {
   std::string metric;
   std::string baseline;
   std::string method;
-  int pairs = 0;      ///< worlds in which both have a value
-  int differing = 0;  ///< pairs whose values differ
-  /// Worlds without a pair: only the baseline has a value, only the method has one, or neither has one.
+  int pairs = 0;      ///< number of pairs: worlds in which both methods have a value
+  int differing = 0;  ///< number of pairs whose two values differ
+  /// Numbers of worlds without a pair: only the baseline has a value, only the method has one, or neither has one.
   int only_baseline = 0, only_method = 0, neither = 0;
-  std::optional<double> difference, ci_low, ci_high;  ///< the aggregate of the differences and its 95 % interval
+  /// The median or mean of the paired differences, and its 95 % interval.
+  std::optional<double> difference, ci_low, ci_high;
   IntervalKind interval = IntervalKind::kNone;
   /// The mean of the paired differences and its 95 % interval. It is computed for every metric.
   std::optional<double> mean, mean_low, mean_high;
-  PairedTest signed_rank;        ///< Wilcoxon's test; it decides if the aggregate is the median
-  PairedTest sign_flip;          ///< the sign-flip test; it decides if the aggregate is the mean
-  std::optional<double> p_holm;  ///< the deciding p, corrected over the scenario's comparisons (Holm)
+  PairedTest signed_rank;  ///< Wilcoxon's signed-rank test; it decides the verdict if `difference` is a median
+  PairedTest sign_flip;    ///< the sign-flip (permutation) test; it decides the verdict if `difference` is a mean
+  /// p-value of the deciding test after Holm's correction over the scenario's comparisons.
+  std::optional<double> p_holm;
   /// The numbers of pairs in which the method is better, or worse, by at least the practical threshold.
   int better = 0, worse = 0;
   double share_better = 0;  ///< share of the pairs in which the method is better; ties count half
   /// Rank-biserial correlation, −1…1. It is positive if `method` is better or, for a metric without a direction, if its
   /// values are larger.
   std::optional<double> effect_size;
-  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on these worlds
+  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
   std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
-  std::vector<std::string> notes;            ///< further warnings for readers of the figures
-  Beyond beyond;                             ///< the result for other units like the sampled ones
+  std::vector<std::string> notes;            ///< further warnings for readers of the numbers
+  Beyond beyond;                             ///< the result generalised to sampling units that were not run
 };
 
-/// The step that decided an answer. Success is compared first, then the value, then the tail.
+/// The comparison that decided an answer. Success is compared first, then the value metric, then the tail: the far
+/// better and far worse worlds.
 enum class AnswerStep { kNone, kSuccess, kValue, kTail };
 inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", AnswerStep::kNone},
                                                                    {"success", AnswerStep::kSuccess},
@@ -125,45 +130,53 @@ inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", Answ
 /// table and program that shows a run uses this verdict.
 struct Answer {
   std::string method;
-  std::string baseline = {};      ///< the method that the scenario names, or the strongest rival
-  std::string value_metric = {};  ///< ValueMetricOf; "" if the scenario has only its success
-  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on these worlds
+  /// The method with which the method is compared: the scenario's baseline, or the strongest other method.
+  std::string baseline = {};
+  std::string value_metric = {};             ///< ValueMetricOf; "" if the scenario has only its success
+  Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
   AnswerStep decided_by = AnswerStep::kNone;
-  std::optional<Verdict> beyond = {};  ///< the deciding step's verdict for other units; nothing = too few units
-  /// The comparison of `Study::success`, in which failed cells count 0; nullopt if no cell has a value.
+  /// The verdict of the deciding comparison, generalised to other sampling units; nullopt = too few units.
+  std::optional<Verdict> beyond = {};
+  /// The comparison of the success metric (Study::success), in which failed cells count 0; nullopt if no cell has a
+  /// value.
   std::optional<Comparison> success = {};
-  /// The comparison of the value in the worlds in which both methods succeeded. Nullopt if both succeeded in all worlds
-  /// or in none, or if success is not a yes or no.
+  /// The comparison of the value metric in the worlds where both methods succeeded. nullopt if both succeeded in all
+  /// worlds or in none, or if success is not a yes or no.
   std::optional<Comparison> both_succeed = {};
-  /// The share of worlds in which the method is far better, minus the share in which it is far worse.
+  /// Compares the share of worlds in which the method is far better with the share in which it is far worse: the
+  /// difference is the former minus the latter.
   std::optional<Comparison> tail = {};
 };
 
-/// The cost of one stage: the mean reduction of the error, over worlds, when the truth replaces the stage.
+/// The cost of one processing stage: the mean reduction of the error, over worlds, when ground truth replaces the
+/// stage.
 struct BudgetShare {
-  std::string stage;  ///< one stage, or several that were replaced together
+  std::string stage;  ///< the processing stage, or several stages that were replaced together
   double mean = 0;
   std::optional<double> ci_low = {}, ci_high = {};  ///< 95 % interval of the mean
 };
 
-/// The error of one method, split into the costs of its stages (bench/statistics/summary.h).
+/// The error of one method, split into the costs of its processing stages (bench/statistics/summary.h).
 struct ErrorBudget {
   std::string metric;
-  std::string method;       ///< the method with no stage replaced by the truth, or with the fewest
-  bool is_shapley = false;  ///< true: shares are means over all orders of the stages; false: `shares` follow one order
+  std::string method;  ///< the method in which ground truth replaces no stage, or the fewest stages
+  /// true: each cost is a mean over all orders of replacing the stages (Shapley value); false: the costs follow one
+  /// order.
+  bool is_shapley = false;
   int worlds = 0;
-  double total = 0, rest = 0;  ///< mean error of `method`, and of the method with the most replaced stages
+  /// Mean error of `method`, and of the method in which ground truth replaces the most stages.
+  double total = 0, rest = 0;
   std::vector<BudgetShare> shares;
 };
 
 struct ConditionSummary {
   std::vector<SweptValue> condition;
   std::vector<MethodSummary> methods;
-  std::vector<Comparison> comparisons;     ///< every method against its baseline, on the headline metrics
-  std::vector<Comparison> rivals;          ///< every method against the strongest other one, on the headline metrics
-  std::vector<Answer> answers = {};        ///< every method against its baseline
-  std::vector<Answer> rival_answers = {};  ///< every method against the strongest other one
-  /// Error budgets of the first headline metric, for methods that differ only in their oracles.
+  std::vector<Comparison> comparisons;  ///< every method against its baseline, for each headline metric
+  std::vector<Comparison> rivals;       ///< every method against the strongest other method, for each headline metric
+  std::vector<Answer> answers = {};     ///< answers for every method against its baseline
+  std::vector<Answer> rival_answers = {};  ///< answers for every method against the strongest other method
+  /// Error budgets of the first headline metric, for methods that differ only in the stages that ground truth replaces.
   std::vector<ErrorBudget> budgets = {};
 };
 
@@ -195,7 +208,7 @@ std::string_view ClaimOutcomeName(ClaimOutcome outcome);
 struct ExpectationResult {
   std::string text;  ///< "orientation_error_deg of adaptive below fixed"
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
-  std::string detail;  ///< the figures that decided the outcome
+  std::string detail;  ///< the numbers that decided the outcome
 };
 
 struct ScenarioSummary {
@@ -207,10 +220,12 @@ struct ScenarioSummary {
   std::vector<std::string> headline_metrics;
   std::vector<ConditionSummary> conditions;
   std::vector<ExpectationResult> expectations;
-  int family = 0;  ///< number of comparisons over all conditions and headline metrics that Holm's correction covers
-  std::vector<AcrossVerdict> across = {};      ///< empty if no verdict must hold across parameters
-  std::string description = {};                ///< a sentence about its worlds; "" = not described
-  std::vector<std::string> descriptions = {};  ///< a sentence about each method; empty if no method is described
+  /// Number of comparisons, over all conditions and headline metrics, to which Holm's correction applies together.
+  int family = 0;
+  std::vector<AcrossVerdict> across = {};  ///< empty if no verdict must hold across parameters
+  std::string description = {};            ///< a sentence about its worlds; "" = not described
+  /// One sentence about each method; empty if the scenario describes no method.
+  std::vector<std::string> descriptions = {};
 };
 
 }  // namespace etude

@@ -8,13 +8,13 @@
 
 namespace etude {
 
-/// The unit from which the worlds of a scenario were drawn. Worlds that share a unit resemble each other, so claims
-/// that go beyond these worlds must count units, not worlds.
+/// The sampling unit: the kind of thing from which the worlds of a scenario were drawn. Worlds that share a unit
+/// resemble each other, so a claim that goes beyond these worlds must count units, not worlds.
 enum class SamplingUnit {
   kWorld,     ///< each world is its own unit
   kPerson,    ///< the person in a world; each world has another person
-  kClip,      ///< the clip that a world shows first
-  kClipPair,  ///< both clips of a world: the clip that is left and the clip that is entered
+  kClip,      ///< the first clip that a world shows
+  kClipPair,  ///< both clips of a world: the clip that is left and the wanted clip
   kLibrary,   ///< the folder from which a world's clips come
 };
 inline constexpr std::array<Named<SamplingUnit>, 5> kSamplingUnits = {{{"world", SamplingUnit::kWorld},
@@ -27,7 +27,7 @@ std::string_view SamplingUnitName(SamplingUnit unit);
 /// Returns a number of units with its noun, e.g. "6 clips" or "1 person". For kClipPair the noun is "clip".
 std::string CountUnits(int count, SamplingUnit unit);
 
-/// Returns true if no two worlds share a unit. Each world then counts as a unit.
+/// Returns true if every world is its own sampling unit, that is, no two worlds share a unit.
 constexpr bool WorldsAreUnits(SamplingUnit unit) {
   return unit == SamplingUnit::kWorld || unit == SamplingUnit::kPerson;
 }

@@ -8,10 +8,10 @@
 
 namespace etude {
 
-/// The key of a page of film pairs that people judge without knowing the methods: which method each film shows. It is
-/// kept apart from the page.
+/// The key of a page on which people compare films without knowing the methods. It says which side shows which method,
+/// and is kept apart from the page.
 struct BlindKey {
-  /// One metric of the two cells of a pair; only metrics with a better direction.
+  /// A metric's values in both cells of a pair. Only metrics with a better direction are kept.
   struct Metric {
     std::string id;
     bool higher_is_better = false;
@@ -19,14 +19,14 @@ struct BlindKey {
   };
   struct Pair {
     std::string scenario, world;  ///< "trial 3"
-    std::string left, right;      ///< methods
+    std::string left, right;      ///< the methods shown on the left and on the right
     std::vector<Metric> metrics;
   };
 
-  std::string page;  ///< digest of the page's content, which every file of answers repeats
-  std::string seed;  ///< of the dice that drew worlds, order and sides
-  int worlds = 0;    ///< worlds from which the pairs were drawn
-  int left_out = 0;  ///< recorded worlds in which a method made no transition that can be shown
+  std::string page;  ///< digest of the page's content; every file of answers repeats it
+  std::string seed;  ///< seed of the random order of worlds and sides
+  int worlds = 0;    ///< number of worlds from which the pairs were drawn
+  int left_out = 0;  ///< number of worlds in which a method made no transition that a film can show
   std::vector<Pair> pairs;
 };
 
@@ -38,14 +38,14 @@ struct BlindAnswers {
 
 std::string WriteBlindKey(const BlindKey& key);
 
-/// The keys and the answers in several files.
+/// The keys and the answers that were read from several files.
 struct BlindFiles {
   std::vector<BlindKey> keys;
   std::vector<BlindAnswers> answers;
 };
 
-/// Reads a key or answers into `files`. Fails, naming `file` and the position in it, if the text is neither or is
-/// damaged, and if the same key, or answers of the same rater to the same page, were read before.
+/// Reads a key or answers into `files`. Fails, naming `file` and the position in it, if the text is neither a key nor
+/// answers, or is damaged. Fails also if the same key, or answers of the same rater to the same page, were read before.
 Result<void> AddBlindFile(const std::string& text, const std::string& file, BlindFiles& files);
 
 /// Fails if there are no answers, if the key of an answered page is missing, or if a person did not give one answer for

@@ -10,7 +10,7 @@ using SortedJson = nlohmann::json;  // keys are sorted alphabetically
 
 constexpr const char* kFormat = "etude-capture";
 constexpr int kVersion = 1;
-constexpr int kMaxSide = 4096;  // pixels
+constexpr int kMaxSide = 4096;  // maximum width and height of a picture, pixels
 
 SortedJson ToJson(const CaptureExtras::View& view) {
   const Intrinsics& in = view.truth.intrinsics;
@@ -101,7 +101,7 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
                 json.at("format").dump(), json.at("version").dump(), kFormat, kVersion);
   }
   CaptureExtras extras;
-  // Read the room, the stage and the colours of the performer.
+  // Read the room, the scenery and the colours of the performer.
   extras.texture_seed = json.at("room").at("texture_seed");
   extras.casts_shadows = json.at("room").at("casts_shadows");
   if (json.contains("stage")) {
@@ -115,7 +115,7 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     const SortedJson& colour = json.at("colours").at(i);
     extras.colours[i] = {colour.at(0), colour.at(1), colour.at(2)};
   }
-  // Read the cameras and frames. Each camera has one mask for each frame in `brightness`.
+  // Read the cameras and frames. Each camera has one mask for each frame, that is, for each entry of `brightness`.
   extras.brightness = json.at("brightness").get<std::vector<double>>();
   for (const SortedJson& camera : json.at("cameras")) {
     ASSIGN_OR_RETURN(auto view, ToView(camera));
@@ -125,7 +125,7 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     }
     extras.views.push_back(std::move(view));
   }
-  // Read the moments. Each moment belongs to one of these frames and has marks for every camera.
+  // Read the moments. Each moment names one of these frames and has marks for every camera.
   for (const SortedJson& json_moment : json.value("moments", SortedJson::array())) {
     extras.moments.push_back(ToMoment(json_moment));
     const CaptureExtras::Moment& moment = extras.moments.back();

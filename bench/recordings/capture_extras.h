@@ -39,37 +39,37 @@ namespace etude {
 ///      "bvh": "HIERARCHY\n…"}                              the recovered clip as a BVH file's text
 struct CaptureExtras {
   struct View {
-    Camera truth;                        ///< the camera that took the pictures
-    std::vector<Mask> masks;             ///< the segmented person, one per frame, at half the pictures' size
-    std::string still_jpeg_base64 = {};  ///< the middle frame's picture; may be empty
+    Camera truth;                        ///< the true parameters of the camera that took the pictures
+    std::vector<Mask> masks;             ///< the segmented person in each frame, at half the pictures' width and height
+    std::string still_jpeg_base64 = {};  ///< the picture of the middle frame; "" if it was not kept
   };
 
   struct Mark {
-    glm::dvec2 a{0}, b{0};  ///< pixels
-    Rgb8 colour{};          ///< the limb's colour
+    glm::dvec2 a{0}, b{0};  ///< end points of the mark, pixels
+    Rgb8 colour{};          ///< colour of the marked limb
   };
-  /// A frame at which the intermediate results of every stage are recorded.
+  /// A frame for which the recording keeps the intermediate results of every processing stage.
   struct Moment {
     std::size_t frame = 0;
-    BodyPose fixed;                        ///< joints with the known limb lengths, before inverse kinematics
-    std::vector<std::vector<Mark>> marks;  ///< the marks of each camera
+    BodyPose fixed;  ///< joint positions after the limbs got their known lengths, before inverse kinematics
+    std::vector<std::vector<Mark>> marks;  ///< the marks that were found in each camera's picture
   };
 
   std::uint64_t texture_seed = 1;
   bool casts_shadows = true;
-  std::uint64_t stage_seed = 0;    ///< seed of furniture and moving objects (sim/stage), if `scene` > 0
-  double scene = 0;                ///< 0 = the studio
-  bool wears_everyday = false;     ///< true: on that stage, the performer wears everyday clothes
-  bool wears_coded = false;        ///< true: the performer wears the coded suit
+  std::uint64_t stage_seed = 0;    ///< seed of the furniture and the moving objects (sim/stage); used if `scene` > 0
+  double scene = 0;                ///< amount of scenery (sim/stage); 0 = the empty studio
+  bool wears_everyday = false;     ///< true: the performer wears everyday clothes (only if `scene` > 0)
+  bool wears_coded = false;        ///< true: the performer wears the suit with coded colours
   std::array<Rgb8, 16> colours{};  ///< the performer's colours, indexed by Part
-  std::vector<double> brightness;  ///< one per frame
+  std::vector<double> brightness;  ///< brightness of the light, one per frame
   std::vector<View> views;
   std::vector<Moment> moments;
   std::string bvh;
 };
 
 std::string WriteCaptureExtras(const CaptureExtras& extras);
-/// Reads the text that WriteCaptureExtras returns. Fails on any other text, naming what is missing or wrong.
+/// Reads the text that WriteCaptureExtras returns. For any other text, fails and names what is missing or wrong.
 Result<CaptureExtras> ReadCaptureExtras(std::string_view json);
 
 /// Returns a mask as run lengths in scan order, separated by blanks: the number of 0s, then of 1s, then of 0s, and so

@@ -20,7 +20,7 @@ struct EvaluationExtras {
 };
 
 std::string WriteEvaluationExtras(const EvaluationExtras& extras);
-/// Reads the text that WriteEvaluationExtras returns. Fails on any other text, naming what is wrong.
+/// Reads the text that WriteEvaluationExtras returns. For any other text, fails and names what is wrong.
 Result<EvaluationExtras> ReadEvaluationExtras(std::string_view json);
 
 }  // namespace etude

@@ -41,7 +41,8 @@ template <>
 struct Codec<int> {
   static void Encode(int value, Json& json) { json = value; }
   static Result<void> Decode(const Json& json, int& value) {
-    constexpr std::int64_t kMaxMagnitude = 1'000'000'000;  // so small that sums of a few values do not overflow an int
+    // The largest allowed number; sums of a few such numbers fit into an int.
+    constexpr std::int64_t kMaxMagnitude = 1'000'000'000;
     const auto whole = json.is_number_integer() ? json.get<std::int64_t>() : kMaxMagnitude + 1;
     if (whole < -kMaxMagnitude || whole > kMaxMagnitude) {
       return Fail({}, ": {} is not a whole number; allowed: {}…{}", ShowJson(json), -kMaxMagnitude, kMaxMagnitude);

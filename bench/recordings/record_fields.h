@@ -18,8 +18,8 @@ namespace etude {
 template <typename Value>
 void EncodeValue(const Value& value, Json& json);
 
-/// Reads JSON that EncodeValue wrote. An error states what was found and what is allowed. It begins with a colon, or
-/// with the index of the entry concerned.
+/// Reads JSON that EncodeValue wrote. An error message says which value was found and which are allowed. It begins with
+/// a colon, or with the index of the faulty entry.
 template <typename Value>
 Result<void> DecodeValue(const Json& json, Value& value);
 
@@ -36,8 +36,8 @@ class RecordFields {
     return TextOf(*json);
   }
 
-  /// Reads a record. Error messages name the position within the object: "events[2].score: \"high\" is not a number
-  /// (how right it looked)".
+  /// Reads a record. Error messages name the position within the JSON object: "events[2].score: \"high\" is not a
+  /// number (how right it looked)".
   template <typename Record>
   static Result<Record> Read(const std::string& text) {
     Record record;
@@ -45,7 +45,7 @@ class RecordFields {
     return record;
   }
 
-  /// Returns the keys of a record, and of the objects in it, as a Markdown list.
+  /// Returns the keys of a record, and of its nested objects, as a Markdown list for the reference page.
   template <typename Record>
   static std::string Page() {
     std::string page;
@@ -58,7 +58,7 @@ class RecordFields {
   /// Declares the keys "format" and "version". On reading, they must have these values.
   void Format(std::string_view name, int version);
 
-  /// Declares a required value.
+  /// Declares a required value and its key.
   template <typename Value>
   void Required(const char* key, Value& value, const char* meaning) {
     Document(key, meaning);
@@ -66,7 +66,7 @@ class RecordFields {
     if (const Json* found = Find(key, /*must=*/true, meaning)) Note(key, DecodeValue(*found, value), meaning);
   }
 
-  /// Declares an optional value. If it is empty, its key is absent.
+  /// Declares an optional value. The key is absent if the member is nullopt.
   template <typename Value>
   void Optional(const char* key, std::optional<Value>& value, const char* meaning) {
     Document(key, meaning);
@@ -74,7 +74,7 @@ class RecordFields {
     if (const Json* found = Find(key)) Note(key, DecodeValue(*found, value.emplace()), meaning);
   }
 
-  /// Declares a value that keeps its default if the key is absent or its value has another type.
+  /// Declares a value whose member keeps its default if the key is absent or has a value of another type.
   template <typename Value>
   void Tolerated(const char* key, Value& value, const char* meaning) {
     Document(key, meaning);
@@ -95,7 +95,7 @@ class RecordFields {
     DocumentEntry<Entry>();
   }
 
-  /// Declares an optional list. On reading, entries of a wrong type are left out.
+  /// Declares an optional list. When a record is read, entries of a wrong type are left out.
   template <typename Entry>
   void ToleratedList(const char* key, std::vector<Entry>& entries, const char* meaning) {
     Document(key, meaning);
@@ -176,17 +176,17 @@ class RecordFields {
 
   Json& Added(const char* key);
   void Document(const char* key, const char* meaning);
-  /// Returns the value of a key while a record is read; null otherwise. Adds an error if a key that must exist is
-  /// missing.
+  /// Returns the JSON value of a key if a record is being read, else null. If the key is missing and `must` is true,
+  /// reports an error.
   const Json* Find(const char* key, bool must = false, const char* meaning = "");
   void Note(const char* key, const Result<void>& read, const char* meaning);
   Result<void> Finish();
 
-  Json* written_;               ///< the object, when a record is written
-  const Json* read_;            ///< the object, when one is read
-  std::string* page_;           ///< the reference page, when the format is documented
-  int depth_ = 0;               ///< nesting depth of the page's list
-  std::optional<Error> error_;  ///< the first error
+  Json* written_;               ///< the JSON object, if a record is being written; else null
+  const Json* read_;            ///< the JSON object, if a record is being read; else null
+  std::string* page_;           ///< the reference page, if the format is being documented; else null
+  int depth_ = 0;               ///< nesting depth of the current list on the reference page
+  std::optional<Error> error_;  ///< the first error that occurred
 };
 
 }  // namespace etude

@@ -5,7 +5,7 @@
 namespace etude {
 
 // RecordFields finds these functions by argument-dependent lookup, so they are not in an unnamed namespace. The
-// function of a nested part comes before the function of its record.
+// function that describes a nested part is declared before the function that describes its record.
 
 static void Describe(RecordFields& fields, IkExtras& extras) {
   fields.Tolerated("iterations", extras.iterations, "the iteration that each frame shows, from 0, never decreasing");

@@ -25,36 +25,38 @@ struct IkExtras {
   std::vector<std::optional<glm::dvec3>> targets_m;
 };
 
-/// The extras of task `transition`: a transition, with some seconds before and after it. The tracks are "coach", "left"
-/// and "wanted" (docs/reference/recordings.md). The join's metrics can be computed from them.
+/// The extras of task `transition`: one transition, with some seconds before and after it. The tracks are "coach",
+/// "left" and "wanted" (docs/reference/recordings.md). The metrics of the transition can be computed from these data.
 struct TransitionExtras {
   /// A transition point: a pair of frames at which the motion changed clips. Frame numbers are those of the clips.
   struct Point {
     std::string from, to;  ///< clips; "in-between" for the method's own frames
     std::optional<int> from_frame = {}, to_frame = {};
     std::optional<double> distance = {};
-    std::optional<PerFeature> partials = {};  ///< S_k Δ_k², which sum to distance²
+    /// Partial distances S_k Δ_k² of the features; their sum is the squared distance.
+    std::optional<PerFeature> partials = {};
   };
-  /// A pair of frames that was considered. Frame numbers are those of the clips.
+  /// A pair of frames that was considered as a transition point. Frame numbers are those of the clips.
   struct Candidate {
-    std::optional<int> point;  ///< the transition point for which it was considered
+    std::optional<int> point;  ///< index of the transition point for which the pair was considered
     int from_frame = 0, to_frame = 0;
     double distance = 0;
     std::optional<PerFeature> partials;
-    std::optional<double> cost;  ///< the cost by which the choice ranks, if not by the distance
-    std::string outcome;         ///< "taken", "too far", "later", "worse"
+    /// The cost by which the candidates are ranked; nullopt if they are ranked by distance.
+    std::optional<double> cost;
+    std::string outcome;  ///< "taken", "too far", "later", "worse"
 
     bool operator==(const Candidate&) const = default;
   };
 
-  std::optional<int> transition_frame;  ///< the first of `transition_frames`
-  std::vector<int> transition_frames;   ///< the last frames before a change of clip
-  std::string from, to;                 ///< the clip that is left, and the clip that is entered
+  std::optional<int> transition_frame;  ///< the first entry of `transition_frames`
+  std::vector<int> transition_frames;   ///< each is the last frame of a clip, before the next clip begins
+  std::string from, to;                 ///< the clip that is left, and the wanted clip
   std::string branch;                   ///< the kind of transition: "front half", "in-between", …
-  std::string why;                      ///< one sentence
-  std::optional<int> request_frame;     ///< negative: before the start of the recording
+  std::string why;                      ///< a sentence that says why this transition was chosen
+  std::optional<int> request_frame;     ///< frame of the request; negative if it was before the start of the recording
   std::optional<double> wait_s, threshold, natural_limit_cm;
-  std::optional<double> distance;  ///< the distance at the worst transition point, whose terms are in `partials`
+  std::optional<double> distance;  ///< the largest distance of the transition points; `partials` has its terms
   std::optional<PerFeature> weights, partials;
   std::optional<std::int64_t> pairs_seen, pairs_matched;
   std::vector<Point> points;
@@ -65,7 +67,7 @@ struct TransitionExtras {
 /// The extras of task `detection`: a session in front of the sensor. The tracks are "truth" and "sensed"; "sensed" is
 /// the motion that the recogniser received.
 struct DetectionExtras {
-  /// The target of one angle of a key pose.
+  /// The angle that a key pose prescribes for one feature, and its tolerance.
   struct Target {
     std::string feature;
     double degrees = 0, tolerance_deg = 0;
@@ -74,10 +76,10 @@ struct DetectionExtras {
     std::string name;
     std::vector<std::vector<Target>> key_poses;
   };
-  /// A performance that was asked for.
+  /// A performance for which the learner was asked.
   struct Event {
     std::string move, truth, fault;  ///< truth: right, grey or wrong; fault: "none", or the names of faults
-    std::string danced;              ///< the move that was performed; empty if none was
+    std::string danced;              ///< the move that was performed; "" if none was
     int begin_frame = 0, end_frame = 0;
     bool called_right = false;
     double score = 0;
@@ -88,32 +90,33 @@ struct DetectionExtras {
     int frame = 0;
   };
 
-  std::optional<double> threshold;  ///< the threshold of judging; absent for an outside method
+  std::optional<double> threshold;  ///< threshold on the score for the verdict "right"; nullopt for an outside method
   std::vector<Move> moves;
   std::vector<Event> events;
   std::vector<Alarm> alarms;
-  std::vector<std::string> joint_states;  ///< one letter per joint, one text per frame (StateLetters)
+  /// Tracking state of the joints: one text per frame, one letter per joint (StateLetters)
+  std::vector<std::string> joint_states;
 };
 
 /// The extras of task `coach`: a session with a learner. The tracks are "coach", "truth" (the learner's real motion)
 /// and "sensed".
 struct CoachExtras {
-  /// A mode of the session. It lasts from its frame to the frame of the next mode.
+  /// A mode of the session, which lasts until the frame of the next mode.
   struct Mode {
     std::string mode;
     int begin_frame = 0;
   };
-  /// A performance that was asked for.
+  /// A performance for which the learner was asked.
   struct Performance {
     std::string move, truth, called;  ///< truth: right, grey, wrong; called: right, wrong, unjudged
     int begin_frame = 0, end_frame = 0;
     std::string faults;
   };
-  /// The text on the screen. It is shown from its frame to the next change.
+  /// A text on the screen. It is shown from its frame until the next text.
   struct Words {
     int begin_frame = 0;
     std::string say = {}, hint = {};
-    std::optional<BodyPose> picture = {};  ///< the key pose that the hint is about
+    std::optional<BodyPose> picture = {};  ///< the key pose that the text explains; nullopt if there is none
   };
   /// A decision of the coach.
   struct Decision {
@@ -131,11 +134,11 @@ struct CoachExtras {
   std::vector<std::string> joint_states;
 };
 
-/// The extras of task `plausibility`: the faults in the track "answer". The track has the rate and the heights of its
-/// file.
+/// The extras of task `plausibility`: the faults of the motion in the track "answer". This track has the frame rate and
+/// the heights of the judged file.
 struct PlausibilityExtras {
   struct Fault {
-    std::string kind, text;              ///< the fault's name (FaultName) and its description (MotionFault::text)
+    std::string kind, text;              ///< name of the fault (FaultName), and its description (MotionFault::text)
     int begin_frame = 0, end_frame = 0;  ///< first and last frame, both inclusive
   };
   double floor_m = 0;
@@ -145,9 +148,9 @@ struct PlausibilityExtras {
 /// Returns the extras of a task as JSON text. `Extras` is one of the types above.
 template <typename Extras>
 std::string WriteExtras(const Extras& extras);
-/// Reads the text that WriteExtras returns. Fails if the text is not a JSON object. Fails also, naming the key, if a
-/// key is missing or has a value of another type. In IkExtras and TransitionExtras such members stay empty instead,
-/// because recordings of older runs and of outside methods contain less.
+/// Reads the text that WriteExtras returns. Fails if the text is not a JSON object. If a key is missing or has a value
+/// of another type, fails and names the key. In IkExtras and TransitionExtras, such members stay empty instead, because
+/// recordings of older runs and of outside methods contain less.
 template <typename Extras>
 Result<Extras> ReadExtras(const std::string& json);
 
