@@ -21,7 +21,7 @@ constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
 constexpr std::size_t kSumSize = kSumBegin.size() + 16 + kSumEnd.size();
 
 std::optional<std::size_t> IndexInCatalogue(const std::string& id) {
-  if (AddedMetrics().contains(id)) return std::nullopt;  // metrics of a scenario have no index
+  if (AddedMetrics().contains(id)) return std::nullopt;  // a scenario's own metric has no index in the catalogue
   return static_cast<std::size_t>(FindMetric(id) - AllMetrics().data());
 }
 
@@ -34,12 +34,12 @@ void Append(Json& line, const char* member, std::initializer_list<Json> items) {
 Result<std::string> TextOf(std::size_t cell, const FinishedCell& finished) {
   const CellResult& result = finished.row.result;
   const CellUsage& usage = finished.usage;
-  // The identity, status and usage.
+  // Encode the cell's number, the status and the usage of time and memory.
   Json line{{finished.is_measured ? "cell" : "answered", cell}, {"status", StatusName(result.status)}};
   if (!result.reason.empty()) line["reason"] = result.reason;
   line["usage"] = {usage.wall_s, usage.cpu_s, usage.peak_mb};
   if (usage.world_wall_s > 0) Append(line, "usage", {usage.world_wall_s, usage.world_cpu_s});
-  // The values of the metrics, then the reasons of the missing ones, in the same order.
+  // Encode the values of the metrics, then the reasons for the missing values, in the same order.
   for (const MetricValue& metric : result.metrics) {
     if (FindMetric(metric.id) == nullptr) return Fail({}, "the metric '{}' is not in the catalogue", metric.id);
     if (metric.value && !std::isfinite(*metric.value)) {
@@ -52,7 +52,7 @@ Result<std::string> TextOf(std::size_t cell, const FinishedCell& finished) {
     if (!metric.value) Append(line, "why", {metric.null_reason});
   }
   for (const auto& [stage, digest] : result.digests) Append(line, "digests", {stage, digest});
-  // Curves, and the recording.
+  // Encode the curves and the recording.
   for (const Series& series : result.series) {
     if (!std::ranges::all_of(series.values, [](double value) { return std::isfinite(value); })) {
       return Fail({}, "the series '{}' holds a value that is not finite", series.name);
@@ -78,7 +78,8 @@ std::optional<CellLineHead> HeadOf(const Json& line) {
   return CellLineHead{cell.get<std::size_t>(), *known, is_measured};
 }
 
-/// Reads the metric that a line names: by its index in the catalogue, or a scenario's own by its id.
+/// Returns the id of the metric that a line names: by an index in the catalogue, or by the id if it is a scenario's own
+/// metric.
 std::optional<std::string> MetricNamed(const Json& name) {
   if (name.is_string()) {
     auto id = name.get<std::string>();
@@ -117,7 +118,8 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
 std::optional<CellLineHead> ReadCellLineHead(std::string_view line) {
   constexpr std::string_view kStatus = R"(,"status":")";
   if (!HasRightSum(line)) return std::nullopt;
-  // No status contains a quotation mark. What follows it is not read: recordings are long.
+  // No status contains a quotation mark, so the next one ends the status. The rest of the line is not read, because
+  // recordings are long.
   const std::size_t status = line.find(kStatus);
   const std::size_t end = status == line.npos ? status : line.find('"', status + kStatus.size());
   if (end == line.npos) return std::nullopt;
@@ -133,7 +135,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
   CellResult& result = cell.row.result;
   result.status = head->status;
   cell.is_measured = head->is_measured;
-  std::size_t known = 3;  // members: the head's two, and the checksum
+  std::size_t known = 3;  // number of members that were read: two in the head of the line, and the checksum
   const auto take = [&](const char* name) {
     const auto found = json.find(name);
     if (found == json.end()) return Json();
@@ -147,7 +149,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
     const std::array<double*, 5> fields = {&cell.usage.wall_s, &cell.usage.cpu_s, &cell.usage.peak_mb,
                                            &cell.usage.world_wall_s, &cell.usage.world_cpu_s};
     for (std::size_t i = 0; i < std::min(usage.size(), fields.size()); ++i) *fields[i] = usage.at(i).get<double>();
-    // The metrics, each an index or a name and a value, and the reasons of the missing values, in order.
+    // Read the metrics: an index or an id, and a value. The reasons for the missing values come in the same order.
     const Json values = take("values"), why = take("why");
     for (std::size_t i = 0, missing = 0; i < values.size(); i += 2) {
       const auto id = MetricNamed(values[i]);
@@ -162,7 +164,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
     for (std::size_t i = 0; i < digests.size(); i += 2) {
       result.digests.emplace_back(digests.at(i).get<std::string>(), digests.at(i + 1).get<std::string>());
     }
-    // Each curve: name, axis, values, names of categories.
+    // Read each curve: its name, axis, values, and the names of categories.
     for (const Json& curve : take("series")) {
       Series& series = result.series.emplace_back();
       series.name = curve.at(0).get<std::string>();

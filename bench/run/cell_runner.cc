@@ -29,7 +29,7 @@ class Stopwatch {
   const double cpu_start_ = CpuSeconds();
 };
 
-/// Resets the kernel's record of this process's peak memory.
+/// Resets the peak memory that the kernel has recorded for this process.
 void ForgetPeakMemory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 double ReadPeakMemoryMb() {
@@ -40,7 +40,8 @@ double ReadPeakMemoryMb() {
   return 0;
 }
 
-/// Returns true if the exception means that memory ran out. An impossible array length is a bug, not a shortage.
+/// Returns true if the exception means that memory ran out. An exception about an impossible array length is a bug
+/// instead.
 bool IsShortage(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr &&
          dynamic_cast<const std::bad_array_new_length*>(&error) == nullptr;

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kFormat = "etude-costs";
 constexpr int kVersion = 1;
 
-/// The keys that do not affect the cost of worlds and methods.
+/// Keys of a scenario that do not affect the cost of its worlds and methods.
 constexpr std::array kNoWork = {"scenario", "question", "description", "trials", "seed",  "unit", "methods", "metrics",
                                 "expect",   "across",   "rival",       "gate",   "video", "name", "against"};
 
@@ -34,7 +34,7 @@ void Add(const Node& node, Digest& digest) {
   }
 }
 
-/// Runs one yardstick: a fixed amount of arithmetic on 4 KB, which fit into the first-level cache.
+/// Does one yardstick of work: a fixed amount of arithmetic on 4 KB, which fit into the first-level cache.
 void DoOneYardstick(std::array<double, 512>& values) {
   constexpr std::size_t kPasses = 400, kStride = 7;
   for (std::size_t pass = 0; pass < kPasses; ++pass) {
@@ -44,17 +44,18 @@ void DoOneYardstick(std::array<double, 512>& values) {
   }
 }
 
-/// Runs yardsticks until `seconds` have passed. Returns their number, the wall time and the processor time, as JSON.
+/// Does yardsticks of work until `seconds` have passed. Returns how many were done, the wall time and the processor
+/// time, as JSON.
 std::string DoYardsticks(double seconds) {
   std::array<double, 512> values{};
   const auto start = Clock::now();
   const std::clock_t began = std::clock();
   int done = 0;
-  do {  // at least once, even if other processes keep the processor busy
+  do {  // does at least one yardstick, even if other processes keep the processor busy
     DoOneYardstick(values);
     ++done;
   } while (SecondsSince(start) < seconds);
-  const volatile double kept = values.front();  // keeps the compiler from removing the arithmetic
+  const volatile double kept = values.front();  // reading the result keeps the compiler from removing the arithmetic
   static_cast<void>(kept);
   const double processor_s = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   return Json{done, SecondsSince(start), processor_s}.dump();

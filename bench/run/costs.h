@@ -11,17 +11,18 @@
 
 namespace etude {
 
-/// Returns a digest of everything that determines the cost per trial of a scenario: its worlds and methods. The
-/// question, expectations, names and number of trials do not affect it.
+/// Returns a digest of everything that determines a scenario's cost per trial: its worlds and methods. The question,
+/// expectations, names and number of trials do not affect the digest.
 std::string WorkOf(const Scenario& scenario);
 
 /// The measured processor time of a scenario, in yardsticks. A yardstick is a fixed amount of arithmetic (MeasurePace).
 struct KeptCost {
-  double once = 0;    ///< cost of start-up, preparation of conditions, and statistics
-  double trial = 0;   ///< cost of one world of every condition, with all methods
-  double spread = 0;  ///< standard deviation of differences (ScenarioForecast::spread); 0 = not measured
-  /// The number of units (ScenarioForecast::units) for this number of trials and this seed; 0 = not stored, because
-  /// each world is a unit.
+  /// Cost that does not depend on the number of trials: start-up, preparation of conditions, and statistics.
+  double once = 0;
+  double trial = 0;   ///< cost of one trial: one world of every condition, with all methods
+  double spread = 0;  ///< standard deviation of paired differences (ScenarioForecast::spread); 0 = not measured
+  /// The number of sampling units (ScenarioForecast::units) for this number of trials and this seed. 0 = not stored,
+  /// because each world is its own unit.
   int units = 0;
   int trials = 0;
   std::uint64_t seed = 0;
@@ -32,12 +33,13 @@ struct KeptCost {
   }
 };
 
-/// Reads the stored costs of shipped scenarios, by WorkOf. Empty if no table is shipped. Fails if the table is invalid.
+/// Reads the stored costs of shipped scenarios, by WorkOf. The result is empty if no table of costs is shipped. Fails
+/// if the table is invalid.
 Result<std::map<std::string, KeptCost>> ReadKeptCosts();
 
 /// The speed of this machine under its present load.
 struct Pace {
-  double yardsticks_per_s = 0;  ///< yardsticks per second of wall time, all workers together
+  double yardsticks_per_s = 0;  ///< yardsticks of work per second of wall time, all workers together
   double yardstick_ms = 0;      ///< processor time of one yardstick; 0.5 ms on an AMD EPYC
 };
 

@@ -34,8 +34,8 @@ int CountUnitsOf(const PreparedScenario& prepared) {
   return static_cast<int>(units.size());
 }
 
-/// Returns a step with which all conditions are visited in an order without a trend. An order with a trend would bias
-/// the measured cost, because costs change along a sweep.
+/// Returns a step by which the conditions are visited in an order without a trend. The visited conditions serve to
+/// measure costs. Costs change along a sweep, so visiting conditions in order would bias the measurement.
 int StepOver(int conditions) {
   constexpr double kGolden = 0.618;
   int step = std::max(1, static_cast<int>(std::lround(kGolden * conditions)));
@@ -57,9 +57,9 @@ bool AreInstalled(const std::vector<std::string>& references, const Place& place
   });
 }
 
-/// Returns true if a scenario with a stored cost can be forecast without preparation. Everything that it names must
-/// come with the program, so that its input is as valid as when the cost was measured. Its number of units must be
-/// known.
+/// Returns true if the cost of a scenario can be forecast without loading its input. Everything that the scenario names
+/// must come with the program, so that the input is as valid as when the stored cost was measured. The number of
+/// sampling units must be known.
 bool IsKnown(const Scenario& scenario, const ScenarioSetup& setup, const KeptCost& cost) {
   const bool names_no_file = setup.streams.empty() && setup.labels.empty() && setup.files.empty() &&
                              ProgramsIn(scenario).empty() &&
@@ -72,7 +72,7 @@ bool IsKnown(const Scenario& scenario, const ScenarioSetup& setup, const KeptCos
          (WorldsAreUnits(scenario.unit) || cost.UnitsOf(setup.trials, setup.seed));
 }
 
-/// Computes ScenarioForecast::spread from the cells in a table.
+/// Computes ScenarioForecast::spread, the standard deviation of paired differences, from the cells in a table.
 double SpreadOf(const Study& study, const ScenarioTable& table, const std::string& metric) {
   const auto asked = std::ranges::find_if(study.methods, [](const auto& one) { return one.name != one.against; });
   if (asked == study.methods.end()) return 0;
@@ -88,8 +88,9 @@ double SpreadOf(const Study& study, const ScenarioTable& table, const std::strin
   return deviations.empty() ? 0 : Quantile(deviations, 0.5);
 }
 
-/// Runs at least one world, and further worlds until the clock reaches `until`. Returns their mean time, seconds. Adds
-/// their cells to `table`. The first world includes one-time costs, so it is left out if there are others.
+/// Runs at least one world, and further worlds until the clock reaches `until`. Returns the mean time of a world,
+/// seconds, and adds the worlds' cells to `table`. The first world includes one-time costs, so the mean leaves it out
+/// if other worlds were run.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
                               Clock::time_point start, ScenarioTable& table) {
   const Scenario& scenario = prepared.scenario();
@@ -113,16 +114,17 @@ double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fen
   return world == 1 ? first : others / (world - 1);
 }
 
-/// Replaces a secret key, so that the outside programs asked by a dry run learn nothing about the real run.
+/// Replaces a secret key by another one, so that the outside programs that a dry run starts learn nothing about the
+/// worlds of the real run.
 void ThrowOtherDice(SuiteSetup& suite) {
   constexpr Words256 kDryRun = {0x0064'7279'2d72'756e};
   suite.seed = Seed::Secret(Encrypt(suite.seed.key(), kDryRun));
   for (ScenarioSetup& scenario : suite.scenarios) scenario.seed = suite.seed;
 }
 
-/// Returns the number of worlds in the shard, among the `count` worlds of the plan that begin with number `first`.
+/// Returns how many of `count` worlds, the first of which has number `first` in the plan, belong to the shard.
 std::size_t CountIn(const Shard& shard, std::size_t first, std::size_t count) {
-  const auto before = [&](std::size_t end) {  // counts the worlds of the shard before `end`
+  const auto before = [&](std::size_t end) {  // counts the shard's worlds with numbers below `end`
     const auto step = static_cast<std::size_t>(shard.count), offset = static_cast<std::size_t>(shard.index - 1);
     return end <= offset ? 0 : (end - offset - 1) / step + 1;
   };
@@ -132,15 +134,16 @@ std::size_t CountIn(const Shard& shard, std::size_t first, std::size_t count) {
 }  // namespace
 
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
-  // Check all input as a run does. Scenarios with a stored cost need no check, because they were valid when the cost
-  // was measured.
+  // Check all input as a run does. A scenario with a stored cost needs no check, because its input was valid when the
+  // cost was measured.
   ASSIGN_OR_RETURN(auto suite, ReadSuiteToRun(options));
   if (!suite.seed.IsPlain()) ThrowOtherDice(suite);
   ASSIGN_OR_RETURN(const auto kept, ReadKeptCosts());
   std::vector<ScenarioForecast> told;
   std::vector<Study> studies;
   std::vector<const KeptCost*> costs;
-  std::vector<std::optional<std::size_t>> prepared_at;  // index among the prepared scenarios
+  // Index of each scenario among the prepared scenarios; nullopt if it was not prepared.
+  std::vector<std::optional<std::size_t>> prepared_at;
   std::vector<ScenarioSetup> unknown;
   for (ParsedSuite parsed(suite); const ScenarioSetup& setup : suite.scenarios) {
     ASSIGN_OR_RETURN(const Scenario scenario, parsed.Find(setup));
@@ -167,9 +170,11 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   ASSIGN_OR_RETURN(const auto prepared, PrepareToRun(suite, options));
   Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs), .pace = {}};
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared, options.outside, "", options.key));
-  // Measure the speed of this machine, by which stored costs are scaled.
+  // Measure the speed of this machine. Stored costs are multiples of a yardstick of work, so the speed turns them into
+  // seconds.
   ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));
-  const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // for one worker
+  // Wall time of a yardstick on one worker.
+  const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;
   const auto start = Clock::now();
   double total = 0;
   std::size_t first_world = 0, measured = 0;
@@ -184,7 +189,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
     const std::size_t all = one.conditions * one.worlds, in_shard = CountIn(options.shard, first_world, all);
     first_world += all;
     forecast.cells += in_shard * one.methods;
-    // Find the cost per world and the spread: stored, or measured.
+    // Find the cost per world and the spread of differences: use stored values, or measure them.
     const auto worlds = static_cast<double>(in_shard);
     if (one.is_kept) {
       if (worlds > 0) total += seconds_per_yardstick * costs[i]->once;

@@ -17,7 +17,8 @@ namespace etude {
 namespace {
 
 constexpr std::uint32_t kInMemory = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kMemory = std::size_t{64} << 20;  // bytes, for the parts of all files together
+// Memory for the parts of all files that are cached together, bytes.
+constexpr std::size_t kMemory = std::size_t{64} << 20;
 constexpr std::size_t kMaxPartBytes = 1 << 20, kMinPartBytes = 1 << 14;
 
 namespace fs = std::filesystem;
@@ -44,14 +45,15 @@ Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
   return head;
 }
 
-/// The position of a cell's line.
+/// The position of a cell's line in a journal file.
 struct LineInFile {
   std::uint32_t file;
   std::uint64_t offset;
   std::size_t length;
 };
 
-/// Adds a cell to `cells`. Returns false if the cell already has a line. Fails if the cell is not in the shard.
+/// Records the position of a cell's line in `cells`. Returns false if the cell already has a line. Fails if the cell is
+/// not in the shard.
 Result<bool> AddCell(const CellLineHead& head, const LineInFile& line, const Place& place, const Plan& plan,
                      const Shard& shard, CellTable& cells) {
   const std::size_t cell = head.cell;
@@ -109,8 +111,8 @@ Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
 
 Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
   const std::size_t size = std::clamp(kMemory / sources_.size(), kMinPartBytes, kMaxPartBytes);
-  // Lines are in order of completion, so the line of the next cell may come shortly before this one. Begin reading
-  // earlier.
+  // Lines are in order of completion, so the cell that is read next may have its line shortly before this one.
+  // Therefore, read a part of the file that begins earlier.
   source.begin = place.offset - std::min<std::uint64_t>(place.offset, size / 2);
   source.part.resize(std::max<std::size_t>(size, place.offset - source.begin + place.length));
   ASSIGN_OR_RETURN(const auto file, OpenFile(source.file, O_RDONLY));
@@ -192,7 +194,7 @@ Result<void> Journal::Sync() {
 
 namespace {
 
-/// Returns the first undamaged copy of the head. The copies are the first lines of the file.
+/// Returns the first undamaged copy of the head. The file begins with two copies.
 Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
   std::string line;
   int read = 0;
@@ -224,7 +226,7 @@ Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, Cel
   int number = 1;
   for (std::string line;; ++number, offset += line.size() + 1) {
     ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
-    if (!has_line || !lines.had_end()) break;  // an incomplete last line
+    if (!has_line || !lines.had_end()) break;  // ignores an incomplete last line
     if (number <= kHeads) continue;
     // A line with a wrong checksum is damaged.
     const auto cell = ReadCellLineHead(line);

@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// The positions of the lines of finished cells, by the cell's number in the plan of a run or shard. Lines stay on the
+/// Stores where the lines of finished cells are, by the cell's number in the plan of a run or shard. Lines stay on the
 /// disk until they are read, so runs of any size fit into memory.
 class CellTable {
  public:
@@ -25,24 +25,24 @@ class CellTable {
   bool Has(std::size_t cell) const { return places_[cell].length > 0; }
   std::vector<bool> Done() const;
 
-  /// Adds a file that holds lines of cells. Returns the file's number, which Put needs.
+  /// Adds a file that contains lines of cells. Returns the file's number, which the other overload of Put needs.
   std::uint32_t AddFile(const FilePath& file);
   void Put(std::size_t cell, std::uint32_t file, std::uint64_t offset, std::size_t length);
   /// Stores the line of a cell in memory.
   void Put(std::size_t cell, std::string line);
 
-  /// Reads a cell. The cell must have a line. Reading is fast if cells are read in roughly the order of their lines.
+  /// Reads a cell, which must have a line. Reading is fast if cells are read in roughly the order of their lines.
   Result<FinishedCell> Read(std::size_t cell, const Plan& plan);
-  /// Reads the line of a cell. The result is valid until the next call.
+  /// Reads the line of a cell. The returned text is valid until the next call.
   Result<std::string_view> ReadLine(std::size_t cell);
 
  private:
   struct LinePlace {
-    std::uint64_t offset = 0;  ///< the offset in the file, or the index in `lines_`
-    std::uint32_t length = 0;  ///< 0 = no line
+    std::uint64_t offset = 0;  ///< offset in the file, or index in `lines_` for a line in memory
+    std::uint32_t length = 0;  ///< length of the line, bytes; 0 = the cell has no line
     std::uint32_t file = 0;
   };
-  /// A file, and the part of it that was read last. The part begins at offset `begin` of the file.
+  /// A file, and the cached part of it that was read last. This part begins at offset `begin` of the file.
   struct Source {
     FilePath file;
     std::uint64_t begin = 0;
@@ -65,16 +65,17 @@ struct JournalHead {
   Shard shard;
 };
 
-/// The maximum age and size of lines that are not yet synchronised to the disk. The limit that is reached first counts.
+/// The maximum age and size of lines that are not yet synchronised to the disk. When either limit is reached, the
+/// journal must be synchronised.
 struct JournalLag {
   double seconds = 1;
   double mebibytes = 1;
 };
 
-/// The append-only record of a run in progress, and of a finished shard. It is a file of JSON Lines. First comes the
-/// head, twice, because nothing can be read without it. Then comes one line per cell (cell_line.h), in order of
-/// completion. Each line is written at once; lines are synchronised to the disk in groups. If outside programs measure
-/// a cell, it has two lines: an answered one with its motion, and a finished one.
+/// The append-only record of a run in progress, and of a finished shard. It is a file of JSON Lines. It begins with two
+/// copies of the head, because no line can be read without the head. Then comes one line per cell (cell_line.h), in
+/// order of completion. Each line is written at once; lines are synchronised to the disk in groups. If outside programs
+/// measure a cell, the cell has two lines: an answered line with its motion, and a finished line.
 class Journal {
  public:
   static Result<Journal> Begin(const std::filesystem::path& folder, const JournalHead& head,
@@ -96,7 +97,7 @@ class Journal {
   FilePath path_;
   Descriptor file_;
   JournalLag sync_;
-  std::uint64_t end_ = 0;  ///< the offset of the file's end
+  std::uint64_t end_ = 0;  ///< size of the file, bytes
   std::size_t unsynced_bytes_ = 0;
   Clock::time_point synced_at_ = Clock::now();
 };
@@ -105,15 +106,17 @@ Result<JournalHead> ReadJournalHead(const std::filesystem::path& folder);
 
 struct JournalContent {
   JournalHead head;
-  std::vector<int> damaged;  ///< numbers, from 1, of lines that are ignored: changed, or duplicates
+  /// Numbers, from 1, of the lines that are ignored because they were changed or are duplicates.
+  std::vector<int> damaged;
   std::size_t cells = 0, cells_ok = 0;
-  std::size_t answered = 0;  ///< cells that are answered but not yet measured
+  std::size_t answered = 0;  ///< number of cells that are answered but not yet measured
 };
 
-/// Reads the finished cells of a journal into `cells`, and the cells that are answered but not measured into `answered`
-/// (unless null). Both tables have one entry per cell of `plan`. An incomplete last line, left by a kill, is ignored.
-/// If a line was changed (a flipped bit, an edit), only its own cell is lost. If a cell has two lines of one kind, the
-/// second is ignored. Fails, with file and line, at a valid line whose cell is not in the plan or shard.
+/// Reads the finished cells of a journal into `cells`. Unless `answered` is null, reads the cells that are answered but
+/// not measured into `answered`. Both tables have one entry per cell of `plan`. If the last line is incomplete, because
+/// the process was killed, it is ignored. If a line was changed (a flipped bit, an edit), only its own cell is lost. If
+/// a cell has two lines of one kind, the second is ignored. Fails, with file and line, at a valid line whose cell is
+/// not in the plan or shard.
 Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells,
                                    CellTable* answered = nullptr);
 

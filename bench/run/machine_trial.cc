@@ -25,8 +25,8 @@ bool Draws(const PreparedScenario& prepared) {
   return IsFilmed(scenario) || FindTaskKind(scenario.task)->platform != nullptr;
 }
 
-/// Makes a renderer in a forked copy of this process. Mesa ends the process if memory is short; the copy keeps this
-/// process alive.
+/// Makes a renderer in a forked copy of this process. If memory is short, Mesa ends the process; only the copy then
+/// ends.
 Result<void> TryRendererInACopy() {
   constexpr int kNotLoaded = 2;
   ASSIGN_OR_RETURN(ForkedCopy copy, ForkedCopy::Start([](int) {
@@ -40,8 +40,8 @@ Result<void> TryRendererInACopy() {
   return Fail({}, "drawing is impossible: Mesa gets no memory, or provides no context");
 }
 
-/// Fails if there is no fence because processes, memory or files are short. Any other reason for having no fence is
-/// accepted.
+/// Fails if the sandbox (fence) could not be made because processes, memory or files are short. Any other reason why
+/// there is no sandbox is accepted.
 Result<void> CheckFence(const Fence& fence) {
   for (const int shortage : {EAGAIN, ENOMEM, EMFILE, ENFILE}) {
     if (!fence.IsUp() && fence.description().find(std::strerror(shortage)) != std::string::npos) {
@@ -65,7 +65,8 @@ Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence
       RETURN_IF_ERROR(CheckFence(fence));
       ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("trial"));
       if (auto kept = WriteFileAtomically(folder.path() / "file", "a file of some bytes\n"); !kept) {
-        const std::string& said = kept.error().message;  // the path is temporary, so only the reason is useful
+        // Keeps only the reason, because the path in the error is temporary.
+        const std::string& said = kept.error().message;
         return Fail({folder.path().parent_path().string()}, "takes no temporary files: {}",
                     said.substr(said.rfind(": ") + 2));
       }

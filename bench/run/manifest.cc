@@ -50,11 +50,11 @@ Json DescribeClips(const ClipLibrary& library) {
   return clips;
 }
 
-/// Lists the files of a task that judges files. Each world has its truth first, if there is one, and then all its
-/// answers.
+/// Lists the files of a task that judges files. For each world, lists the file with the ground truth, if there is one,
+/// and then the files of all answers.
 Json DescribeFiles(const PreparedScenario& scenario) {
   Json files = Json::array();
-  std::map<std::string, Result<std::string>> known;  // several worlds may be in one file
+  std::map<std::string, Result<std::string>> known;  // results by file, because several worlds may be in one file
   for (const JudgedFiles& world : scenario.setup().files) {
     std::vector<std::string> references = {world.truth};
     references.insert(references.end(), world.answers.begin(), world.answers.end());
@@ -111,7 +111,7 @@ constexpr std::array kDecisiveLibraries = {
 /// Returns the builds of the libraries in kDecisiveLibraries: the name and the first half of the build ID.
 Result<Json> DescribeLibraries() {
   constexpr std::size_t kToldDigits = 20;
-  // If the renderer is not installed, it is left out of the list.
+  // If the renderer is not installed, leave it out of the list.
   if (auto loaded = LoadRenderer(); !loaded && IsOfThisMachine(loaded.error())) return tl::unexpected(loaded.error());
   Json libraries = Json::object();
   for (const auto& [name, build] : LoadedLibraries()) {
@@ -122,8 +122,8 @@ Result<Json> DescribeLibraries() {
   return libraries;
 }
 
-/// Adds the differences between `then` and `now` to `found`. `path` is the place of the two values within their
-/// manifests.
+/// Adds the differences between two values of manifests, `then` and `now`, to `found`. `path` is the position of both
+/// values within their manifests.
 void CompareJson(const std::string& path, const Json& then, const Json& now, std::vector<JsonDifference>& found) {
   if (then == now) return;
   if (then.is_object() && now.is_object()) {

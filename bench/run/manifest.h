@@ -11,25 +11,26 @@
 
 namespace etude {
 
-/// Makes manifest.json, from which the run can be repeated. Its bytes do not depend on the place or the way of running.
-/// Fails if the renderer is installed but cannot be loaded, because the list of libraries would then be incomplete.
+/// Makes manifest.json, from which the run can be repeated. Its bytes do not depend on the working folder or on the
+/// number of workers. Fails if the renderer is installed but cannot be loaded, because the list of libraries would then
+/// be incomplete.
 Result<Json> MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
                           const std::string& version);
 
-/// Reads the suite that a manifest describes. Fails if the manifest's schema has another version.
+/// Reads the suite that a manifest describes. Fails if the manifest's schema has another version than this program's.
 Result<SuiteSetup> ReadManifest(const FilePath& path);
 
 /// Fails if the clips of `scenarios` differ from the clips that the manifest at `path` describes.
 Result<void> CheckClips(const FilePath& path, std::span<const PreparedScenario> scenarios);
 
-/// A run that is prepared to be resumed, merged or repeated.
+/// A run, read from its manifest, that can be resumed, merged or repeated.
 struct PreparedRun {
   SuiteSetup suite;
   std::vector<PreparedScenario> scenarios;
 };
 
-/// Prepares the run that a manifest describes. Fails if its clips have changed (CheckClips). Secret worlds need their
-/// key.
+/// Prepares the run that a manifest describes. Fails if the run's clips have changed (CheckClips). A run in secret
+/// worlds needs its key.
 Result<PreparedRun> PrepareRun(const FilePath& manifest, const std::optional<SecretKey>& key = {});
 
 /// A value that differs between two manifests.
@@ -40,18 +41,18 @@ struct JsonDifference {
   bool operator==(const JsonDifference&) const = default;
 };
 
-/// Returns all values that differ between two manifests.
+/// Returns all values that differ between an earlier and the present manifest.
 std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now);
 /// Describes the first few differences in words: "seed was 1 and is 2; …".
 std::string InWords(std::span<const JsonDifference> differences);
-/// Returns true if only libraries differ: every path begins with "libraries.".
+/// Returns true if the differences concern only libraries: every path begins with "libraries.".
 bool AreOfLibraries(std::span<const JsonDifference> differences);
 /// Reads the differences of libraries that are recorded in a run's folder.
 Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path& folder);
 /// Records in the run's folder which libraries changed while its cells were computed. Each difference is recorded once.
 Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span<const JsonDifference> differences);
 
-/// Makes host.json, which says on which machine and how the run was made.
+/// Makes host.json, which describes the machine, the command line and the duration of the run.
 Json DescribeHost(const std::string& command_line, int jobs, double seconds);
 
 /// Returns a digest of the running program. It differs between builds.

@@ -20,13 +20,13 @@ namespace fs = std::filesystem;
 struct Shards {
   int count = 0;
   std::map<int, fs::path> folders;
-  std::string manifest;              ///< the text of the shards' common manifest
-  std::vector<std::string> missing;  ///< for messages: shards that are in no folder, and folders without a shard
+  std::string manifest;              ///< text of the manifest, which all shards share
+  std::vector<std::string> missing;  ///< messages about shards that are in no folder, and about folders without a shard
   std::vector<JsonDifference> other_libraries = {};
 };
 
-/// Fails unless a shard's manifest equals those of the earlier shards. With `other_libraries`, differing libraries are
-/// allowed and collected.
+/// Fails unless a shard's manifest equals those of the earlier shards. If `other_libraries` is true, libraries may
+/// differ, and the differences are collected.
 Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool other_libraries, Shards& shards) {
   if (head.manifest == Digest().Add(std::string_view(shards.manifest)).Hex()) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(shards.manifest, shards.folders.begin()->second.string()));
@@ -85,8 +85,7 @@ Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_li
   return shards;
 }
 
-/// Describes the missing cells of a shard, e.g. "2/4 in DIR lacks 3 of 40 cells, the first ik/…"; "" if none is
-/// missing.
+/// Describes which cells a shard lacks, e.g. "2/4 in DIR lacks 3 of 40 cells, the first ik/…"; "" if it lacks none.
 std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& folder, const CellTable& cells) {
   std::size_t wanted = 0, lacking = 0;
   std::string first;
@@ -114,7 +113,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();
   RunOutcome outcome{.folder = options.output, .cells = cells.size()};
-  // Reading the shards is the first half of the progress, writing the run the second.
+  // Reading the shards counts as the first half of the progress, writing the run as the second.
   const auto goes_on = [&](double share) {
     on_progress(share);
     return options.stop == nullptr || !*options.stop;

@@ -21,10 +21,11 @@ Payload SettingOf(const MetricInfo& info, const std::string& task) {
 
 /// The value that a metric's program returned for a cell.
 struct Measured {
-  Status status = Status::kOk;  ///< kOk: a number, or null with a reason; kUnsolved: no answer; else: a failure
+  /// kOk: a number, or null with a reason; kUnsolved: the program gave no answer; any other status: a failure.
+  Status status = Status::kOk;
   MetricValue value;
 
-  /// Returns true if the program itself said that the cell has no value.
+  /// Returns true if the metric program itself said that the cell has no value.
   bool IsNull() const { return !value.value && (status == Status::kOk || status == Status::kUnsolved); }
 };
 
@@ -84,7 +85,7 @@ OutsideReply OutsideMetrics::Ask(std::size_t metric, const std::string& id, cons
 std::string OutsideMetrics::Measure(const std::string& cell, CellResult& result) {
   if (programs_.empty() || !result.recording) return "";
   auto json = EncodeMotions(*result.recording);
-  if (!json) json = Json::object();  // the line of the cell reports this error
+  if (!json) json = Json::object();  // the same error is reported when the cell's line is encoded
   const Payload told = PayloadOf(*std::move(json));
   for (std::size_t m = 0; m < programs_.size(); ++m) {
     const OutsideReply reply = Ask(m, cell, told);

@@ -8,16 +8,17 @@
 
 namespace etude {
 
-/// The metrics of a scenario that outside programs measure. Each program is started for its first cell and then kept
-/// running. It receives the recording of the cell, including the truth, which outside methods never receive.
+/// The metrics of a scenario that outside programs measure. A program is started when it must measure its first cell,
+/// and keeps running. It receives the recording of the cell, including the ground truth, which outside methods never
+/// receive.
 class OutsideMetrics {
  public:
-  /// The arguments are those of CellRunner's constructor. The scenario must outlive this object.
+  /// The arguments have the same meaning as in CellRunner's constructor. The scenario must outlive this object.
   OutsideMetrics(const PreparedScenario& scenario, const std::string& error_folder, const Fence& fence);
 
   bool empty() const { return programs_.empty(); }
-  /// Adds every metric's value, or the reason why it has none, to the result of a cell with a recording. Does nothing
-  /// for a cell without a recording. Returns the reason why this machine could not ask a program; "" = no fault.
+  /// Adds every metric's value, or the reason why there is none, to the result of a cell with a recording. Does nothing
+  /// for a cell without a recording. If this machine could not run a program, returns the reason, else "".
   std::string Measure(const std::string& cell, CellResult& result);
   /// Lets the programs measure every test vector. Fails at the first wrong value, naming the expected and the found
   /// value.

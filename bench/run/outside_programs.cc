@@ -42,14 +42,14 @@ bool Holds(const fs::path& folder, const fs::path& path) {
   return std::ranges::mismatch(folder, path).in1 == folder.end();
 }
 
-/// Returns true if a folder below a system folder is Etude's own, e.g. /opt/NAME or /usr/src/NAME, and does not contain
-/// the program. It may then be hidden as a whole.
+/// Returns true if a folder below a system folder belongs to Etude, e.g. /opt/NAME or /usr/src/NAME, and does not
+/// contain the outside program. The whole folder may then be hidden from the program.
 bool IsOursInSystem(const fs::path& folder, const fs::path& program) {
   const auto depth = std::distance(folder.begin(), folder.end());
   return Fence::IsOfSystem(folder) && depth >= (Holds("/opt", folder) ? 3 : 4) && !Holds(folder, program);
 }
 
-/// Fails if a program that runs in secret worlds would see a file that reveals them.
+/// Fails if an outside program in secret worlds could see a file that reveals them.
 Result<void> CheckShown(const PreparedScenario& scenario, const ScenarioProgram& program, const ProgramView& view,
                         const fs::path& folder, const std::optional<SecretKey>& key) {
   const std::pair<const char*, fs::path> secrets[] = {
@@ -94,7 +94,7 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
   if (ProgramsOf(scenarios).empty()) return Fence();
   Fence fence = rules.is_fenced ? Fence::Find() : Fence();
   std::error_code error;
-  // Hide all named pipes, and the working folder and the scenarios' folders if they are below a system folder.
+  // Hide all named pipes. Hide the working folder and the scenarios' folders too if they are below a system folder.
   std::vector<fs::path> ours = {fs::current_path(error)};
   for (const PreparedScenario& scenario : scenarios) {
     const bool is_secret = !scenario.setup().seed.IsPlain();
@@ -111,7 +111,7 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
           for (const fs::path& pipe : Fence::PipesBelow(shown)) fence.Hide(pipe);
         }
       }
-      // Secret worlds need a working fence, and their files must be hidden.
+      // If worlds are secret, the sandbox must work, and the files that reveal the worlds must be hidden.
       if (!is_secret || !rules.is_fenced) continue;
       if (!fence.IsUp()) {
         return Fail({scenario.setup().file},

@@ -14,8 +14,8 @@ namespace etude {
 
 /// The rules for running the outside programs of a run.
 struct OutsideRules {
-  bool is_fenced = true;    ///< true: the sandbox is used, if the kernel allows it
-  bool allow_exec = false;  ///< true: also run programs named by a manifest or a pack, which may come from a stranger
+  bool is_fenced = true;    ///< true: outside programs run in the sandbox, if the kernel allows it
+  bool allow_exec = false;  ///< true: also run programs that a manifest or a pack names, which may come from a stranger
 };
 
 /// Lists every method and every metric that is a program, e.g. "python3 my_solver.py (ik-weights/mine)".
@@ -25,16 +25,17 @@ std::vector<std::string> ProgramsOf(std::span<const PreparedScenario> scenarios)
 Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScenario> scenarios,
                            const OutsideRules& rules);
 
-/// Makes the fence for the programs of these scenarios. It hides the run's `folder` ("" = none). Without programs, the
-/// fence is empty. Fails if worlds are secret and this machine has no fence, unless the rules switch the fence off.
-/// Fails also if a program would see a scenario with secret worlds, the run's folder or the key's file.
+/// Makes the sandbox for the outside programs of these scenarios. It hides the run's `folder` ("" = none). Without
+/// outside programs, the sandbox is empty. Fails if worlds are secret and this machine cannot make a sandbox, unless
+/// the rules switch the sandbox off. Fails also if an outside program could see a scenario with secret worlds, the
+/// run's folder or the key's file.
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
                        const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 
-/// Makes the fence hide the truth in an exported data set or in a run's folder.
+/// Makes the sandbox hide the ground truth in an exported data set or in a run's folder.
 void HideTruthIn(const std::filesystem::path& folder, Fence& fence);
 
-/// EncodeFence writes a fence as JSON, for the set-up of a worker. DecodeFence reads it.
+/// EncodeFence writes a sandbox as JSON, for the set-up of a worker. DecodeFence reads this JSON.
 Json EncodeFence(const Fence& fence);
 Fence DecodeFence(const Json& json);
 

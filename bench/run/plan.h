@@ -19,7 +19,8 @@ struct World {
   int trial = 0;
 };
 
-/// A part of a run, "2/8": the worlds whose number in the plan, modulo `count`, is `index` − 1.
+/// A part of a run, written as "2/8" (`index`/`count`): the worlds whose number in the plan, modulo `count`, is `index`
+/// − 1.
 struct Shard {
   int index = 1;
   int count = 1;
@@ -49,9 +50,10 @@ class Plan {
   const PreparedScenario& scenario_of(std::size_t world) const { return scenarios_[worlds_[world].scenario]; }
   std::size_t CellAt(std::size_t world, std::size_t method) const { return first_cells_[world] + method; }
   std::size_t MethodCount(std::size_t world) const { return first_cells_[world + 1] - first_cells_[world]; }
-  /// Returns the world of a cell. Its method is `cell − CellAt(world, 0)`.
+  /// Returns the index of the world to which a cell belongs. The index of the cell's method is `cell − CellAt(world,
+  /// 0)`.
   std::size_t WorldOf(std::size_t cell) const;
-  /// Returns the row of a cell without a result.
+  /// Returns the row of a cell, still without a result.
   Row IdentityOf(std::size_t cell) const;
   bool IsIn(const Shard& shard, std::size_t world) const {
     return world % static_cast<std::size_t>(shard.count) == static_cast<std::size_t>(shard.index - 1);
@@ -62,14 +64,15 @@ class Plan {
  private:
   std::span<const PreparedScenario> scenarios_;
   std::vector<World> worlds_;
-  std::vector<std::size_t> first_cells_;  ///< the first cell of each world, and finally the number of all cells
+  /// Number of the first cell of each world; the last entry is the number of all cells.
+  std::vector<std::size_t> first_cells_;
 };
 
 /// The orders that no worker has taken yet, by condition. The worlds of a condition share data (thresholds, tuned
-/// weights), which every worker must prepare for itself. A worker therefore stays with its condition as long as it has
-/// orders. Then it begins the next condition that no worker has begun, and only if there is none does it help with the
-/// condition that has the most orders left. Conditions with long worlds are helped first, because a long world that is
-/// begun last leaves all other workers idle.
+/// weights), which every worker must prepare for itself. A worker therefore stays with its condition until no orders of
+/// it are left. Then it begins the next condition that no worker has begun. If every condition has been begun, it joins
+/// the condition with the most orders left. If a begun condition has long worlds, the worker joins this condition even
+/// before it begins another one, because a long world that is begun last leaves all other workers idle.
 class OrderQueue {
  public:
   /// The condition of a worker that has not had an order yet.
@@ -80,8 +83,8 @@ class OrderQueue {
 
   bool empty() const { return left_ == 0; }
   std::size_t size() const { return left_; }
-  /// Removes and returns the next order. At least one must be left. `condition` is the worker's condition; it is
-  /// updated.
+  /// Removes and returns the next order; there must be one. `condition` is the worker's condition, which this function
+  /// updates.
   Order Take(std::size_t& condition);
   /// Returns an unfinished order to the front of its condition's queue.
   void PutBack(Order order);
@@ -96,7 +99,7 @@ class OrderQueue {
 
   std::vector<Condition> conditions_;  ///< in the order of the plan
   std::function<bool(int scenario)> is_long_;
-  std::vector<std::size_t> open_;  ///< begun conditions; the orders of some may be used up
+  std::vector<std::size_t> open_;  ///< conditions that were begun; some of them may have no orders left
   std::size_t begun_ = 0;          ///< the number of conditions that were begun or had no orders
   std::size_t left_ = 0;
 };

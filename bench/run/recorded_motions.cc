@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the recordings of `cell`. If `cell` names a world without a method, returns the recordings of all methods.
+/// Returns the recordings of a cell. If `cell` names a world but no method, returns the recordings of all methods in
+/// it.
 std::vector<FilePath> RecordingsOf(const fs::path& run, const std::string& cell) {
   if (FilePath own = RecordingFile(run, cell); Exists(own)) return {std::move(own)};
   const std::string world = RecordingFile(run, cell + "/").whole().stem().string();
@@ -41,7 +42,8 @@ Result<SplitReference> ReferTo(const FilePath& file, const std::optional<std::st
   return SplitReference{file.string(), animation};
 }
 
-/// Reads the two motions, truth and answer, of a cell of task evaluation. They have the judged joints only.
+/// Reads the two motions, ground truth and answer, of a cell of task evaluation. They contain only the joints that are
+/// judged.
 Result<ClipFile> ReadPair(const std::string& extras_json, const std::string& path, const OpenOptions& options) {
   const auto pair = ReadEvaluationExtras(extras_json);
   if (!pair) return Fail({path}, "a recording without a motion");
