@@ -31,7 +31,7 @@ fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
   return fmt::format("out/{}-{}{}", suite.suite, seed, part);
 }
 
-/// Examines the folder. Fails if the options do not allow writing into it.
+/// Examines a result folder. Fails if the options do not allow writing into it, for example because it contains a run.
 Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& options) {
   auto state = LookAtFolder(folder);
   if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;
@@ -40,8 +40,8 @@ Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& option
               *state == FolderState::kFinished ? "" : "--resume continues it, ");
 }
 
-/// Fails unless the folder's manifest equals `manifest`. With `other_libraries`, libraries may differ, and the
-/// differences are recorded.
+/// Fails unless the folder's manifest equals `manifest`. If `other_libraries` is true, libraries may differ, and the
+/// folder records the differences.
 Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, bool other_libraries) {
   const FilePath path = Inside(folder) / "manifest.json";
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
@@ -106,7 +106,7 @@ class JournalRecorder {
     return journal_.IsSyncDue() ? Sync() : Result<void>();
   }
 
-  /// Synchronises the journal, then reports the cells that are now safe.
+  /// Synchronises the journal to the disk, then reports how many cells are safe there.
   Result<void> Sync() {
     RETURN_IF_ERROR(journal_.Sync());
     progress_ = unsynced_;
@@ -115,7 +115,8 @@ class JournalRecorder {
     return {};
   }
 
-  /// Reports the progress once a second, because the elapsed time changes even if no more cells are safe.
+  /// Reports the progress once a second, so that the user sees the elapsed time even if no further cell is safe on the
+  /// disk.
   void Wait() {
     const double now = SecondsSince(start_);
     if (now - progress_.seconds < 1) return;
@@ -128,10 +129,11 @@ class JournalRecorder {
  private:
   const Clock::time_point start_ = Clock::now();
   CellTable& cells_;
-  CellTable* answered_;  ///< null if no program measures cells
+  CellTable* answered_;  ///< the answered cells, which programs must still measure; null if there are no such programs
   Journal journal_;
-  std::uint32_t file_, answered_file_;  ///< numbers of the journal in the two tables
-  Progress progress_, unsynced_;  ///< the progress of the cells that are synced to the disk, and of all written cells
+  std::uint32_t file_, answered_file_;  ///< numbers of the journal file in `cells_` and in `answered_`
+  /// Progress that counts the cells synchronised to the disk, and progress that counts all written cells.
+  Progress progress_, unsynced_;
   const std::function<void(const Progress&)>& on_progress_;
 };
 
@@ -149,15 +151,15 @@ Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
   return outcome;
 }
 
-/// An open journal, and the progress at which it was opened.
+/// An open journal, and the progress of the run when the journal was opened.
 struct OpenedJournal {
   Journal journal;
-  Progress before;  ///< `cells` is the final number of cells of the folder
+  Progress before;  ///< `cells` is the number of cells that the folder will have at the end
   std::vector<int> damaged;
 };
 
-/// Writes the manifest and begins a journal. With `continues`, reads the cells of the existing journal into `cells`
-/// and, unless null, `answered`, and continues that journal.
+/// Writes the manifest and begins a journal. If `continues` is true, continues the existing journal and reads its
+/// finished cells into `cells` and its answered cells into `answered` (unless null).
 Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& manifest, const JournalHead& head,
                                   bool continues, const RunOptions& options, const Plan& plan, CellTable& cells,
                                   CellTable* answered) {
@@ -185,7 +187,7 @@ Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& man
 }
 
 /// Writes the results of a whole run. For a shard, which keeps its journal, writes only host.json. Returns false if the
-/// user stopped it. `was_done` is true if nothing was left to run.
+/// user stopped the writing. `was_done` is true if all cells had already been run.
 Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, bool was_done,
                           const RunOptions& options, Progress progress,
                           const std::function<void(const Progress&)>& on_progress) {
@@ -219,7 +221,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     RETURN_IF_ERROR(TryMachine(scenarios, fence));
     RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
   }
-  // Collect everything that identifies the run.
+  // Collect the data that identify the run: plan, manifest and build.
   const Plan plan(scenarios);
   ASSIGN_OR_RETURN(const auto described, MakeManifest(suite, scenarios, options.program_version));
   ASSIGN_OR_RETURN(const auto manifest, WriteJson(described));
@@ -232,14 +234,14 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const bool may_be_used = options.reuse_key;
   const bool is_secret = !suite.seed.IsPlain();
   if (is_secret && !may_be_used && !continues) RETURN_IF_ERROR(CheckUnused(*options.key, use));
-  // Claim the folder. From here on, files are written.
+  // Claim the folder. Files are written from here on only.
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   if (continues) {
     RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n", options.other_libraries));
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
     if (is_secret && !may_be_used) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   }
-  // Open the journal, and run the cells that are missing in it.
+  // Open the journal, and run the cells that the journal lacks.
   CellTable cells(plan.cell_count()), answered_cells(HasOutsideMetrics(plan) ? plan.cell_count() : 0);
   CellTable* const answered = answered_cells.size() > 0 ? &answered_cells : nullptr;
   ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells, answered));
@@ -285,7 +287,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
       if (std::ranges::find(outcome.refused, one) == outcome.refused.end()) outcome.refused.push_back(one);
     }
   }
-  // List the changes that reading made to the content of the clips' files, each once.
+  // List the changes that reading made to the content of clip files, each change once.
   std::set<std::pair<std::string, std::string>> told;
   for (const PreparedScenario& scenario : scenarios) {
     for (const LibraryClip& clip : scenario.clips().clips) {
@@ -294,7 +296,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
       }
     }
   }
-  // Write the final results.
+  // Unless the user stopped the run, write the final results.
   if (outcome.stopped) return outcome;
   claimed.Keep();
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);

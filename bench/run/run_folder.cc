@@ -36,7 +36,7 @@ bool IsPartOfRun(const fs::path& name) {
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }
 
-// These are names in the temporary folder: the old run, the new folder before the exchange, and files to be deleted.
+// Names in the temporary folder: the old run, the new folder before the two are exchanged, and files to be deleted.
 constexpr const char *kOldRun = "old", *kNewRun = "new", *kGone = "gone";
 
 bool HoldsMoreThanLock(const fs::path& folder) {
@@ -50,8 +50,8 @@ bool IsWithin(const fs::path& path, const fs::path& folder) {
   return !from.empty() && *from.begin() != "..";
 }
 
-/// Renames `fresh` to `old`, and the previous `old` to `aside`. This is a single step if the file system can exchange
-/// names.
+/// Gives the folder `fresh` the name `old`, and the previous `old` the name `aside`. If the file system can exchange
+/// names, this is a single (atomic) step.
 bool Exchange(const fs::path& fresh, const fs::path& old, const fs::path& aside) {
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) {
     return ::rename(fresh.c_str(), aside.c_str()) == 0;
@@ -62,7 +62,7 @@ bool Exchange(const fs::path& fresh, const fs::path& old, const fs::path& aside)
   return false;
 }
 
-/// Returns true if the journal has a complete first line. If not, the run was ended while it began.
+/// Returns true if the journal has a complete first line. Otherwise the run ended before its journal was begun.
 Result<bool> HoldsWholeLine(const FilePath& journal) {
   if (!Exists(journal)) return false;
   ASSIGN_OR_RETURN(auto lines, FileLines::Open(journal));
@@ -113,14 +113,16 @@ std::vector<TemporaryFolder> RunFolder::FindLeft() const {
 }
 
 Result<bool> RunFolder::TakeUp() {
-  std::vector<TemporaryFolder> left = FindLeft();  // their destructors delete the folders, unless one is moved out
+  // Folders that killed runs left; the destructors delete those that are not moved out of `left`.
+  std::vector<TemporaryFolder> left = FindLeft();
   if (left.empty()) return false;
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(path_));
   if (state == FolderState::kFinished) return false;
   for (TemporaryFolder& one : left) {
     std::error_code error;
     const fs::path old = one.path() / kOldRun, exchanged = one.path() / kNewRun;
-    // The process was killed between the two renames of `Exchange`, so the old run still has the name of the new one.
+    // Undo half an exchange: the process was killed between the two renames of `Exchange`, so the old run has the name
+    // of the new folder.
     if (!fs::exists(old, error) && HoldsMoreThanLock(exchanged)) fs::rename(exchanged, old, error);
     if (!HoldsMoreThanLock(old)) continue;
     aside_ = std::move(one);
@@ -133,7 +135,7 @@ Result<bool> RunFolder::TakeUp() {
 
 bool RunFolder::Replace() {
   std::error_code error;
-  const fs::path old = fs::canonical(path_, error);  // resolved, so that a link to the folder is kept
+  const fs::path old = fs::canonical(path_, error);  // the target of the path if it is a link, so that the link stays
   if (error || IsWithin(fs::current_path(error), old) || !old.has_relative_path()) return false;
   auto aside = TemporaryFolder::MakeKept(old.parent_path(), old.filename().string());
   if (!aside) return false;
@@ -145,7 +147,7 @@ bool RunFolder::Replace() {
   if (!Exchange(fresh, old, aside->path() / kOldRun)) return false;
   std::swap(lock_, successor.lock_);
   why_unlocked_ = successor.why_unlocked_;
-  successor.path_ = aside->path() / kOldRun;  // the destructor removes its lock file
+  successor.path_ = aside->path() / kOldRun;  // the destructor then removes the lock file of the old run
   aside_ = std::move(*aside);
   is_ours_ = true;
   return true;
@@ -155,7 +157,7 @@ Result<void> RunFolder::Empty() {
   std::error_code error;
   fs::remove(path_ / "host.json", error);
   if (error) return CannotWrite(path_.string(), "cannot be emptied", error.value());
-  // Try again if another process writes a report into the folder meanwhile.
+  // If another process is writing a report into the folder, wait and try again.
   constexpr int kMaxTries = 100, kPauseMicroseconds = 10'000;
   for (int tries = 0; tries < kMaxTries; ++tries) {
     error.clear();
@@ -175,16 +177,17 @@ void RunFolder::Keep() {
   if (std::exchange(is_kept_, true)) return;
   is_ours_ = false;
   std::error_code ignored;
-  // After this rename, a kill during the deletion leaves nothing that looks like a run.
+  // Rename the old run before it is deleted. If the process is killed during the deletion, the rest does not look like
+  // a run.
   if (aside_) fs::rename(aside_->path() / kOldRun, aside_->path() / kGone, ignored);
   aside_.reset();
-  FindLeft();  // deletes what is left of a killed `--overwrite` whose run was resumed
+  FindLeft();  // deletes what a killed `--overwrite` left, if its run has been resumed
 }
 
 Result<void> RunFolder::Lock() {
   const fs::path file = path_ / kLockFile;
   while (true) {
-    // Use O_NONBLOCK, because opening a pipe would otherwise wait for its other end.
+    // O_NONBLOCK: if the path is a pipe, opening it must not wait for the pipe's other end.
     lock_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IWUSR);
     struct stat kind {};
     if (lock_ < 0 ? errno == ENXIO : ::fstat(lock_, &kind) == 0 && !S_ISREG(kind.st_mode)) {
@@ -192,7 +195,7 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({file.string()}, "is no file");
     }
-    if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // nobody can write here, so no lock is needed
+    if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // no process can write here, so no lock is needed
     if (lock_ < 0) return CannotWrite(file.string(), "cannot be made", errno);
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
       const int reason = errno;
@@ -204,7 +207,7 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({path_.string(), 0, 0}, "another run is writing into it; choose another folder with -o");
     }
-    // If the previous owner deleted the file before this process locked it, try again.
+    // If the previous owner of the lock deleted the file before this process locked it, open a new file.
     struct stat locked {
     }, named{};
     if (::fstat(lock_, &locked) == 0 && ::stat(file.c_str(), &named) == 0 && locked.st_ino == named.st_ino) return {};
@@ -232,7 +235,7 @@ RunFolder::~RunFolder() {
 Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, int jobs,
                        const std::function<bool(double share)>& goes_on) {
   constexpr std::size_t kRowsBetweenReports = 4096;
-  // Write every row, and summarise each scenario.
+  // Write every row, and compute the summary of each scenario.
   std::vector<Study> studies;
   for (const PreparedScenario& prepared : plan.scenarios()) studies.push_back(StudyOf(prepared.scenario()));
   ASSIGN_OR_RETURN(auto results, ResultWriter::Begin(folder, studies));
@@ -265,7 +268,8 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   if (is_stopped) return false;
   RETURN_IF_ERROR(results.Finish(summaries));
   RETURN_IF_ERROR(SaveJson(Inside(folder) / "host.json", host, OnDisk::kLater));
-  // The journal is the only other copy of the results. Remove it once all results are on the disk.
+  // The results are now complete. Synchronise them to the disk, and only then remove the journal, which is their only
+  // other copy.
   RETURN_IF_ERROR(SealRun(folder));
   RETURN_IF_ERROR(SyncTree(folder));
   RETURN_IF_ERROR(SyncPathTo(folder));

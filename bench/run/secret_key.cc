@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kAllowed = "64 hexadecimal digits, or 32 bytes";
 
-/// Returns the first 16 digits of a key's digest. They suffice to tell keys apart.
+/// Returns the first 16 digits of a key's digest, which suffice to tell keys apart.
 std::string Short(const Seed& seed) { return seed.Digest().substr(0, 16) + "…"; }
 
 Result<Words256> ParseKey(std::string_view bytes) {
@@ -42,7 +42,8 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
   char* text = std::getenv(kKeyVariable);
   if (text == nullptr) return std::nullopt;
   const auto words = ParseWords256(text);
-  std::memset(text, '0', std::strlen(text));  // other processes could read it in this process's environment
+  // Erases the key, because other processes can read this process's environment.
+  std::memset(text, '0', std::strlen(text));
   ::unsetenv(kKeyVariable);
   if (!words) return Fail({kKeyVariable}, "holds no key; allowed: 64 hexadecimal digits");
   return SecretKey{*words, ""};

@@ -30,7 +30,7 @@ Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& conditi
   return named_texts;
 }
 
-/// Returns the mappings of the methods that the task runs.
+/// Returns the YAML mappings of the methods that the task itself runs (not outside methods).
 std::vector<Node> NodesInTask(const Scenario& scenario) {
   std::vector<Node> nodes;
   for (const MethodEntry& method : scenario.methods) {
@@ -60,8 +60,8 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
   return tasks;
 }
 
-/// Returns the sampling units of one world's clips, sorted and without duplicates. Empty if every world is a unit of
-/// its own.
+/// Returns the names of the sampling units to which one world's clips belong, sorted and without duplicates. Empty if
+/// every world is its own unit.
 std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, SamplingUnit unit, const ClipLibrary& library) {
   if (WorldsAreUnits(unit)) return {};
   if (unit == SamplingUnit::kLibrary) {
@@ -76,9 +76,9 @@ std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, Sampling
   return {names.begin(), names.end()};
 }
 
-/// Returns, for every condition, the name that keys its random numbers. In secret worlds the name contains the swept
-/// values, so adding a value to a sweep changes no other condition's dice. The text of the swept values is preceded by
-/// its length, so that no text can be read as the start of another.
+/// Returns, for every condition, a name from which its random numbers are derived. In secret worlds, the name contains
+/// the swept values, so adding a value to a sweep does not change the random numbers of other conditions. The length of
+/// the swept values' text comes before the text, so that no name is the beginning of another.
 std::vector<std::string> NameDice(const Scenario& scenario, const Seed& seed) {
   std::vector<std::string> names;
   for (const Condition& condition : scenario.conditions) {
@@ -100,7 +100,7 @@ Result<Seed> DecodeSeed(const Json& json, const Place& place) {
 }  // namespace
 
 Json EncodeSetup(const SuiteSetup& setup) {
-  // Encode each scenario: first the keys that all scenarios have, then the lists that are not empty.
+  // Encode each scenario: first the keys that every scenario has, then those lists that are not empty.
   Json scenarios = Json::array();
   for (const ScenarioSetup& scenario : setup.scenarios) {
     scenarios.push_back({{"name", scenario.name},
@@ -124,7 +124,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
       scenarios.back()["libraries"].push_back({{"name", library.name}, {"clips", library.clips}});
     }
   }
-  // Encode the texts, and the parts that only some suites have.
+  // Encode the texts of the scenario files, and the parts that only some suites have.
   Json sources = Json::object();
   for (const auto& [file, text] : setup.sources) sources[file] = text;
   Json json{{"suite", setup.suite},
@@ -153,7 +153,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
     ASSIGN_OR_RETURN(setup.seed, DecodeSeed(json.at("seed"), place));
     for (const auto& [file, text] : json.at("sources").items()) setup.sources[file] = text.get<std::string>();
     if (json.at("scenarios").empty()) return Fail(place, "names no scenario");
-    // Decode each scenario. All seeds must be plain, or all must be the same secret seed.
+    // Decode each scenario. Either all seeds are plain, or all are the same secret seed.
     for (const Json& scenario : json.at("scenarios")) {
       ASSIGN_OR_RETURN(const int trials, TrialsOf(scenario, place));
       ASSIGN_OR_RETURN(const Seed seed, DecodeSeed(scenario.at("seed"), place));
@@ -223,8 +223,8 @@ Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, Scena
 
 namespace {
 
-/// Loads the recordings from which worlds are made. Returns null if worlds are not made from recordings. Unless
-/// `refused` is null, the files that are left out are added to it.
+/// Loads the recordings from which a scenario's worlds are made. Returns null if the worlds are not made from
+/// recordings. Recordings that are left out are added to `refused`, unless it is null.
 Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& setup, const StreamSource& source,
                                                         const ClipLibrary& clips, const SourceTexts& texts,
                                                         std::vector<RefusedClip>* refused = nullptr) {
@@ -243,8 +243,8 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
     if (refused != nullptr) {
       for (const Error& error : loaded.refused) refused->push_back({error.place.file, ToString(error)});
     }
-    // A stream is sensor data, whatever its format. Remove its motion, so that no simulated sensor adds errors to it
-    // again.
+    // A stream is sensor data, whatever its format. Remove its motion, so that no simulated sensor adds errors to data
+    // that a sensor has already measured.
     for (NamedStream& stream : streams) stream.motion.reset();
   }
   if (streams.empty()) return Fail({setup.file, 0, 0}, "'labels' needs the 'streams' or 'clips' that it labels");
@@ -368,7 +368,7 @@ Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) c
   row.trial = trial;
   if (!clips.empty()) row.clip = clips.front();
   row.units = UnitsOf(clips, scenario_.unit, ClipsOf(scenario_.conditions[condition]));
-  // Several files may show one person, so the person is the unit.
+  // Several files may show the same person. The sampling unit is the person, not the file.
   if (!setup_.files.empty() && !row.units.empty() && !setup_.files[trial].unit.empty()) {
     row.units = {setup_.files[trial].unit};
   }

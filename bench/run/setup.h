@@ -28,29 +28,31 @@ struct RefusedClip {
 /// The inputs from which a scenario's worlds are made. With SuiteSetup::sources, the same worlds can be made on any
 /// machine.
 struct ScenarioSetup {
-  std::string file;  ///< a key of SuiteSetup::sources
-  std::string name;  ///< a file may hold several scenarios
+  std::string file;  ///< name of the scenario's file, a key of SuiteSetup::sources
+  std::string name;  ///< name of the scenario; a file may contain several scenarios
   Seed seed = 1;
   int trials = 1;
-  std::vector<std::string> clips;          ///< references: the scenario's own, or those in --clips
+  std::vector<std::string> clips;          ///< references to clips: the scenario's own, or those of the option --clips
   std::string joint_map;                   ///< a key of SuiteSetup::sources; "" = none
   std::string digest;                      ///< digest of the scenario's texts
-  std::vector<NamedClips> libraries = {};  ///< the scenario's own libraries, and those in --library
-  std::vector<std::string> streams = {};   ///< recordings: the scenario's own, or those in --streams
-  std::vector<std::string> labels = {};    ///< keys of SuiteSetup::sources
-  std::vector<RefusedClip> refused = {};   ///< left out of `clips`, `libraries` and `streams`
-  std::vector<JudgedFiles> files = {};     ///< the worlds of a task that judges files, one per trial
-  bool keeps_motions = false;              ///< true: record every cell (--keep motions), not only those of `video`
+  std::vector<NamedClips> libraries = {};  ///< the scenario's own clip libraries, and those of the option --library
+  /// References to recordings: the scenario's own, or those of the option --streams.
+  std::vector<std::string> streams = {};
+  std::vector<std::string> labels = {};   ///< names of label files, keys of SuiteSetup::sources
+  std::vector<RefusedClip> refused = {};  ///< files left out of `clips`, `libraries` and `streams`
+  std::vector<JudgedFiles> files = {};    ///< the worlds of a task that judges files, one per trial
+  /// true: every cell is recorded (--keep motions); false: only the cells that `video` names.
+  bool keeps_motions = false;
 };
 
 /// A method whose answers are read from files and scored; it is not run (etude score).
 struct ScoredMethod {
   std::string name;
-  bool alone = false;  ///< true: it replaces the scenarios' own methods; false: it is added to them
+  bool alone = false;  ///< true: the scored method replaces the scenarios' own methods; false: it is compared with them
 };
 
-/// The version of the rule that makes secret worlds. Since version 2 clips are disguised (bench/tasks/base/disguise.h);
-/// since version 3 every condition has its own dice.
+/// The version of the rule by which secret worlds are made. Version 2 introduced disguised clips
+/// (bench/tasks/base/disguise.h); version 3 gave every condition its own random numbers.
 inline constexpr int kSecretWorldsVersion = 3;
 
 /// The set-up of a suite. The manifest stores it, and every worker receives it.
@@ -59,18 +61,20 @@ struct SuiteSetup {
   Seed seed = 1;
   SourceTexts sources;
   std::vector<ScenarioSetup> scenarios;
-  std::optional<ScoredMethod> scored;        ///< an additional method of every scenario
-  int secret_worlds = kSecretWorldsVersion;  ///< version; relevant only for a secret seed
-  /// The names of `sources` in the manifest, by their names here. Only names that differ are listed (CanonicalNames).
-  /// Messages show the names as the user gave them.
+  std::optional<ScoredMethod> scored;  ///< a method with answers from files, added to every scenario; nullopt = none
+  /// Version of the rule by which secret worlds are made; matters only if the seed is secret.
+  int secret_worlds = kSecretWorldsVersion;
+  /// The manifest's names of the texts in `sources`, by their names here. Only names that differ are listed
+  /// (CanonicalNames). Error messages show the names that the user gave.
   std::map<std::string, std::string> canonical = {};
-  /// The scenarios that have been parsed already, by file of `sources`.
+  /// A cache of the scenarios that have been parsed, by file name in `sources`.
   std::map<std::string, std::vector<Scenario>> parsed = {};
 };
 
-/// Encodes a set-up. A secret seed is written as its digest only.
+/// Encodes a set-up as JSON. Of a secret seed, only its digest is written.
 Json EncodeSetup(const SuiteSetup& setup);
-/// Reads a set-up. Fails if the JSON is not a set-up, names no scenario, or states no or too many trials.
+/// Reads a set-up from JSON. Fails if the JSON is not a set-up, contains no scenario, or has a scenario with no or too
+/// many trials.
 Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place);
 
 /// A scenario with its clips loaded and its tasks made, so that any of its worlds can be run.
@@ -78,7 +82,7 @@ class PreparedScenario {
  public:
   const ScenarioSetup& setup() const { return setup_; }
   const Scenario& scenario() const { return scenario_; }
-  /// Returns the clips of the scenario. If there are libraries, returns the clips of all libraries.
+  /// Returns the clips of the scenario. If the scenario has clip libraries, returns the clips of all libraries.
   const ClipLibrary& clips() const { return *clips_; }
   const std::map<std::string, ClipLibrary>& libraries() const { return libraries_; }
   /// Returns the recordings of people from which the worlds are made; null if worlds are not made from recordings.
@@ -86,15 +90,15 @@ class PreparedScenario {
   const Task& task(int condition) const { return *tasks_[condition]; }
   const OpenOptions& opening() const { return *opening_; }
 
-  /// Returns the key of the dice of a trial under a condition. In open worlds, all conditions share this key. In secret
-  /// worlds, each condition has its own key, because two worlds with the same dice and different noise would together
-  /// reveal the truth.
+  /// Returns the key from which the random numbers of a trial under a condition are derived. In open worlds, all
+  /// conditions share this key. In secret worlds, each condition has its own key: two worlds with the same random
+  /// numbers and different noise would together reveal the ground truth.
   WorldKey KeyOf(int condition, int trial) const { return {setup_.seed, dice_names_[condition], trial}; }
-  /// Returns a cell's row without a result.
+  /// Returns a cell's row, still without a result.
   Row IdentityOf(int condition, int trial, std::size_t method) const;
   Row EndedRow(int condition, int trial, std::size_t method, Status status, const std::string& reason) const;
-  /// Adds the metrics that `row` lacks. A metric gets the value that the task defines for a failure; if there is none,
-  /// it is missing with the row's reason.
+  /// Adds the metrics that `row` lacks. Each gets the value that the task defines for failed cells. If the task defines
+  /// none, the metric is missing, with the row's reason.
   void CompleteMetrics(int condition, Row& row) const;
 
  private:
@@ -107,11 +111,12 @@ class PreparedScenario {
   ScenarioSetup setup_;
   Scenario scenario_;
   std::unique_ptr<ClipLibrary> clips_;
-  std::map<std::string, ClipLibrary> libraries_;  ///< by name
+  std::map<std::string, ClipLibrary> libraries_;  ///< clip libraries, by name
   std::unique_ptr<LabelledStreams> recordings_;
   std::unique_ptr<OpenOptions> opening_;
-  std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
-  std::vector<std::string> dice_names_;       ///< one per condition; each becomes WorldKey::scenario
+  std::vector<std::unique_ptr<Task>> tasks_;  ///< one task per condition
+  /// Names from which random numbers are derived, one per condition (WorldKey::scenario)
+  std::vector<std::string> dice_names_;
 };
 
 /// Finds the files of a scenario whose task judges files, and sets the number of trials to the number of worlds found.
@@ -121,11 +126,11 @@ Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, Scena
 /// Returns the options with which the motions of a scenario are opened.
 Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts& texts);
 
-/// Returns true if the cameras of task `capture` are the sensor of a task of another kind.
+/// Returns true if the scenario's task is not `capture` but its sensor is the cameras of task `capture`.
 bool IsFilmed(const Scenario& scenario);
 
-/// Returns the number of people in a scenario's recordings; nothing if its worlds are not made from recordings. `texts`
-/// contain the labels. If a file of a folder or pattern cannot be read, it is added to `setup.refused`.
+/// Returns the number of people in a scenario's recordings; nullopt if its worlds are not made from recordings. `texts`
+/// contains the labels. If a file of a folder or pattern cannot be read, it is added to `setup.refused`.
 Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
 
@@ -139,18 +144,18 @@ class ParsedSuite {
 
  private:
   const SuiteSetup& suite_;
-  std::map<std::string, std::vector<Scenario>> parsed_;  ///< by file
+  std::map<std::string, std::vector<Scenario>> parsed_;  ///< the parsed scenarios, by file
 };
 
-/// Loads the clips of a scenario (ParsedSuite::Find) and makes its tasks. Fails if a clip or a key of a method is
-/// invalid.
+/// Loads the clips of a scenario (from ParsedSuite::Find) and makes its tasks. Fails if a clip, or a key of a method,
+/// is invalid.
 Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup, Scenario scenario);
 /// Prepares all scenarios of a suite. Fails if there are more than kMaxCells cells.
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite);
 
-/// Adds a scored method after the scenario's own methods; it is compared with the first of them. With `method.alone`,
-/// the scored method replaces all methods, and the expectations are dropped. Fails if its name is in use or is not a
-/// plain name.
+/// Adds a method with answers from files after the scenario's own methods; it is compared with the first of them. If
+/// `method.alone` is true, it replaces all methods, and the expectations are dropped. Fails if its name is in use or is
+/// not a plain name.
 Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario);
 
 }  // namespace etude

@@ -25,7 +25,7 @@ fs::path TopOf(const fs::path& folder) {
   for (fs::path above = folder; above != above.parent_path(); above = above.parent_path()) {
     if (std::error_code none; fs::exists(above / ".git", none)) return above;
   }
-  // A shipped file has the name that it has in the repository, wherever it is installed.
+  // A shipped file has its name in the repository, wherever the program is installed.
   const fs::path shipped = ShippedFolder();
   const fs::path inside = folder.lexically_relative(shipped);
   return shipped.empty() || inside.empty() || *inside.begin() == ".." ? fs::path() : shipped;
@@ -40,7 +40,7 @@ std::string SuiteName(const std::vector<std::string>& paths) {
   return name.empty() || name == "." ? "suite" : name;
 }
 
-/// Adds the text of a file that a scenario names to `texts`. The manifest then suffices to repeat the run.
+/// Adds the text of a file that a scenario names to `texts`, so that the manifest suffices to repeat the run.
 Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   if (file.empty() || texts.contains(file)) return {};
   ASSIGN_OR_RETURN(auto text, ReadWholeFile(file));
@@ -48,7 +48,7 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Adds the texts of the files that a scenario's conditions name. The tasks check the content later.
+/// Adds the texts of the files that a scenario's conditions name to `texts`. The tasks check their content later.
 Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
     for (const NamedFile& file : FilesNamedBy(condition, *FindTaskKind(scenario.task))) {
@@ -60,7 +60,7 @@ Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   return {};
 }
 
-/// Adds the text of a joint map, extended by the lines `more`, to `texts`. Returns its name there.
+/// Adds the text of a joint map, followed by the lines `more`, to `texts`. Returns the map's name in `texts`.
 Result<std::string> KeepJointMap(const std::string& file, const std::string& more, SourceTexts& texts) {
   RETURN_IF_ERROR(KeepText(file, texts));
   if (more.empty()) return file;
@@ -112,7 +112,7 @@ Result<void> LeaveOutRefused(ScenarioSetup& setup, const SourceTexts& texts) {
   return {};
 }
 
-/// Adds the texts of label files to `texts`. Returns their names.
+/// Adds the texts of label files to `texts`. Returns the files' names in `texts`.
 Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts& texts) {
   if (path.empty()) return std::vector<std::string>{};
   ASSIGN_OR_RETURN(auto files, LabelFiles(path));
@@ -120,7 +120,8 @@ Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts
   return files;
 }
 
-/// Fails if one of `paths` has no scenario that can use an option. Other scenarios in the same folder need not use it.
+/// Checks that the scenarios can use an option. Fails if one of `paths` has no scenario that can; other scenarios in
+/// the same folder need not.
 Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set<std::string>& with_use,
                            std::string_view why) {
   for (const std::string& path : paths) {
@@ -147,7 +148,8 @@ Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string
   return libraries;
 }
 
-/// The scenario files with a scenario that can use clips, and those with a scenario that can use recordings.
+/// The scenario files in which a scenario can use the option for clips, and those in which a scenario can use the
+/// option for recordings.
 struct UsersOfFiles {
   std::set<std::string> clips, recordings;
 };
@@ -157,11 +159,12 @@ std::optional<Seed> SeedOf(const RunOptions& options) {
   return options.seed ? std::optional<Seed>(*options.seed) : std::nullopt;
 }
 
-/// Applies the options to a scenario. Adds the texts that the scenario names to `sources`, and its file to `users`.
+/// Applies the command line's options to a scenario. Adds the texts that the scenario names to `sources`, and the
+/// scenario's file to `users`.
 Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const std::string& digest, int trials,
                             const RunOptions& options, SourceTexts& sources, UsersOfFiles& users) {
   const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
-  // Find the options that apply, and refuse options that contradict the scenario.
+  // Find the options that apply to this scenario, and refuse options that contradict it.
   if (uses_clips) users.clips.insert(file);
   const bool replaced = !options.clips.empty() && uses_clips;
   if (replaced && !scenario.libraries.empty()) {
@@ -186,7 +189,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   ASSIGN_OR_RETURN(
       const auto joint_map,
       KeepJointMap(options.joint_map.empty() ? scenario.joint_map : options.joint_map, options.clip_facts, sources));
-  // Keep the texts, and check the clips and recordings.
+  // Add the texts that the scenario names, and check that its clips and recordings can be read.
   RETURN_IF_ERROR(KeepNamedFiles(scenario, sources));
   ScenarioSetup setup{file,   scenario.name,      SeedOf(options).value_or(scenario.seed.value_or(1)),
                       trials, std::move(clips),   joint_map,
@@ -195,7 +198,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   if (options.skip_refused) RETURN_IF_ERROR(LeaveOutRefused(setup, sources));
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
   RETURN_IF_ERROR(FindFiles(scenario, sources, setup));
-  if (!setup.files.empty()) {  // each pair of files is one trial; --trials takes the first of them
+  if (!setup.files.empty()) {  // each pair of files is one trial; --trials limits the number of pairs
     if (options.key)
       return Fail({file, 0, 0}, "--seed-file: scenario {} uses no random numbers, because it judges files",
                   scenario.name);
@@ -241,7 +244,7 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
       std::sort(inside.begin(), inside.end());
       files.insert(files.end(), inside.begin(), inside.end());
     } else {
-      files.push_back(path);  // if it does not exist, reading it reports the error
+      files.push_back(path);  // if the file does not exist, reading it later reports the error
     }
   }
   return files;
@@ -260,7 +263,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   UsersOfFiles users;
   std::size_t cells = 0;
   for (const std::string& file : files) {
-    // Read the file with its includes, and compute their digest in the order of their canonical names.
+    // Read the file and the files that it includes. Compute their digest, in the order of their canonical names.
     SourceTexts texts;
     if (!options.text.empty()) texts[file] = options.text;
     ASSIGN_OR_RETURN(auto scenarios, options.text.empty() ? ReadScenarios(file, texts) : ParseScenarios(file, texts));
@@ -274,7 +277,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     for (const auto& [name, text] : texts) texts_in_order[canonical.at(name)] = text;
     Digest digest;
     for (const auto& [name, text] : texts_in_order) digest.Add(text);
-    // Apply the options to each scenario. Names must be unique, and the number of cells is limited.
+    // Apply the options to each scenario. Check that names are unique and that there are not too many cells.
     for (Scenario& scenario : scenarios) {
       const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
       for (const NamedClips& library : libraries) {
@@ -299,7 +302,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     suite.canonical.insert(canonical.begin(), canonical.end());
     suite.sources.merge(texts);
   }
-  // Refuse options that no scenario can use.
+  // Refuse options that no scenario of the suite can use.
   if (!options.clips.empty() || !options.libraries.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.clips,
                                   "--clips or --library: no task of its scenarios takes clips; a task that "

@@ -9,10 +9,10 @@
 
 namespace etude {
 
-/// Returns the names that the manifest uses for a scenario file and its included files, by the names in `sources`. The
-/// new name is the path from the root of the repository (the nearest folder above the scenario with `.git`) or from
-/// ShippedFolder. It is absolute if the scenario is in neither. These names are the same in every checkout and working
-/// folder, and includes still find each other.
+/// Returns the names that the manifest uses for a scenario file and its included files, by their names in `sources`. A
+/// manifest name is the path from the root of the repository (the nearest folder above the scenario with `.git`) or
+/// from ShippedFolder; it is absolute if the scenario is in neither. These names are the same in every checkout and
+/// working folder. Relative `include` paths between them still work.
 std::map<std::string, std::string> CanonicalNames(const std::string& scenario_file,
                                                   const std::vector<std::string>& sources);
 
@@ -28,8 +28,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options);
 /// answers.
 Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options);
 
-/// Calls PrepareAll. If `options.from` names a manifest, fails if a clip has changed since that run, or if a program
-/// that the manifest names is not allowed to run.
+/// Prepares all scenarios (PrepareAll). If `options.from` names a manifest, fails if a clip has changed since that run,
+/// or if the manifest names a program that may not be run.
 Result<std::vector<PreparedScenario>> PrepareToRun(const SuiteSetup& suite, const RunOptions& options);
 
 /// Fails if a scenario's task judges files. Such a task has no problems to export and no predictions to score.

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t kComplaint = ~std::uint64_t{0};
 
-/// A forked copy of this process, and the part of its output that is not yet parsed. The output is a sequence of
+/// A forked copy of this process, and the part of its output that is not parsed yet. The output is a sequence of
 /// results, each written as its number, its length and its text.
 struct Copy {
   ForkedCopy process;
@@ -42,7 +42,7 @@ int Work(std::size_t first, std::size_t count, std::size_t step, int output,
   return 0;
 }
 
-/// Moves complete results from a copy's output to `answers`. Adds their number to `taken`.
+/// Moves the complete results in a copy's output to `answers`. Adds the number of these results to `taken`.
 Result<void> Take(Copy& copy, std::vector<std::string>& answers, std::size_t& taken) {
   std::size_t at = 0;
   std::array<std::uint64_t, 2> head{};
@@ -156,13 +156,13 @@ Result<std::vector<std::string>> RunForked(std::size_t count, int jobs,
 
 Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs,
                               const OnProgress& on_progress) {
-  constexpr std::size_t kMinRowsToShare = 20'000;  // with fewer rows, forking takes longer than summarising
+  constexpr std::size_t kMinRowsToShare = 20'000;  // for fewer rows, forking takes longer than the summary
   const auto conditions = table.conditions();
   const std::size_t methods = study.methods.size(), parts = conditions.size() * methods;
   const auto measure = [&](std::size_t part) {
     return MeasureMethod(study, conditions[part / methods], part % methods, seed);
   };
-  // Measure every method under every condition, in this process or in forked copies of it.
+  // Compute the statistics of every method under every condition, in this process or in forked copies of it.
   std::vector<std::string> texts;
   const bool is_shared = parts * static_cast<std::size_t>(study.trials) >= kMinRowsToShare && parts > 1 && jobs > 1;
   if (is_shared) {

@@ -24,40 +24,43 @@
 namespace etude {
 namespace {
 
-constexpr int kPollMilliseconds = 20;      // a measured memory size or time is at most this old
-constexpr double kAheadS = 0.05;           // seconds of work given to a worker at a time, estimated from earlier worlds
-constexpr double kLongWorldS = 1;          // begun last, a longer world costs more than preparing its condition twice
-constexpr int kGatherMicroseconds = 2000;  // if no worker waits, pause for more answers
-constexpr int kMaxDeathsInSetup = 3;       // a single death may be chance (a shortage of memory, a stray kill)
-constexpr double kMaxSetupS = 600;         // maximum duration of a set-up, in which clips are loaded
-constexpr double kClockPerLimit = 20;      // the maximum wall time, per second of the limit on processor time
-constexpr double kGraceS = 10;             // time for a worker to end an outside method and report it
-constexpr int kShutdownGraceMs = 3000;     // time for a worker to end all its outside methods
+constexpr int kPollMilliseconds = 20;  // pause between two measurements of workers' memory and time
+constexpr double kAheadS = 0.05;       // seconds of work that a worker gets at a time, estimated from earlier worlds
+// If a longer world is begun last, this costs more than preparing its condition on a second worker.
+constexpr double kLongWorldS = 1;
+constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if no worker is idle
+// Consecutive deaths of workers that end the run; a single one may be chance (a shortage of memory, a stray kill)
+constexpr int kMaxDeathsInSetup = 3;
+constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which it loads clips
+constexpr double kClockPerLimit = 20;   // maximum wall time, as a multiple of the scenario's limit on processor time
+constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report it
+constexpr int kShutdownGraceMs = 3000;  // time in which a worker can end all its outside methods when it ends
 
 Clock::time_point After(double seconds) {
-  constexpr double kMaxSeconds = 1e9;  // longer than any run; Clock::time_point can represent it
+  constexpr double kMaxSeconds = 1e9;  // longer than any run, but short enough for Clock::time_point
   return Clock::now() +
          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, kMaxSeconds)));
 }
 
-/// A worker process and its current work: its set-up, the building of a world, or the run of a method.
+/// A worker process, and what it is doing: its set-up, building a world, or running a method.
 struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;       ///< deadline of the current work; if it is missed, this machine was too slow
-  double cpu_s = 0;                 ///< processor time at the last measurement
-  double cpu_began = 0;             ///< processor time at the beginning of the current work
-  bool ready = false;               ///< true: its set-up is done
-  std::deque<Order> orders;         ///< first the current order, with its unanswered methods; then further orders
-  bool built = false;               ///< true: its current world is built
-  bool dismissed = false;           ///< true: it has ended and is not replaced
-  Clock::time_point began = {};     ///< start of its current world
-  Clock::time_point measured = {};  ///< time of the last measurement
+  Clock::time_point deadline;  ///< latest end of what the worker is doing; if it is missed, this machine was too slow
+  double cpu_s = 0;            ///< processor time of the worker at the last measurement
+  double cpu_began = 0;        ///< processor time of the worker when it began what it is doing
+  bool ready = false;          ///< true: the worker has finished its set-up
+  /// The worker's orders; the first one is in progress and lists the methods that have no answer yet.
+  std::deque<Order> orders;
+  bool built = false;               ///< true: the worker has built the world of its first order
+  bool dismissed = false;           ///< true: the worker has ended and is not replaced
+  Clock::time_point began = {};     ///< when the worker began its first order's world
+  Clock::time_point measured = {};  ///< when memory and time were measured last
   std::size_t condition = OrderQueue::kNowhere;
 };
 
-/// The wall time that a scenario's worlds have taken so far.
+/// The wall time of a scenario's worlds that have been run so far, and their number.
 struct Pace {
   double seconds = 0;
   int worlds = 0;
@@ -78,7 +81,7 @@ class Supervisor {
         paces_(plan.scenarios().size()) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
-    AdoptOrphans();  // the outside methods of a killed worker become children of this process
+    AdoptOrphans();  // makes the outside methods of a killed worker children of this process, which can then end them
     const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
     std::size_t programs = 1;  // the maximum number of programs that one worker runs at the same time
     for (const PreparedScenario& scenario : plan_.scenarios())
@@ -109,13 +112,13 @@ class Supervisor {
   Result<Worker> StartWorker() {
     ASSIGN_OR_RETURN(auto process,
                      ChildProcess::Start({.program = options_.program, .arguments = {"worker"}, .error_file = ""}));
-    process.Send(setup_line_);  // a dead worker is noticed when it is polled
+    process.Send(setup_line_);  // if the worker is dead, this is noticed when it is polled
     return Worker(std::move(process), After(kMaxSetupS));
   }
 
   const Limits& LimitsOf(const Order& order) const { return plan_.scenario_of(order.world).scenario().limits; }
 
-  /// Gives more orders to a worker. If there are none, ends the worker.
+  /// Gives more orders to a worker. If no orders are left, ends the worker.
   Result<void> HandOut(Worker& worker) {
     double ahead_s = 0;
     for (const Order& order : worker.orders) ahead_s += PaceOf(order).SecondsPerWorld().value_or(kAheadS);
@@ -134,7 +137,7 @@ class Supervisor {
     return {};
   }
 
-  /// Appends the lines that a worker receives for an order to `text`: the world, or the answered cells one by one.
+  /// Appends to `text` what a worker receives for an order: a line for the world, or one line for each answered cell.
   Result<void> AddText(const Order& order, std::string& text) {
     const World& world = plan_.world(order.world);
     if (answered_ == nullptr) {
@@ -156,12 +159,13 @@ class Supervisor {
 
   static ProcessUsage Measure(Worker& worker) {
     worker.measured = Clock::now();
-    const ProcessUsage usage = worker.process.MeasureAlone();  // the worker itself measures its outside methods
+    // Without the outside methods, which the worker itself measures.
+    const ProcessUsage usage = worker.process.MeasureAlone();
     worker.cpu_s = usage.own_cpu_s;
     return usage;
   }
 
-  /// Starts the time limits of a worker's next piece of work, for which `clock_s` seconds of wall time are allowed.
+  /// Starts the time limits for what the worker does next; its wall time may be `clock_s` seconds.
   static void Begin(Worker& worker, double clock_s) {
     constexpr auto kStale = std::chrono::milliseconds(100);
     if (Clock::now() - worker.measured > kStale) Measure(worker);
@@ -169,7 +173,7 @@ class Supervisor {
     worker.deadline = After(clock_s);
   }
 
-  /// Begins the first of a worker's orders. If the cells are only measured, no world is built.
+  /// Begins the first of a worker's orders. If cells are only measured, the worker builds no world.
   Result<void> BeginWorld(Worker& worker) {
     worker.built = answered_ != nullptr;
     worker.began = Clock::now();
@@ -185,7 +189,7 @@ class Supervisor {
     return worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
   }
 
-  /// Begins the next method of the order that has no answer yet.
+  /// Starts the time limits of the first method in the order that has no answer yet.
   Result<void> StartNextMethod(Worker& worker) {
     const Order& order = worker.orders.front();
     if (order.methods.empty()) return EndWorld(worker);
@@ -218,7 +222,7 @@ class Supervisor {
       const bool has_input = watched[2 * i].revents != 0 || watched[2 * i + 1].revents != 0;
       RETURN_IF_ERROR(WatchOver(workers_[i], has_input));
     }
-    // If no orders are left, end the idle workers, even during their set-up.
+    // If no orders are left, end the idle workers, including those still in their set-up.
     std::erase_if(workers_,
                   [&](const Worker& worker) { return worker.dismissed || (orders_.empty() && worker.orders.empty()); });
     const bool nobody_waits =
@@ -228,8 +232,8 @@ class Supervisor {
   }
 
   Result<void> WatchOver(Worker& worker, bool has_input) {
-    if (worker.process.broken_by() != 0) return ReplaceEnded(worker);  // it may not have received its orders
-    // Handle the worker's lines, and its end.
+    if (worker.process.broken_by() != 0) return ReplaceEnded(worker);  // the worker may not have received its orders
+    // Handle the lines that the worker wrote, and its end if it ended.
     if (has_input) {
       const bool alive = worker.process.Receive();
       for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
@@ -268,7 +272,7 @@ class Supervisor {
     not_run_ += cells;
   }
 
-  /// Handles one line of a worker. Returns false if the line was not expected.
+  /// Handles one line that a worker wrote. Returns false if the line was not expected.
   Result<bool> Take(Worker& worker, const std::string& line) {
     // The line says that the set-up is done.
     if (!worker.ready) {
@@ -317,8 +321,8 @@ class Supervisor {
     return Replace(worker, Status::kCrashed, "its worker ended with " + end);
   }
 
-  /// Ends a worker, reports its current work as lost, and starts another worker if there are orders. Without a
-  /// `status`, this machine is the cause, and the lost cells get no rows.
+  /// Ends a worker, reports what it was doing as lost, and starts another worker if orders are left. If `status` is
+  /// nullopt, this machine is the cause, and the lost cells get no rows.
   Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMaxDeathsInSetup) {
@@ -327,7 +331,7 @@ class Supervisor {
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());
       worker.orders.pop_front();
-      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // orders that were not begun
+      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // returns the orders that were not begun
         orders_.PutBack(std::move(worker.orders.back()));
       }
       RETURN_IF_ERROR(GiveUp(std::move(order), worker.built, status, reason));
@@ -342,8 +346,8 @@ class Supervisor {
     return {};
   }
 
-  /// Delivers the cell in progress as lost, or all cells of the world if it was still being built. Returns the other
-  /// methods to the queue. Without a `status`, the lost cells are only counted.
+  /// Delivers the cell in progress as lost; if the world was still being built, delivers all its cells as lost. Returns
+  /// the other methods to the queue. If `status` is nullopt, the lost cells get no rows and are only counted.
   Result<void> GiveUp(Order order, bool built, std::optional<Status> status, const std::string& reason) {
     const World& world = plan_.world(order.world);
     const std::size_t lost = built ? 1 : order.methods.size();
@@ -362,19 +366,19 @@ class Supervisor {
   }
 
   const Plan& plan_;
-  CellTable* const answered_;  ///< the cells to be measured; null = methods are run
+  CellTable* const answered_;  ///< the answered cells that workers measure; null if workers run methods
   OrderQueue orders_;
   const SupervisorOptions& options_;
   const Deliver& deliver_;
   std::string setup_line_;
   std::vector<Worker> workers_;
-  std::vector<Pace> paces_;  ///< one per scenario
-  int deaths_in_setup_ = 0;  ///< number of deaths since the last worker became ready
-  std::size_t not_run_ = 0;  ///< number of cells that were not run
-  std::string why_not_run_;  ///< the reason of the first of them
+  std::vector<Pace> paces_;  ///< mean time of the worlds so far, one per scenario
+  int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished one
+  std::size_t not_run_ = 0;  ///< number of cells that could not be run
+  std::string why_not_run_;  ///< why the first such cell could not be run
 };
 
-/// Returns those parts of the orders whose cells are answered, or those whose cells are not.
+/// Returns the part of the orders whose cells are answered, or the part whose cells are not.
 std::vector<Order> OrdersOf(const Plan& plan, const std::vector<Order>& orders, const CellTable& answered,
                             bool are_answered) {
   std::vector<Order> found;

@@ -15,28 +15,29 @@
 namespace etude {
 
 struct SupervisorOptions {
-  std::string program;                      ///< started as `PROGRAM worker`
+  std::string program;                      ///< path of this program; a worker is started as `PROGRAM worker`
   std::string error_folder;                 ///< folder for the standard error of outside methods; "" = they share ours
-  Fence fence = {};                         ///< the sandbox of outside methods
-  int jobs = 0;                             ///< worker processes; 0 = one per processor
-  const std::atomic<bool>* stop = nullptr;  ///< set to true (by Ctrl-C) to end early
-  /// The cells that are answered but not yet measured: cells of an earlier attempt, and cells that Deliver adds. Null =
-  /// answered cells are kept in a temporary file, and Deliver receives measured cells only.
+  Fence fence = {};                         ///< sandbox in which outside methods run
+  int jobs = 0;                             ///< number of worker processes; 0 = one per processor
+  const std::atomic<bool>* stop = nullptr;  ///< the run ends early when this becomes true (Ctrl-C)
+  /// The cells that are answered but not yet measured: those of an earlier attempt, and those that Deliver adds. If
+  /// null, answered cells are stored in a temporary file, and Deliver receives measured cells only.
   CellTable* answered = nullptr;
-  /// Called many times a second while workers work.
+  /// Called many times a second while the run waits for workers.
   std::function<void()> on_wait = {};
-  /// Called after all methods have answered and before the first measuring program starts.
+  /// Called after all methods have answered and before the first metric program starts.
   std::function<Result<void>()> on_all_answered = {};
 };
 
-/// A finished or answered cell (CellLineHead::is_measured): the line that the worker wrote, and the head of the line.
+/// A finished or answered cell (see CellLineHead::is_measured): the line that the worker wrote, and the line's head.
 struct DeliveredCell {
   CellLineHead head;
   std::string_view line;
   Result<FinishedCell> Read(const Plan& plan) const;
 };
 
-/// Called for every cell in order of completion, and a second time after outside metrics have measured the cell.
+/// Called for every cell in order of completion. A cell that outside programs measure is delivered twice: when it is
+/// answered, and when it is measured.
 using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
 
 /// Gives worlds to worker processes and collects their cells. Several short worlds are given at a time, so that no

@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the path of the list of a key file's uses, with links resolved. Returns "" if the key does not come from a
-/// regular file.
+/// Returns the path of the file that lists the uses of a key; links are resolved. Returns "" if the key does not come
+/// from a regular file.
 fs::path ListOf(const SecretKey& key) {
   std::error_code error;
   const fs::path file = key.file.empty() ? fs::path() : fs::canonical(key.file, error);
@@ -38,7 +38,7 @@ Json Encode(const SecretKey& key, const KeyUse& use) {
           {"folder", fs::absolute(use.folder).lexically_normal().string()}};
 }
 
-/// Returns true if `a` and `b` are different shards of one run.
+/// Returns true if `a` and `b` record different shards of the same run.
 bool AreOtherShards(const Json& a, const Json& b) {
   const auto shard_of = [](const Json& line) { return ParseShard(line.at("shard").get<std::string>()); };
   const auto of_a = shard_of(a), of_b = shard_of(b);
@@ -51,7 +51,7 @@ bool IsRepeated(const Json& line, const Json& use) {
   return line.at("command") == "run" && use.at("command") == "run" && line.at("manifest") == use.at("manifest");
 }
 
-/// The file with the uses of a key. It is open, and locked if the file system has locks.
+/// The open file that lists the uses of a key. It is locked if the file system has locks.
 class UsedKeys {
  public:
   static Result<UsedKeys> Open(const fs::path& list) {
@@ -94,7 +94,7 @@ class UsedKeys {
     const std::string line = json + "\n";
     const bool is_written = ::write(file_, line.data(), line.size()) == static_cast<ssize_t>(line.size());
     if (is_written && ::fdatasync(file_) == 0) return {};
-    // If the write fails, the next reader cuts off the incomplete line.
+    // If the write fails, the file may end with an incomplete line, which the next reader cuts off.
     return CannotWrite(path_.string(), "cannot be written", errno);
   }
 
@@ -108,7 +108,8 @@ class UsedKeys {
  private:
   UsedKeys(fs::path path, int file) : path_(std::move(path)), file_(file) {}
 
-  /// Reads all lines. An incomplete last line is cut off: a kill left it before the key was used.
+  /// Reads all lines. An incomplete last line is cut off: a process that was killed while it wrote the line had not yet
+  /// used the key.
   Result<void> Read() {
     std::string text;
     std::array<char, 1 << 14> chunk;
@@ -151,7 +152,7 @@ Result<void> CheckUnused(const SecretKey& key, const KeyUse& use) {
   const fs::path list = ListOf(key);
   if (list.empty()) return {};
   std::error_code none;
-  // Do not create the list yet, because other checks may still fail.
+  // Do not create the file yet, because other checks of the input may still fail.
   if (!fs::exists(fs::symlink_status(list, none))) {
     if (use.continues || use.repeats || ::access(list.parent_path().c_str(), W_OK) == 0) return {};
     return UsedKeys::NotWritable(list);

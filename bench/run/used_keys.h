@@ -13,19 +13,21 @@ namespace etude {
 struct KeyUse {
   std::string command;  ///< "run", "export", "score", "replay"
   std::string suite;
-  std::string manifest;  ///< the result of DigestOfRun
+  std::string manifest;  ///< digest of the manifest (DigestOfRun)
   Shard shard = {};
-  std::filesystem::path folder;  ///< the folder that the command wrote
-  bool continues = false;        ///< true: it resumes a run (`--resume`), which the list must contain
-  bool repeats = false;          ///< true: it repeats a run (`--from`) whose earlier runs may have used the key
+  std::filesystem::path folder;  ///< the folder into which the command writes
+  bool continues = false;        ///< true: the command resumes a run (`--resume`), which the list must contain
+  /// true: the command repeats a run (`--from`), so the key may have been used for this run before.
+  bool repeats = false;
 };
 
-/// Returns a digest of a manifest. It is the same for all shards of a run, and does not depend on the libraries.
+/// Returns a digest of a manifest. The digest is the same for all shards of a run, and does not depend on the
+/// libraries.
 std::string DigestOfRun(const Json& manifest);
 
-/// Fails if the key is in its list of uses, KEYFILE.used, because programs that were asked in its worlds may know them.
-/// Other shards of the same run may use the key. Fails also if the list cannot be read or written. A key from the
-/// environment or from a pipe has no list and is not checked.
+/// Fails if the list of the key's uses, KEYFILE.used, already contains a use, because outside programs may have learned
+/// the key's worlds. A use by another shard of the same run is allowed. Fails also if the list cannot be read or
+/// written. A key from the environment or from a pipe has no list and is not checked.
 Result<void> CheckUnused(const SecretKey& key, const KeyUse& use);
 
 /// Adds a use to the list after checking again, because two runs may begin at the same time. When this function
@@ -33,8 +35,8 @@ Result<void> CheckUnused(const SecretKey& key, const KeyUse& use);
 /// written.
 Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used);
 
-/// Adds the use by a replay to the key's list if it is not there yet. A replay is a use, because the programs that the
-/// manifest names learn the key's worlds in it. Fails if the list cannot be written.
+/// Adds the use by a replay to the list of the key's uses, unless the list contains it. A replay is a use, because the
+/// outside programs that the manifest names may learn the key's worlds. Fails if the list cannot be written.
 Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use);
 
 }  // namespace etude

@@ -30,8 +30,8 @@ namespace {
 /// sizes, so fixed sizes give the same bytes on every machine.
 void FixEigenBlocking() { Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024); }
 
-/// Keeps up to 64 MiB of freed memory for the next cell. Otherwise, zeroing new pages would take a quarter of the time
-/// of reading files.
+/// Tells the C library to keep up to 64 MiB of freed memory for the next cell. Otherwise, getting new pages, which the
+/// kernel fills with zeros, would take a quarter of the time of reading files.
 void KeepFreedMemory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
@@ -42,7 +42,8 @@ int GiveUp(const Error& error) {
   return IsOfThisMachine(error) ? kCannotGoOn : 2;
 }
 
-/// Writes a line and flushes it. A failure ends the worker, because the supervisor would wait for the line forever.
+/// Writes a line to the supervisor and flushes it. If this fails, the worker ends, because the supervisor would wait
+/// for the line forever.
 Result<void> Say(const std::string& line, std::ostream& out) {
   if (out << line << '\n' << std::flush) return {};
   return FailOfMachine("a worker's answer cannot be written: {}", std::strerror(errno));
@@ -64,7 +65,7 @@ Result<void> Measure(const std::string& line, const Plan& plan, std::span<const 
   return Answer(head->cell, runner.Measure(world.condition, std::move(answered)), out);
 }
 
-/// Runs the methods of one order, and writes a line after each.
+/// Runs the methods of one order, and writes a line after each method.
 Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunner>> runners, std::ostream& out) {
   const Json& world = order.at("world");
   const auto scenario = world.at(0).get<std::size_t>();
@@ -96,9 +97,9 @@ Result<void> Work(std::istream& in, std::ostream& out) {
   for (const PreparedScenario& scenario : scenarios) {
     runners.push_back(std::make_unique<CellRunner>(scenario, json.at("error_folder").get<std::string>(), fence));
   }
-  std::optional<Plan> plan;  // made only if cells are measured, because it is large
+  std::optional<Plan> plan;  // made only if cells are to be measured, because a plan is large
   RETURN_IF_ERROR(Say(kWorkerReady, out));
-  // Handle one order, or one cell to be measured, per line.
+  // Each line is an order, or a cell to be measured. Handle one line at a time.
   while (std::getline(in, line)) {
     if (line.starts_with(kAnsweredBegin)) {
       if (!plan) plan.emplace(scenarios);
@@ -118,10 +119,12 @@ int RunWorker(std::istream& in, std::ostream& out) {
   FixEigenBlocking();
   KeepFreedMemory();
   AdoptOrphans();
-  // A job scheduler signals every process of a job, but only the parent decides when workers stop.
+  // A job scheduler signals every process of a job, but only the supervisor decides when workers stop. So ignore these
+  // signals.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
-  std::signal(SIGBUS, SIG_DFL);     // an invalid memory access by a method is then a crash
+  // An invalid memory access by a method then ends the worker, and its cell is recorded as crashed.
+  std::signal(SIGBUS, SIG_DFL);
   in.exceptions(std::ios::badbit);  // otherwise, a shortage of memory would look like the end of input
   try {
     const auto done = Work(in, out);
