@@ -15,7 +15,7 @@ constexpr std::string_view kTask = "plausibility", kWithin = "within_limits";
 /// The clips that show faults, and the clips whose answers could not be judged.
 struct FaultyClips {
   Table table;  ///< clips that exceed their fault limits come first, clips that could not be judged last
-  /// says how many clips are faulty and how many could not be judged; empty if the run judged no clips
+  /// Says how many clips are faulty and how many could not be judged; empty if the run judged no clips.
   std::string sentence;
   std::size_t rows = 0;  ///< the number of clips to list, even if the table shows only the first `most`
 };

@@ -55,7 +55,7 @@ struct GateReport {
   /// One sentence for each method without any answer; each such method fails the gate.
   std::vector<std::string> silent;
   std::vector<std::string> incomplete;  ///< the reasons why the gate gives no verdict
-  /// true: some methods are outside programs, so `etude replay` needs permission to run them.
+  /// True: some methods are outside programs, so `etude replay` needs permission to run them.
   bool runs_programs = false;
 };
 

@@ -11,7 +11,7 @@ namespace etude {
 struct CountedReason {
   std::string reason = {};  ///< the reason of the first cell that was counted
   int cells = 0;
-  /// true: all cells have exactly this reason; false: some reasons have other numbers or file names.
+  /// True: all cells have exactly this reason; false: some reasons have other numbers or file names.
   bool is_one = true;
 
   /// Returns the reason, e.g. "solve failed". If the counted cells' reasons differ, returns the first one as an

@@ -37,12 +37,12 @@ struct TimeRatio {
 /// defaults were measured.
 struct TailRule {
   double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
-  /// Minimum number of far worse worlds in one comparison that is a regression; 0 = never a regression.
+  /// A comparison with at least this many far worse worlds is a regression; 0 = never.
   int worlds = 4;
   /// The minimum share of the compared worlds that must be far worse, in addition to their number. In a large number of
   /// worlds, rounding may change a few.
   double share = 0.05;
-  /// Minimum number of worlds without the value or answer that they had before, which is a regression; 0 = never.
+  /// A comparison in which at least this many worlds lost their value or answer is a regression; 0 = never.
   int lost = 1;
 };
 
@@ -59,7 +59,7 @@ struct GateRules {
 struct ComparedMethod {
   std::string name;
   std::string against;  ///< the method with which this one is compared; the first method names itself
-  /// true: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
+  /// True: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
   bool has_oracle = false;
   std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces
   std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method

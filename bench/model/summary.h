@@ -160,7 +160,7 @@ struct BudgetShare {
 struct ErrorBudget {
   std::string metric;
   std::string method;  ///< the method in which ground truth replaces no stage, or the fewest stages
-  /// true: each cost is a mean over all orders of replacing the stages (Shapley value); false: the costs follow one
+  /// True: each cost is a mean over all orders of replacing the stages (Shapley value); false: the costs follow one
   /// order.
   bool is_shapley = false;
   int worlds = 0;

@@ -29,7 +29,7 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished);
 struct CellLineHead {
   std::size_t cell = 0;
   Status status = Status::kFailed;
-  /// False if outside metric programs must still measure the cell (FinishedCell::is_measured)
+  /// False if outside metric programs must still measure the cell (FinishedCell::is_measured).
   bool is_measured = true;
 };
 

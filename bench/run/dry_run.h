@@ -17,7 +17,7 @@ struct ScenarioForecast {
   std::size_t conditions = 0;
   std::size_t methods = 0;
   std::string work = {};  ///< digest of the scenario's worlds and methods (WorkOf)
-  /// true: the time is a stored cost (ReadKeptCosts); false: the time was measured on the first worlds.
+  /// True: the time is a stored cost (ReadKeptCosts); false: the time was measured on the first worlds.
   bool is_kept = false;
   double seconds_per_world = 0;  ///< wall time of a world with all methods, on one worker
   int comparisons = 0;           ///< number of comparisons to which one Holm correction applies together

@@ -26,7 +26,7 @@ struct RunOptions {
   std::optional<int> trials;           ///< if set, replaces each scenario's own number of trials
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
   std::vector<std::string> libraries;  ///< libraries as NAME=CLIPS, in addition to those of the scenarios
-  /// recordings; if not empty, they replace simulated people and the scenarios' recordings.
+  /// Recordings; if not empty, they replace simulated people and the scenarios' recordings.
   std::vector<std::string> streams;
   std::string labels;           ///< file with the labels of `streams`, or of `clips`
   std::string joint_map;        ///< file of joint names; if not "", replaces the scenarios' joint maps
@@ -36,7 +36,7 @@ struct RunOptions {
   std::string output;           ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
   bool overwrite = false;       ///< true: a run that the folder contains is replaced
   bool resume = false;          ///< true: the run that the folder contains is continued
-  /// true: the run may be resumed although libraries have changed; the folder records the changes.
+  /// True: the run may be resumed although libraries have changed; the folder records the changes.
   bool other_libraries = false;
   Shard shard;   ///< the part of the run to do; by default the whole run
   int jobs = 0;  ///< number of worker processes; 0 = one per processor
@@ -97,7 +97,7 @@ struct MergeOptions {
   std::string output;
   bool overwrite = false;
   std::optional<SecretKey> key = {};  ///< key of secret worlds, if the run has them
-  /// true: the shards may have run with different libraries; the merged folder records the differences.
+  /// True: the shards may have run with different libraries; the merged folder records the differences.
   bool other_libraries = false;
   std::string command_line;
   std::string program_version;

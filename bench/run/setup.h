@@ -41,7 +41,7 @@ struct ScenarioSetup {
   std::vector<std::string> labels = {};   ///< names of label files, keys of SuiteSetup::sources
   std::vector<RefusedClip> refused = {};  ///< files left out of `clips`, `libraries` and `streams`
   std::vector<JudgedFiles> files = {};    ///< the worlds of a task that judges files, one per trial
-  /// true: every cell is recorded (--keep motions); false: only the cells that `video` names.
+  /// True: every cell is recorded (--keep motions); false: only the cells that `video` names.
   bool keeps_motions = false;
 };
 

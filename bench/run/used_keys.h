@@ -17,7 +17,7 @@ struct KeyUse {
   Shard shard = {};
   std::filesystem::path folder;  ///< the folder into which the command writes
   bool continues = false;        ///< true: the command resumes a run (`--resume`), which the list must contain
-  /// true: the command repeats a run (`--from`), so the key may have been used for this run before.
+  /// True: the command repeats a run (`--from`), so the key may have been used for this run before.
   bool repeats = false;
 };
 

@@ -60,7 +60,7 @@ class CapturePanel {
   StagedRoom stage_;
   std::vector<LensWarp> lenses_;  ///< lens distortion, one per camera
   std::vector<Box> crops_;        ///< crop around the person, one per camera, pixels of its pictures
-  /// mean joint error, one per frame; empty if the run did not record errors of frames
+  /// Mean joint error, one per frame; empty if the run did not record errors of frames.
   std::vector<double> errors_mm_;
   std::optional<double> error_mm_;
   std::string method_, clip_;

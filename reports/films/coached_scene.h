@@ -18,7 +18,7 @@ namespace etude {
 /// A recorded session of a coach, prepared for a film. It contains the motions of the recording and its extras, with
 /// every frame number clamped to the session.
 struct CoachedSessionFacts : CoachExtras {
-  /// motions of coach and learner, and the learner's motion as the sensor saw it; of equal length
+  /// Motions of coach and learner, and the learner's motion as the sensor saw it; of equal length.
   BodyMotion coach, learner, sensed;
 
   int Frames() const { return static_cast<int>(coach.poses.size()); }

@@ -84,7 +84,7 @@ std::string_view OtherUnits(SamplingUnit unit);
 /// conditions.
 struct BeyondFinding {
   bool on_these_only = true;  ///< true: no condition has a generalised verdict
-  /// true: every condition has a generalised verdict that equals the verdict on the run's worlds.
+  /// True: every condition has a generalised verdict that equals the verdict on the run's worlds.
   bool as_on_these = false;
   std::optional<Verdict> verdict = {};  ///< the generalised verdict, if all conditions that have one agree
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
