@@ -48,7 +48,7 @@ struct MethodSummary {
   std::vector<std::pair<Status, int>> statuses;  ///< number of cells that ended in each status; zeros are left out
   std::vector<MetricSummary> metrics;
   int ok = 0;                             ///< number of cells with status ok
-  int attempted = 0;                      ///< number of cells that were not skipped; failed cells count
+  int attempted = 0;                      ///< number of cells that were not skipped, including failed cells
   std::optional<double> ok_low, ok_high;  ///< 95 % Wilson interval of ok / attempted
 };
 
@@ -222,7 +222,7 @@ struct ScenarioSummary {
   std::vector<ExpectationResult> expectations;
   /// Number of comparisons, over all conditions and headline metrics, to which Holm's correction applies together.
   int family = 0;
-  std::vector<AcrossVerdict> across = {};  ///< empty if no verdict must hold across parameters
+  std::vector<AcrossVerdict> across = {};  ///< verdicts across parameters; empty without the key `across`
   std::string description = {};            ///< a sentence about its worlds; "" = not described
   /// One sentence about each method; empty if the scenario describes no method.
   std::vector<std::string> descriptions = {};

@@ -94,7 +94,7 @@ struct DetectionExtras {
   std::vector<Move> moves;
   std::vector<Event> events;
   std::vector<Alarm> alarms;
-  /// Tracking state of the joints: one text per frame, one letter per joint (StateLetters)
+  /// Tracking state of the joints: one text per frame, one letter per joint (StateLetters).
   std::vector<std::string> joint_states;
 };
 

@@ -115,7 +115,7 @@ class PreparedScenario {
   std::unique_ptr<LabelledStreams> recordings_;
   std::unique_ptr<OpenOptions> opening_;
   std::vector<std::unique_ptr<Task>> tasks_;  ///< one task per condition
-  /// Names from which random numbers are derived, one per condition (WorldKey::scenario)
+  /// Names from which random numbers are derived, one per condition (WorldKey::scenario).
   std::vector<std::string> dice_names_;
 };
 

@@ -23,7 +23,7 @@ struct ScenarioPicture {
 
 /// All pictures and films made from a run's recordings, and the reasons why others could not be made.
 struct Media {
-  /// The film at the top of the page: a capture or, if there is none, a coach. Empty for runs of other tasks, and if
+  /// The film of the whole run: a capture or, if there is none, a coach. Empty for runs of other tasks, and if
   /// the film of a scenario shows the same.
   Film film;
   /// Two frames of the capture: pictures of both cameras with mask and recovered skeleton (DrawStrip).

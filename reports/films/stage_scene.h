@@ -46,7 +46,7 @@ class CoachPanel {
   std::string method_;
 };
 
-/// The film at the top of the page if the run recorded a coach but no capture. It shows the coach changing moves.
+/// The film of a run that recorded a coach but no capture. It shows the coach changing moves.
 class StageScene : public Scene {
  public:
   /// The maximum number of frames of the motion that is shown.
