@@ -163,7 +163,7 @@ std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& ask
     }
     if (pairs > 0) return fmt::format("{}/{}", FormatCount(lost), FormatCount(pairs));
   }
-  return "";  // the rival is one of two methods, each chosen on half of the worlds
+  return "";  // the strongest other method is one of two, each the strongest on half of the worlds
 }
 
 KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& asked, Times& times,
