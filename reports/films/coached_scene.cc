@@ -264,7 +264,7 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
     // Leave out decisions about music, clips and rules of correction: they are too detailed for viewers.
     const bool is_said = decision.event != "tag" && decision.event != "transition" && decision.event != "corrects";
     if (is_said && decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
-      // For the verdict "wrong", show its name without the evidence that follows it.
+      // For the verdict "wrong", show the fault without the evidence after it; for "right", show only the verdict.
       const std::string_view event = decision.event;
       why = event == "wrong"   ? "wrong: " + decision.why.substr(0, decision.why.find(':'))
             : event == "right" ? "judged right"
