@@ -49,8 +49,8 @@ struct RunSystem {
   friend bool operator==(const RunSystem&, const RunSystem&) = default;
 };
 
-/// A result folder in memory. It contains all rows. For a very large run, it contains only the rows of some worlds, and
-/// a source that reads all rows.
+/// A result folder in memory. `rows` contains all rows; of a very large run, only those of some worlds, and `source`
+/// reads all rows one by one.
 struct RunData {
   std::string suite;
   std::uint64_t seed = 1;  ///< seed of the worlds; for secret worlds, a number derived from the digest of their key
@@ -63,7 +63,7 @@ struct RunData {
   double wall_seconds = 0;
   std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
   /// The source of all rows if the run does not fit into memory, else null. If it is set, `rows`, `series` and
-  /// `cpu_seconds` contain only the data of some evenly spaced worlds.
+  /// `cpu_seconds` contain only the data of some evenly spaced worlds; after LoadRunRowByRow they are empty.
   std::shared_ptr<const RowSource> source;
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;

@@ -14,9 +14,9 @@ namespace etude {
 struct Expectation {
   std::string metric;
   std::string of;  ///< the method to which the claim applies
-  /// The method below (or above) which `of` must be in the same worlds; at most one of the two is set.
+  /// `of` must be below the method `below`, or above the method `above`, in the same worlds; at most one is set.
   std::string below, above;
-  /// The largest or smallest allowed value of `statistic`, if `of` is not compared with another method.
+  /// Bounds of `statistic` of the method `of`. They are set only if `of` is not compared with another method.
   std::optional<double> at_most, at_least;
   std::string statistic = "median";  ///< median, mean or p95; only for bounds
   double confidence = 0.95;  ///< confidence level of a comparison's interval; the level of its test is 1 − confidence
