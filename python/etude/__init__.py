@@ -5,7 +5,7 @@ installed.
 """
 import importlib
 
-__version__ = "0.3.0"
+__version__ = "0.4.0"
 
 _HOMES = {
     "etude.program": ("EtudeError", "find_program"),
