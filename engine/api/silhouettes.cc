@@ -12,7 +12,7 @@ namespace etude::engine {
 namespace {
 
 constexpr int kMaxMaskSide = 8192;
-constexpr double kFittedSide = 640;  ///< the longer side of the pictures for which the fit's options were chosen
+constexpr double kFittedSide = 640;  ///< longer side, pixels, of the pictures for which the fit's options were chosen
 
 /// Returns the mask with 1 for every pixel other than 0, as the fit expects.
 Mask OnesOf(const Mask& mask) {

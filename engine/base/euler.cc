@@ -31,7 +31,8 @@ glm::dmat3 RotationXyz(const glm::dvec3& angles) {
 }
 
 glm::dvec3 AnglesXyz(const glm::dmat3& rotation) {
-  constexpr double kMinCosY = 1e-6;  // at smaller |cos y| the first row is rounding noise, so z cannot be read from it
+  // Below this |cos y|, the first row is rounding noise, so z cannot be read from it.
+  constexpr double kMinCosY = 1e-6;
   const double cos_y = std::hypot(rotation[0].x, rotation[1].x);
   const double x = std::atan2(-rotation[2].y, rotation[2].z), y = std::atan2(rotation[2].x, cos_y);
   if (cos_y > kMinCosY) return {x, y, std::atan2(-rotation[1].x, rotation[0].x)};

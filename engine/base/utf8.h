@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// A character and its number of bytes in UTF-8 (RFC 3629: no surrogates, no overlong forms, up to U+10FFFF); 0 if the
-/// bytes are not valid UTF-8.
+/// A character and its number of bytes in UTF-8 (RFC 3629: no surrogates, no overlong forms, up to U+10FFFF). The
+/// length is 0 if the bytes are not valid UTF-8.
 struct Utf8Character {
   char32_t code = 0;
   std::size_t length = 0;

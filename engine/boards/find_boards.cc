@@ -25,7 +25,8 @@ constexpr double kMinAlignment = 0.97;
 constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of edges from a corner to the next
 // Maximum error of a corner predicted from two, as a share of the last step.
 constexpr double kMaxPredictionError = 0.25;
-constexpr double kMaxStepRatio = 2.2;  // maximum ratio of a step to a neighbouring one in another direction
+// Maximum ratio between the step in a new direction and a known step from the same corner in another direction.
+constexpr double kMaxStepRatio = 2.2;
 
 struct Axes {
   glm::dvec2 right, down;

@@ -57,7 +57,8 @@ struct OpenCvBoards {
   Result<OpenCvCalibration> (*calibrate)(std::span<const TargetView> views, const PictureSize& size, LensModel lens);
 };
 
-/// Fails if the module was not built (libopencv-contrib-dev; `scripts/setup --boards`).
+/// Returns a finder of the board's corners. Fails if the module was not built (libopencv-contrib-dev; `scripts/setup
+/// --boards`).
 Result<std::unique_ptr<PrintedBoardFinder>> MakePrintedBoardFinder(const PrintedBoard& board);
 
 /// Calibrates one camera by OpenCV's `calibrateCamera`, for comparison with `CalibrateFromPlanes`: both take the same

@@ -23,7 +23,7 @@ struct BundleMark {
 
 struct BundleInputs {
   const MeasurableBody& body;
-  /// The start poses, one per frame. Frames are consecutive at a constant rate.
+  /// Start poses, one per frame; consecutive frames at a constant rate if there is a smoothness prior.
   std::span<const TreeState> start;
   std::span<const BundleMark> marks;
 };

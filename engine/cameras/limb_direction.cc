@@ -47,8 +47,8 @@ glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double
   return {along_W[0], along_W[1], along_W[2]};
 }
 
-// Returns one weight per plane, scaled so that the largest is 1: the inverse of the error of Nᵢ·d that an error of one
-// pixel at the stroke's ends causes.
+// Returns the weight 1/ε of each plane, scaled so that the largest weight is 1. ε is the error of Nᵢ·d if the ends of
+// the stroke are wrong by one pixel.
 std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dvec3& along_W) {
   std::vector<double> weights;
   constexpr double kEndOn = 0.05;  // sine; limits the weight of a limb seen end-on

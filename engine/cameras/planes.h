@@ -36,7 +36,7 @@ std::size_t NumberTargets(std::span<TargetView> views);
 /// a board in one pose; the frame of the first target in `views` is the world. Points must have z = 0. Views with fewer
 /// than four corners, or with corners on one line, are left out. Fails, naming the camera, if a camera has no view
 /// left, or never sees a board at the same time as another camera.
-/// @param sizes of the cameras' pictures
+/// @param sizes the size of each camera's pictures
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
                                        const RefineOptions& options = {});
 

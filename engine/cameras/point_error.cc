@@ -13,10 +13,10 @@ namespace {
 /// The effect of one camera's errors on a pixel whose lens distortion is removed.
 struct PixelErrors {
   std::size_t camera = 0;
-  glm::dmat3x2 by_position{0};                                      ///< derivative of the pixel by the position, px/m
-  glm::dmat2 noise{0};                                              ///< covariance of the pixel, px²
-  std::array<glm::dvec2, kCalibrationParameters> by_calibration{};  ///< shift of the pixel by one standard deviation,
-                                                                    ///< px
+  glm::dmat3x2 by_position{0};  ///< derivative of the pixel by the position, px/m
+  glm::dmat2 noise{0};          ///< covariance of the pixel, px²
+  /// Shift of the pixel by one standard deviation of each calibration parameter, px.
+  std::array<glm::dvec2, kCalibrationParameters> by_calibration{};
 };
 
 /// Returns the pixel, with lens distortion, if it lies within the picture.
@@ -27,7 +27,8 @@ std::optional<glm::dvec2> PixelInPicture(const Camera& camera, const glm::dvec3&
   return pixel;
 }
 
-/// Returns the covariance of a pixel whose lens distortion is removed, px²; nullopt at the rim of the lens's model.
+/// Returns the covariance of a pixel whose lens distortion is removed, px²; nullopt if the distortion of a neighbouring
+/// pixel cannot be removed.
 std::optional<glm::dmat2> NoiseWithoutLens(const Camera& camera, const glm::dvec2& shown, double noise_px) {
   if (camera.distortion.IsNone()) return glm::dmat2(noise_px * noise_px);
   constexpr double kStep = 0.1;  // pixels

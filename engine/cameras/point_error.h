@@ -33,9 +33,9 @@ constexpr std::size_t kCalibrationParameters = 7;
 
 /// The expected error of one triangulated point.
 struct PointError {
-  int cameras = 0;           ///< number of cameras that have the point in their pictures
-  double lost = 1;           ///< probability that it cannot be triangulated; the members below describe the error if it
-                             ///< can be
+  int cameras = 0;  ///< number of cameras that have the point in their pictures
+  /// The probability that the point cannot be triangulated. The members below describe the error if it can be.
+  double lost = 1;
   glm::dmat3 covariance{0};  ///< covariance of the position, m²
   glm::dmat3 noise{0};       ///< the part of `covariance` due to the pixels' noise
   /// For each camera, the mean displacement of the position by one standard deviation of each calibration parameter,

@@ -94,7 +94,7 @@ class Bundle {
     if (targets_.size() > 1) o.linear_solver_ordering = TargetsFirst();
     o.num_threads = 1;
     o.max_num_iterations = options_.most_iterations;
-    // Iterate to the precision of doubles, because the remaining residual is compared with the error of the corners.
+    // Iterate to the precision of doubles, because callers compare the final residual with the error of the corners.
     o.function_tolerance = 1e-15;
     o.parameter_tolerance = 1e-14;
     o.gradient_tolerance = 1e-14;
@@ -240,9 +240,9 @@ class Bundle {
     return normal;
   }
 
-  // Returns the variances of the free parameters if the errors of the corners of one view are correlated (by blur, a
-  // bent board, or a bias of the finder): the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with the gradient g of each view, enlarged
-  // because views are few (Cameron and Miller 2015, CR1). Returns zeros for fewer than four views.
+  // Returns the variances of the free parameters for errors that are correlated among the corners of one view (by blur,
+  // a bent board, or a bias of the finder). This is the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with the gradient g of each view,
+  // enlarged because views are few (Cameron and Miller 2015, CR1). Returns zeros for fewer than four views.
   Eigen::VectorXd VariancesByViews(const Eigen::MatrixXd& inverse) const {
     Eigen::VectorXd variances = Eigen::VectorXd::Zero(inverse.rows());
     constexpr std::size_t kMinViews = 4;

@@ -58,8 +58,8 @@ class EpipolarGeometry {
   /// Returns the geometry of two cameras; nullopt if a matrix has no centre (a camera at infinity).
   static std::optional<EpipolarGeometry> Of(const ProjectionMatrix& first, const ProjectionMatrix& second);
 
-  /// Returns the distance in pixels by which two sightings must move to show one point: the root mean square over the
-  /// two pictures, to first order (Sampson's distance; Hartley and Zisserman, section 11.4.3). No point needs to be
+  /// Returns the distance in pixels by which two sightings must move to show the same point: the root mean square over
+  /// the two pictures, to first order (Sampson's distance; Hartley and Zisserman, section 11.4.3). No point needs to be
   /// triangulated. The sign states on which side of the epipolar lines the pixels lie.
   double DistancePx(const glm::dvec2& first, const glm::dvec2& second) const;
 

@@ -26,7 +26,7 @@ struct TakeBody {
 
 TakeBody MakeTakeBody(const LimbLengths& lengths);
 
-/// These convert between LimbLengths and the list of lengths in `TakeBody::measurable`.
+/// LimbLengthsOf and ListOf convert between LimbLengths and the list of lengths in `TakeBody::measurable`.
 LimbLengths LimbLengthsOf(std::span<const double> lengths);
 std::array<double, 10> ListOf(const LimbLengths& lengths);
 

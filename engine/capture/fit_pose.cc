@@ -57,7 +57,7 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
 }
 
 constexpr double kGoal = 1e-7;                       // a target is met at this distance, metres
-constexpr double kMet = kRoleCount * kGoal * kGoal;  // a residual below means that all targets are met, m²
+constexpr double kMet = kRoleCount * kGoal * kGoal;  // a smaller residual means that all targets are met, m²
 // If the residual is below this multiple of the last frame's residual, no other start is tried.
 constexpr double kLikeTheLast = 1.5 * 1.5;
 
@@ -107,14 +107,14 @@ void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_L
     const bool is_seen = std::ranges::any_of(aims, [&](const Aim& aim) {
       return aim.is_on_limb && glm::distance(aim.p_LQ, p_LJ + R_LJ * joint.p_PJ) < 1e-6;
     });
-    // If the joint at the child's beginning has a target, the limbs behind it do not constrain this limb.
+    // If the joint at the child's beginning has a target, the limbs beyond it do not constrain this limb.
     if (!is_seen) AddAims(limb, p_LJ + R_LJ * joint.p_PJ, R_LJ * joint.R_PJ, child, wanted, aims);
   }
 }
 
-// Returns the axes of a limb whose chain to the next known joint contains joints without targets. The limb and the rest
-// of the chain are two sides of a triangle; the third side is the distance to the known joint. The chain bends to the
-// same side as at rest; if it is straight at rest, like a back, it bends backwards.
+// Returns the axes of a limb whose chain to the next known joint contains joints without targets. The limb and the
+// remaining chain are two sides of a triangle; the third side is the distance to the known joint. The chain bends to
+// the same side as at rest; if it is straight at rest, like a back, it bends backwards.
 glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
                                    const glm::dvec3& back_W, int mirrored) const {
   glm::dvec3 p_LT(0);  // the end of the limb, where the rest of the chain begins

@@ -29,8 +29,8 @@ using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
 /// The spatial measurements from the marks of one frame.
 struct FrameMeasurement {
-  RoleVectors ends;        ///< p_WE, metres: position of each end effector in the world, at its role
-  RoleVectors directions;  ///< unit vectors in the world: direction of each limb, at the role of its lower joint
+  RoleVectors ends;        ///< p_WE, metres: position of each end effector in the world, by its role
+  RoleVectors directions;  ///< unit vectors in the world: direction of each limb, by the role of its lower joint
   /// The planes in which each limb without a direction lies, one per picture that shows the limb.
   std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
   /// The sight line of each end that only one picture shows.

@@ -32,10 +32,10 @@ struct ClockOffset {
 /// below the misfit at 0, or if the misfit at 0 is undefined.
 ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int max_frames);
 
+using OptionalPixel = std::optional<glm::dvec2>;
 /// Returns the pixel at the fraction `share` of the way from b to c, which are consecutive frames with the neighbours a
 /// and d: by a Catmull-Rom spline through all four, linearly if a or d is missing. Returns nullopt if b is missing, or
 /// if c is missing and `share` is not 0.
-using OptionalPixel = std::optional<glm::dvec2>;
 OptionalPixel PixelBetween(const OptionalPixel& a, const OptionalPixel& b, const OptionalPixel& c, const OptionalPixel& d, double share);
 
 /// Estimates the delay of each camera's pictures in frames *(ours)*: frame k of a camera was taken at the first

@@ -36,7 +36,7 @@ struct StillnessState {
   bool started = false;
   int seen = 0;    ///< frames since ResetCounts in which a body was seen
   int moving = 0;  ///< frames since ResetCounts in which the body moved
-  int frames = 0;  ///< all frames since ResetCounts
+  int frames = 0;  ///< number of all frames since ResetCounts
 };
 
 /// Takes one frame at 30 Hz. Returns true if the body is seen and moves.
@@ -84,7 +84,7 @@ struct CoachInput {
   std::optional<double> music_s = {};     ///< position in the song that is heard now, in seconds; nullopt without music
   /// For policy `oracle`: true if the requested performance was right. It is read in the last frame of the performance.
   std::optional<bool> told_right = {};
-  bool moment = false;  ///< for policy `yoked`: if true, correct as soon as the dance can be interrupted
+  bool moment = false;  ///< true: policy `yoked` corrects as soon as the dance can be interrupted
 };
 
 /// The whole state of a session, in plain values; it can be copied.
@@ -94,7 +94,7 @@ struct CoachState {
   std::int64_t mode_since = 0;  ///< first frame of this mode
   Playback playback;
 
-  // The player.
+  // State of the player.
   ClapState clap;
   bool clap_waits = false;  ///< true from the detection of a clap until the coach reacts to it
   StillnessState stillness;
@@ -102,7 +102,7 @@ struct CoachState {
   PlayerHint stand = PlayerHint::kNone;
   int stand_frames = 0;  ///< number of consecutive frames in which the position calls for another hint than `stand`
 
-  // The dance.
+  // State of the dance and the music.
   bool music_plays = false;
   double rate = 1;  ///< frames of the dance per shown frame
   int next_tag = 0;
@@ -115,8 +115,8 @@ struct CoachState {
   std::string_view say;
   std::int64_t say_until = 0;  ///< frame at which `say` ends
 
-  // The coach's memory of this song.
-  std::vector<MoveMemory> moves;  ///< one per move of the dance
+  // Memory of the performances in this song.
+  std::vector<MoveMemory> moves;  ///< memory of each move of the dance
   MoveMemory song;                ///< sums over all moves
 };
 

@@ -55,7 +55,7 @@ struct CoachRecord {
   double beat_error_s = 0;  ///< set for kTag: the delay of the dance behind the music; negative if the dance is early
   double rate = 1;          ///< set for kTag: the new speed of the dance, in frames of the dance per shown frame
   std::shared_ptr<const TransitionRecord> transition;  ///< set for kTransition
-  std::string why;                                     ///< one sentence with numbers
+  std::string why;                                     ///< reason for the event: one sentence with numbers
 };
 
 /// The states of the coach; README.md shows the transitions between them.
@@ -65,7 +65,7 @@ enum class CoachMode {
   kDoze,
   kWake,
   kDance,
-  kCorrect,      ///< one of the acts head shake, wave and puzzled
+  kCorrect,      ///< one of the acts head shake, wave and puzzled is played
   kDemonstrate,  ///< a slow demonstration of the move, which the player only watches
   kPraise,
 };

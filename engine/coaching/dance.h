@@ -44,10 +44,10 @@ struct Dance {
   std::string title;
   double tempo_bpm = 120;
   BodyMotion motion = {};                    ///< the whole song at 30 Hz
-  std::vector<DanceMove> moves = {};         ///< with unique names
-  std::vector<Repetition> repetitions = {};  ///< in order and without overlap
-  std::vector<MusicTag> tags = {};           ///< frames and times ascend strictly
-  std::vector<CoachAct> acts = {};           ///< at least those of RequiredActs()
+  std::vector<DanceMove> moves = {};         ///< the moves, with unique names
+  std::vector<Repetition> repetitions = {};  ///< the repetitions, in order and without overlap
+  std::vector<MusicTag> tags = {};           ///< the tags; their frames and times ascend strictly
+  std::vector<CoachAct> acts = {};           ///< the acts; at least those of RequiredActs()
   std::vector<double> beats_s = {};  ///< times of the music's beats, ascending (for click tracks and beat errors)
 
   const CoachAct* FindAct(std::string_view name) const;

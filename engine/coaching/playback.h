@@ -13,7 +13,7 @@ namespace etude {
 /// The frames of a transition: those shown after the request, until only the wanted clip plays.
 struct ShownPath {
   int clip = 0;                                    ///< the wanted clip, as an index in the library
-  std::vector<BodyPose> frames;                    ///< in the coordinates of the clip that was left
+  std::vector<BodyPose> frames;                    ///< shown poses, in the coordinates of the clip that was left
   std::size_t entered = 0;                         ///< index in `frames` from which the wanted clip plays
   int clip_frame = 0;                              ///< the wanted clip's frame at that index
   FloorMove place;                                 ///< the wanted clip's floor move, in the coordinates of `frames`

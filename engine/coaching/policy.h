@@ -34,7 +34,7 @@ struct PolicyInput {
 
 struct PolicyDecision {
   bool corrects = false;
-  std::string why;  ///< one sentence with numbers
+  std::string why;  ///< reason for the decision: one sentence with numbers
 };
 
 /// A rule that decides when the coach interrupts, with its name in scenario files. A policy is a pure function.

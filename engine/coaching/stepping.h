@@ -22,12 +22,12 @@ class Stepping {
   void Run();
 
  private:
-  // The player.
+  // Functions that observe the player.
   void Watch();
   PlayerHint WhereToStand() const;
   bool IsIdleFor(double seconds) const;
 
-  // The output.
+  // Functions that fill the output.
   void Show();
   void Picture();
 

@@ -110,7 +110,7 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
       const std::string_view cell = at < cells.size() ? cells[at] : std::string_view{};
       const auto value = NumberIn(cell);
       if (!cell.empty() && !value) return Fail(place, "{} is not a number", Quote(cell));
-      constexpr double kMaxCoordinate = 1e9;  // in millimetres, the unit of written files
+      constexpr double kMaxCoordinate = 1e9;  // limit of coordinates in millimetres, the unit of written files
       is_seen =
           is_seen && value && std::abs(*value) * (kMillimetres * header.metres) <= kMaxCoordinate;  // false for "nan"
       if (is_seen) position[static_cast<int>(axis)] = header.metres * *value;

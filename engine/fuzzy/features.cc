@@ -78,7 +78,7 @@ PoseFeatures ComputeFeatures(const BodyPose& pose, double standing_hip_height) {
   features[kLH] = degrees(limb(kLeftShoulder, kLeftElbow), down);
   features[kRHE] = degrees(limb(kRightShoulder, kRightElbow), limb(kRightElbow, kRightWrist));
   features[kLHE] = degrees(limb(kLeftShoulder, kLeftElbow), limb(kLeftElbow, kLeftWrist));
-  constexpr double kStandingScale = 80;  // in equations 7–10, "stand" is at 80
+  constexpr double kStandingScale = 80;  // value of Posture when standing, as in equations 7–10
   features[kPosture] = kStandingScale * pose[kHipCentre].y / standing_hip_height;
   features[kTrunk] = 180.0 - degrees(trunk, {0, 1, 0});
   features[kRF] = degrees(limb(kRightHip, kRightKnee), down);

@@ -64,7 +64,7 @@ struct Universe {
 /// The membership functions of all terms.
 struct Memberships {
   std::array<Universe, kFeatureCount> universes{};
-  std::array<Shape, kTermCount> shapes{};  ///< in the order of `AllTerms`
+  std::array<Shape, kTermCount> shapes{};  ///< the shape of each term, in the order of `AllTerms`
 };
 
 /// Returns equations 2–16, as in scenarios/fuzzy/paper.yaml. As printed in the paper, the grades of elbows, trunk and

@@ -189,8 +189,8 @@ class Adjuster {
     }
   }
 
-  // Adds a mark for each keypoint. Adds marks that keep joints which fewer than two cameras see near their start
-  // positions.
+  // Adds a mark for each keypoint. If fewer than two cameras see a joint, further marks hold it near its start position
+  // (HoldUnseen).
   void AddMarks() {
     const double error = KeypointErrorPx(cameras_, seen_, options_.min_confidence, person_.outlier_px);
     std::vector<std::array<int, kRoleCount>> views(person_.states.size());

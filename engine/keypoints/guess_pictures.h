@@ -16,7 +16,7 @@ struct PictureOfFilm {
   Camera camera;
   PixelFit fit;           ///< the fit that the caller declares
   glm::dvec2 film_px{0};  ///< the size of the film's pictures
-  SeenPeople people;      ///< in the file's pixels
+  SeenPeople people;      ///< the people in the film, in the file's pixels
   bool is_sized = false;  ///< true if the file states the picture size; `people` are then in the film's pixels
 };
 

@@ -25,7 +25,8 @@ struct TriangulateOptions {
 struct TriangulationReport {
   std::vector<double> rejected;  ///< for each camera, the share of its keypoints that were outliers
   double residual_px = 0;        ///< median reprojection error over all points
-  double found = 0;              ///< share of frames × landmarks that were triangulated, without landmarks never seen
+  /// triangulated share of all frames × landmarks; landmarks that are never seen do not count
+  double found = 0;
 };
 
 /// A landmark in one frame.

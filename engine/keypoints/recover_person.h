@@ -51,7 +51,8 @@ RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 /// A person recovered from several cameras' keypoints.
 struct RecoveredPerson {
   std::vector<MatchedPerson> people;      ///< all people that were found
-  std::vector<LandmarkPositions> landmarks;  ///< of the requested person, with gaps filled and smoothed
+  /// positions of the requested person's landmarks, with gaps filled and smoothed
+  std::vector<LandmarkPositions> landmarks;
   TriangulationReport report;
   std::vector<Mend> mends;  ///< corrections of the requested person's keypoints
   double outlier_px = 0;    ///< the threshold for outliers that was used, pixels

@@ -79,9 +79,9 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The distance, in metres, at which an unknown motion is assumed as the alternative if no known motion is nearer. In
-/// 19 of 20 cases, another person's performance of a move is nearer to the move's examples than this
-/// (tests/sim/performer; the medians of two recorded sets are 10 and 16–28 cm).
+/// If no known motion is nearer, an unknown motion at this distance, metres, is the alternative to a move. In 19 of 20
+/// cases, another person's performance of a move is nearer to the move's examples than this (tests/sim/performer; the
+/// medians of two recorded sets are 10 and 16–28 cm).
 constexpr double kUnknownMotionDistance = 0.21;
 
 /// An example of a move and the wrong patterns that it is compared with. All have the same number of steps.
@@ -240,7 +240,7 @@ class NearestFollower final : public StepFollower {
   std::vector<double> right_, wrong_, held_still_;  // distances per move, of this step
   std::size_t longest_, since_open_ = 0;
   Stillness standing_;
-  std::vector<Stillness> held_;   // one per example
+  std::vector<Stillness> held_;   // held pose of each example
   std::vector<PoseVector> seen_;  // the last `longest_` steps
 };
 

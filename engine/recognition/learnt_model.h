@@ -17,7 +17,7 @@
 namespace etude {
 
 /// A decision tree of depth three. Each node compares one measure with a limit; the leaf that is reached adds its value
-/// to the log-odds.  The children of node n are 2n + 1 (at most the limit) and 2n + 2 (above it); the children of the
+/// to the log-odds. The children of node n are 2n + 1 (at most the limit) and 2n + 2 (above it); the children of the
 /// last row are leaves.
 struct DecisionTree {
   static constexpr std::size_t kNodes = 7, kLeaves = 8;
@@ -47,7 +47,9 @@ struct LabelledBag {
 struct BoostingOptions {
   int trees = 100;
   double rate = 0.12;  ///< shrinkage: each tree's values are multiplied by this
-  double ridge = 3;    ///< L2 penalty that shrinks leaf values towards 0; one performance at even odds counts ¼
+  /// L2 penalty that shrinks leaf values towards 0. It is added to the curvature of the loss, to which one performance
+  /// at even odds contributes ¼.
+  double ridge = 3;
   int min_per_leaf = 12;  ///< minimum number of performances in a leaf
   /// If true, trees take turns: each is fitted to three fifths of the performances and a third of the measures, so that
   /// they differ (stochastic boosting, Friedman 2002, but with a fixed rotation instead of random numbers).

@@ -177,7 +177,7 @@ class MeasuringFollower final : public StepFollower {
   bool is_alone_;
   RecentSteps steps_;
   RecentCosts costs_;
-  std::vector<SubsequenceAligner> always_;  // one per example
+  std::vector<SubsequenceAligner> always_;  // one aligner per example
   std::vector<InWindow> in_window_;
   int opened_at_ = 0;
   PersonBaseline usual_;

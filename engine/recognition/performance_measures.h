@@ -52,7 +52,7 @@ class ClockComparison {
   Fit FitOf(Part part, double usual_s) const;
 
   std::span<const PoseVector> pattern_;
-  int count_ = 0;                                                     ///< steps seen
+  int count_ = 0;                                                     ///< number of steps seen
   std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< one sum per half of the example and per shift
 };
 
@@ -86,8 +86,8 @@ class RigidComparison {
   static int TaughtAt(int seen, std::size_t pace, int lag);
 
   std::span<const PoseVector> pattern_;
-  std::vector<double> distances_;  ///< from the last seen step to each step of the pattern
-  std::vector<PoseVector> seen_;   ///< up to the last step that can match the pattern
+  std::vector<double> distances_;  ///< distance from the last seen step to each step of the pattern
+  std::vector<PoseVector> seen_;   ///< seen steps, up to the last one that can match the pattern
   std::array<std::array<Sum, kLatest - kEarliest + 1>, kPaces.size()> sums_{};
 };
 
@@ -126,7 +126,7 @@ using PerformanceMeasures = std::array<double, kMeasureCount>;
 
 /// A performance that was aligned with an example.
 struct AlignedPerformance {
-  std::span<const StepPair> path;              ///< at least one pair
+  std::span<const StepPair> path;              ///< the path, at least one pair
   std::function<const PoseVector&(int)> seen;  ///< returns the pose with index StepPair::seen, in parts of kLimbs
   std::span<const PoseVector> pattern;         ///< the example, in parts of kLimbs
   double cost = 0;                             ///< the path's cost (SubsequenceAligner::Cost)

@@ -22,7 +22,7 @@ class StandingHeight {
 
  private:
   std::size_t wanted_;
-  std::vector<double> heights_;  // of the frames so far, in ascending order
+  std::vector<double> heights_;  // hip heights of the frames so far, ascending
   double value_;
 };
 

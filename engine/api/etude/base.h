@@ -22,7 +22,7 @@ class ETUDE_API BadInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns the version of the library that is loaded: "0.1.0". Until 1.0.0, a minor version may change this interface.
+/// Returns the version of the loaded library, such as "0.1.0". Until 1.0.0, a minor version may change this interface.
 ETUDE_API std::string_view Version();
 
 }  // namespace etude::engine

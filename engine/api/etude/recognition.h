@@ -14,7 +14,7 @@
 namespace etude::engine {
 
 struct RecogniserOptions {
-  std::string kind = "whole-body";  ///< or "dtw", "nearest"
+  std::string kind = "whole-body";  ///< name of the recogniser: "whole-body", "dtw" or "nearest"
   bool smooths = true;              ///< filters the stream by Kinect's own smoothing filter first
 };
 

@@ -33,7 +33,7 @@ struct GltfNumbers {
 enum class GltfComponents {
   kFloat,
   kFloatOrNormalized,  ///< integers only if they are normalised to −1…1
-  kAny,                ///< also integers with their own values (KHR_mesh_quantization)
+  kAny,                ///< also integers that are not normalised (KHR_mesh_quantization)
   kUnsigned,           ///< unsigned integers, for indices
 };
 

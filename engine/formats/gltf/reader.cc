@@ -328,7 +328,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   RETURN_IF_ERROR(CheckExtensions(*model, file));
   const std::string complaint = Complaint(errors);
   if (!is_read || !complaint.empty()) {
-    // A file that could not be fetched is an error only if it was needed.
+    // If a file could not be fetched, this caused the failure. (A missing picture does not make the parser fail.)
     if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
     // Prefer our own complaints, which are the same with every version of tinygltf. They apply to glTF 2 only, because
     // glTF 1 has names where 2.0 has numbers.
