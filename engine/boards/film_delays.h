@@ -16,7 +16,7 @@ namespace etude {
 /// Between looks, a corner's position is interpolated by a parabola through its positions in the nearest look and both
 /// neighbours, or by a line through two looks. A board without a neighbouring look becomes a target of its own, which
 /// constrains only its camera.
-/// @param sightings all from films (`look` ≥ 0)
+/// @param sightings the sightings, all from films (`look` ≥ 0)
 /// @param period_s time between the looks of each film, seconds
 /// @param delay_s delay of each film, seconds; 0 for the first
 std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightings, std::span<const double> period_s,

@@ -119,7 +119,7 @@ class MarkCost final : public ceres::CostFunction {
     for (int k = 0; k < 2; ++k) residuals[k] = glm::dot(root_[k], error);
     if (jacobians == nullptr) return true;
     ClearJacobians(*this, jacobians);
-    // Derivatives of the pixel with respect to the point.
+    // Compute the derivatives of the pixel with respect to the point.
     const auto& h = mark_.matrix.h;
     const auto row_of = [&](int k) {
       const auto gain = [&](int axis) { return (h[k][axis] - pixel[k] * h[2][axis]) / uvw.z; };

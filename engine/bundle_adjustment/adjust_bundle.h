@@ -64,7 +64,7 @@ struct BundleOptions {
 };
 
 struct BundleSolution {
-  bool is_solved = false;  ///< false if the cost at the start could not be evaluated; the result is then the start
+  bool is_solved = false;  ///< false if the cost at the start could not be evaluated; the solution is then the start
   std::vector<TreeState> states;
   std::vector<double> lengths;  ///< metres
   double first_cost = 0, last_cost = 0;

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-// Two rays this close to each other span no plane: 0.01 pixel at a focal length of 600.
+// Rays that differ by less than this, radians, span no plane; it is about 0.01 pixel at a focal length of 600 pixels.
 constexpr double kSamePixel = 1e-5;
 
 // Returns the planes of the strokes that have a length.
@@ -51,7 +51,8 @@ glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double
 // the stroke are wrong by one pixel.
 std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dvec3& along_W) {
   std::vector<double> weights;
-  constexpr double kEndOn = 0.05;  // sine; limits the weight of a limb seen end-on
+  // minimum sine of the angle between limb and ray; it limits the weight of a limb seen end-on
+  constexpr double kEndOn = 0.05;
   for (const StrokePlane& plane : planes) {
     const glm::dvec3 middle = glm::normalize(plane.ray_a_W + plane.ray_b_W);
     weights.push_back(plane.length_px / std::max(kEndOn, glm::length(glm::cross(middle, along_W))));

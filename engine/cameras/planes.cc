@@ -70,8 +70,9 @@ class Places {
  public:
   Places(std::size_t cameras, std::size_t targets) : cameras_(cameras), targets_(targets) {}
 
-  /// Adds the pose of one camera or board, from the view with the most corners of which exactly one pose is known: the
-  /// camera's or the board's. Returns false if there is no such view. The pose of the first board must be set before.
+  /// Adds the pose of one camera or board. It uses the view with the most corners among those with exactly one known
+  /// pose, either the camera's or the board's. Returns false if there is no such view. The pose of the first board must
+  /// be set before.
   bool Join(std::span<const PlaneView> views) {
     const PlaneView* best = nullptr;
     for (const PlaneView& view : views) {

@@ -13,7 +13,7 @@ namespace {
 /// The effect of one camera's errors on a pixel whose lens distortion is removed.
 struct PixelErrors {
   std::size_t camera = 0;
-  glm::dmat3x2 by_position{0};  ///< derivative of the pixel by the position, px/m
+  glm::dmat3x2 by_position{0};  ///< derivative of the pixel with respect to the position, px/m
   glm::dmat2 noise{0};          ///< covariance of the pixel, px²
   /// Shift of the pixel by one standard deviation of each calibration parameter, px.
   std::array<glm::dvec2, kCalibrationParameters> by_calibration{};
@@ -51,7 +51,7 @@ std::optional<PixelErrors> PixelErrorsOf(const Camera& camera, std::size_t index
   const auto noise = NoiseWithoutLens(camera, *shown, errors.noise_px);
   if (!noise) return std::nullopt;
   pixel.noise = *noise;
-  // Compute the derivative of the pixel by the point in the camera's frame.
+  // Compute the derivative of the pixel with respect to the point in the camera's frame.
   const Intrinsics& in = camera.intrinsics;
   const glm::dvec3 p_CQ = camera.R_CW * (p_WQ - camera.p_WC);
   const double x = p_CQ.x / p_CQ.z, y = p_CQ.y / p_CQ.z;
@@ -76,7 +76,7 @@ std::optional<glm::dmat3> InverseNormal(std::span<const PixelErrors> pixels, std
     if (subset >> i & 1) normal += glm::transpose(pixels[i].by_position) * pixels[i].by_position;
   }
   const double trace = normal[0][0] + normal[1][1] + normal[2][2];
-  constexpr double kParallel = 1e-9;  // det / (trace / 3)³ of lines of sight that are 10⁻⁴ rad apart
+  constexpr double kParallel = 1e-9;  // value of det / (trace / 3)³ for lines of sight that are 10⁻⁴ rad apart
   if (!(glm::determinant(normal) > kParallel * std::pow(trace / 3, 3))) return std::nullopt;
   return glm::inverse(normal);
 }

@@ -229,12 +229,12 @@ const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file
 Result<RigFile> Read(std::string_view text, const std::string& file) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return Fail({}, "nothing in it");
-  // XML: Qualisys.
+  // An XML file is from Qualisys.
   if (text[first] == '<') {
     ASSIGN_OR_RETURN(auto cameras, ReadQualisysCalibration(text));
     return RigFile{std::move(cameras), "Qualisys", kYUpOfZUp, 0.001};
   }
-  // OpenCV's YAML: a rig, or one camera.
+  // OpenCV's YAML holds a rig or one camera.
   if (text.starts_with("%YAML") || text.find("opencv-matrix") != std::string_view::npos) {
     ASSIGN_OR_RETURN(const Node root, ParseYaml(WithoutDirective(text), file));
     if (root.Find("cameras") != nullptr) {
@@ -250,7 +250,7 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     ASSIGN_OR_RETURN(const Camera camera, ReadCamera(root, true));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
   }
-  // TOML: Pose2Sim and its relatives.
+  // A TOML file is from Pose2Sim or a program with the same format.
   if (text[first] == '[' || text.find("\n[") != std::string_view::npos) {
     ASSIGN_OR_RETURN(auto cameras, ReadPose2SimCalibration(text));
     return RigFile{

@@ -99,7 +99,7 @@ TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings) {
 
 namespace {
 
-/// Returns the inverse of the matrix's left 3 × 3 block, which maps pixels to directions in the world.
+/// Returns the inverse of the matrix's left 3 × 3 block. The inverse maps pixels to directions in the world.
 glm::dmat3 DirectionsOf(const ProjectionMatrix& matrix) {
   const auto& h = matrix.h;
   return glm::inverse(

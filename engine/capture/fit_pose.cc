@@ -141,7 +141,7 @@ glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::
   std::vector<Aim> aims;
   AddAims(limb, glm::dvec3(0), glm::dmat3(1), limb, wanted, aims);
   if (aims.empty()) return R_WJ;
-  // Point at the farthest known role on the limb itself, or else at the farthest one beyond it.
+  // Point the limb at the farthest known role on it, or else at the farthest one beyond it.
   const auto main = std::ranges::max_element(
       aims, {}, [](const Aim& aim) { return std::pair(aim.is_on_limb, glm::length(aim.p_LQ)); });
   const glm::dvec3 from = UnitOr(R_WJ * main->p_LQ, R_WJ * kAlong);

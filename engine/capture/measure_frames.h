@@ -17,7 +17,7 @@ namespace etude {
 
 /// Removes marks that disagree with those of other cameras *(ours)*. If three or more pictures of a frame show a disc
 /// or stroke, it is removed from the views that `AgreeingViews` rejects. Use this function if a camera may have moved
-/// or marks may be on the wrong limb; if all marks are equally accurate, it costs a little accuracy.
+/// or marks may be on the wrong limb; if all marks are equally accurate, the function costs a little accuracy.
 /// @param marks `marks[camera][frame]`
 /// @param tolerance_px maximum distance, in pixels, of a mark from the point that the other pictures determine. Marks
 /// with errors of 2 pixels (more at joints under clothes) agree within 12 pixels.

@@ -86,8 +86,8 @@ class FrameRecovery {
   std::optional<RecoveredFrame> last_;
 };
 
-/// Fills empty frames with the last skeleton before them, leading ones with the first skeleton. At least one frame must
-/// not be empty.
+/// Fills empty frames with the last skeleton before them, and frames before the first skeleton with the first one. At
+/// least one frame must not be empty.
 std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames);
 
 /// Converts the motion to a clip that WriteBvh can write: metres, Y up. `body` must be the body with which `frames`

@@ -66,7 +66,7 @@ enum class CoachMode {
   kWake,
   kDance,
   kCorrect,      ///< one of the acts head shake, wave and puzzled is played
-  kDemonstrate,  ///< a slow demonstration of the move, which the player only watches
+  kDemonstrate,  ///< a slow demonstration is shown; the player only watches
   kPraise,
 };
 /// Returns the mode's name, for example "standby" or "attract".
@@ -102,8 +102,8 @@ struct CoachOutput {
   std::optional<OpenWindow> open;     ///< the window that is open in the next frame
   bool asks = false;                  ///< true if `open` has changed: call MoveFollower::Ask before the next frame
   std::string_view say;               ///< a line of text for the player; "" if there is none
-  std::string_view hint;              ///< key pose of the move asked for or shown, in words that the Dance owns
-  const BodyPose* picture = nullptr;  ///< the key pose of `hint` as a picture, which the Dance owns
+  std::string_view hint;              ///< key pose of the requested or shown move, in words; the Dance owns the text
+  const BodyPose* picture = nullptr;  ///< the key pose of `hint` as a picture; the Dance owns it
   PlayerHint stand = PlayerHint::kNone;
   MusicCommand music;
   /// The delay of the dance behind the music, in seconds; negative if the dance is early, nullopt if it follows no

@@ -10,8 +10,8 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// A frame with the time of the music at which it should be shown (paper A, 3.4: the next move is slowed down or sped
-/// up).
+/// A frame of the dance, and the music time at which this frame should be shown (paper A, 3.4: the next move is slowed
+/// down or sped up).
 struct MusicTag {
   std::size_t frame = 0;
   double music_s = 0;

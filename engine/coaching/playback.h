@@ -52,7 +52,7 @@ class DanceTransitions {
 /// The current state of playing: the dance itself, or a path (a transition and the clip it leads into).
 struct Playback {
   std::shared_ptr<const ShownPath> path;  ///< null while the dance itself plays
-  double path_frame = 0;                  ///< index in the path's frames and, after them, its clip; may be fractional
+  double path_frame = 0;                  ///< index in the path's frames, and after them in its clip; may be fractional
   FloorMove place;                        ///< floor move of the path
   double dance_frame = 0;                 ///< index of the shown frame of the dance; used only if `path` is null
 };

@@ -23,7 +23,7 @@ class CoachSession {
  public:
   struct Parts {
     const Coach* coach = nullptr;
-    const Recogniser* recogniser = nullptr;  ///< taught the moves of the dance, in the same order
+    const Recogniser* recogniser = nullptr;  ///< a recogniser that was taught the moves of the dance, in the same order
     FilterOptions filter = {};
     /// If true, a second follower judges the mirror image; it affects only the coach's words and the computing time.
     bool tells_wrong_side = true;

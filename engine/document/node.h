@@ -35,7 +35,7 @@ struct Node::Entry {
 /// values and nesting deeper than 32 levels.
 Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t max_bytes = std::size_t{1} << 20);
 
-/// Returns the number of values in a document or in a part of a document, which itself counts as one value.
+/// Returns the number of values in a document or in a part of a document, including `node` itself.
 std::size_t CountValues(const Node& node);
 
 /// Describes a value for complaints: "a mapping", "a list", "'abc'", "nothing".

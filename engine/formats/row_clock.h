@@ -53,7 +53,7 @@ struct MarkerRows {
   std::vector<int> lines;       ///< line of each row, from 1
   bool has_clock = true;        ///< false if the times were made from frame numbers
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
-  std::string time_name = "the column Time";  ///< what holds the times
+  std::string time_name = "the column Time";  ///< what holds the times, in words for messages
 };
 /// Places markers on frames by their times, whose unit FindTimeScale finds; in a hole, no marker was seen. The remark
 /// says what was changed. Fails like GridOfRows.

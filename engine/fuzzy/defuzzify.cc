@@ -97,8 +97,8 @@ std::vector<double> CornersOf(std::span<const ActivatedTerm> terms, const Univer
   return all;
 }
 
-/// Returns the area and the first moment of the union of the terms, by Simpson's rule between corners, which is exact
-/// for straight lines.
+/// Returns the area and the first moment of the union of the terms, by Simpson's rule between corners. The rule is
+/// exact for straight lines.
 Moment AreaUnder(std::span<const ActivatedTerm> terms, const Universe& universe) {
   const auto height = [&](double x) {
     double highest = 0;

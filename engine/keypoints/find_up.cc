@@ -26,7 +26,8 @@ enum Cue { kCameras, kFeetAtRest, kStraight, kFlight, kCueCount };
 constexpr std::array<const char*, kCueCount> kCueNames = {"the cameras' horizons", "resting feet",
                                                           "a person who stands straight", "gravity in jumps"};
 
-/// Directions in the world of a picture after some quarter turns: along its rows, towards its upper edge, and ahead.
+/// The directions, in the world, of a picture that was rotated by quarter turns: along its rows, towards its upper
+/// edge, and ahead.
 struct Picture {
   glm::dvec3 right, above, ahead;
 };

@@ -30,7 +30,7 @@ struct FoundUp {
 ///   parabola fits with an acceleration within 15 % of 9.81 m/s².
 /// `deviation` is enlarged if the cues disagree by more than these scales. If another direction explains the cues
 /// nearly as well, `within` is at least the angle to that direction. Other postures are not used as cues.
-/// @param metre length of a metre in the points' unit
+/// @param metre the length of a metre in the points' unit
 FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPositions> points, double rate_hz,
                double stature, double metre);
 

@@ -42,7 +42,7 @@ std::vector<TriangulatedLandmark> TriangulateLandmarks(std::span<const Projectio
                                                        const MatchedPerson& person, const TriangulateOptions& options);
 
 /// Triangulates the person's landmarks in every frame, each from the cameras that agree on it, weighted by confidence.
-/// @param cameras of the rig, without lens distortion; all pixels must be undistorted
+/// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
 std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
                                               const TriangulateOptions& options, TriangulationReport* report = nullptr);
 

@@ -69,7 +69,7 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people);
 /// Finds all people and triangulates the requested one: MatchPeople, optionally MendPerson, TriangulatePerson. Fails if
 /// nobody is seen by two cameras, or if there are fewer people than the requested index.
 /// @param cameras at least two, without lens distortion; all pixels must be undistorted (`UndistortPeople`)
-/// @param people of each camera, all with the same number of frames, taken at the same times (otherwise use
+/// @param people the people of each camera, all with the same number of frames, taken at the same times (otherwise use
 /// `EstimateOffsets`, `PeopleInTime` first)
 Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                      const RecoverPersonOptions& options);

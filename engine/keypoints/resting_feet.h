@@ -25,7 +25,7 @@ struct FootStay {
 /// the stature per second; a stay ends when the landmark is farther than 1/40 of the stature from the stay's mean. A
 /// stay is used only if the means of its two halves are at most 0.6 % of the stature apart, because a sliding foot does
 /// not rest.
-/// @param stature in the points' unit
+/// @param stature the stature in the points' unit
 std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, double rate_hz, double stature);
 
 /// Returns the height along `up` of the floor under the feet. Each kind of landmark gives one height: the mean of its

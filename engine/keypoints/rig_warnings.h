@@ -24,7 +24,7 @@ namespace etude {
 /// too narrow. A warning is given if the ratio of shoulder width to leg length differs from the usual 0.42 by a factor
 /// above 1.17, and another interpretation brings it nearer and reduces the distances of rays; or by a factor above 1.1,
 /// if these distances fall by a tenth.
-/// @param cameras of the films, without lens distortion; all pixels must be undistorted
+/// @param cameras the cameras of the films, without lens distortion; all pixels must be undistorted
 std::vector<std::string> RigWarnings(std::span<const Camera> cameras, std::span<const std::string> names,
                                   const MatchedPerson& person, double min_confidence);
 

@@ -19,8 +19,8 @@ struct PeopleSyncOptions {
 /// first camera is compared with all people of the other camera, and the person with the lowest mean squared epipolar
 /// distance (`EpipolarGeometry`) counts. A camera whose offset cannot be determined gets 0; the offset of the first
 /// camera is 0 by definition.
-/// @param cameras of the rig, without lens distortion; all pixels must be undistorted
-/// @param people of each camera, each with its own number of frames
+/// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
+/// @param people the people of each camera, each with its own number of frames
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                          const PeopleSyncOptions& options = {});
 

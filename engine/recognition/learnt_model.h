@@ -21,7 +21,7 @@ namespace etude {
 /// last row are leaves.
 struct DecisionTree {
   static constexpr std::size_t kNodes = 7, kLeaves = 8;
-  std::array<int, kNodes> measures{};  ///< indices below kMeasureCount
+  std::array<int, kNodes> measures{};  ///< index of each node's measure, below kMeasureCount
   std::array<double, kNodes> limits{};
   std::array<double, kLeaves> leaves{};
 

@@ -14,9 +14,9 @@ namespace etude {
 /// opened are compared with the example shifted in time as a whole, without warping. A warped path would hide a delay
 /// in the middle of a performance, and a move that repeats itself can be aligned anywhere.
 struct ClockMeasures {
-  double shift = 0;   ///< the delay of the example, in seconds, with which it fits best
+  double shift = 0;   ///< delay, in seconds, at which the example fits best
   double first = 0;   ///< the same delay for the first half of the example
-  double second = 0;  ///< the same delay for its second half
+  double second = 0;  ///< the same delay for the second half of the example
   double drift = 0;   ///< second − first
   /// `off` is the root mean squared distance at this person's usual shift. Each gain says by how much the best shift
   /// lowers that distance: for the whole example, its first half and its second half.
@@ -113,7 +113,7 @@ constexpr MeasureSlice kDistanceMeasures{kLimbMeasures.end(), 6};
 constexpr MeasureSlice kPathClockMeasures{kDistanceMeasures.end(), 4};
 /// The path's cost divided by the sum of the path's cost and the cost of the nearest other move.
 constexpr MeasureSlice kOtherMoveMeasure{kPathClockMeasures.end(), 1};
-/// These four slices together: the measures of one performance against one example of any move.
+/// The four slices above together: the measures of one performance against one example of any move.
 constexpr MeasureSlice kOwnMeasures{0, kOtherMoveMeasure.end()};
 /// The timing relative to the window (ClockMeasures); 0 if the performance was not asked for.
 constexpr MeasureSlice kClockSlice{kOwnMeasures.Beyond().end(), kClockMeasures};

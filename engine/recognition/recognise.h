@@ -57,9 +57,10 @@ struct DecisionOptions {
 
 /// The result for one performance that was asked for.
 struct Judgement {
-  std::optional<int> recognised_at;   ///< frame within the window; nullopt if the move was not recognised
-  double score = 0;                   ///< score for ROC curves, in [0, 1]
-  std::vector<double> running_score;  ///< per frame of the window
+  std::optional<int>
+      recognised_at;  ///< frame counted from the window's beginning; nullopt if the move was not recognised
+  double score = 0;   ///< score for ROC curves, in [0, 1]
+  std::vector<double> running_score;  ///< evidence of the asked move in each frame of the window
 };
 
 /// Judges one window of the trace. Its move must have been asked for in this window.

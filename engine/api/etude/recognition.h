@@ -15,7 +15,7 @@ namespace etude::engine {
 
 struct RecogniserOptions {
   std::string kind = "whole-body";  ///< name of the recogniser: "whole-body", "dtw" or "nearest"
-  bool smooths = true;              ///< filters the stream by Kinect's own smoothing filter first
+  bool smooths = true;              ///< true: Kinect's own smoothing filter is applied to the stream first
 };
 
 /// The evidence for moves in one frame, from this frame and those before it; all in 0…1.

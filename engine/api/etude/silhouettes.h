@@ -20,12 +20,11 @@ struct FollowOptions {
 
 /// Tracks a person through films by silhouettes alone (engine/silhouettes), without marks or keypoints. Returns one
 /// pose per frame; nullopt for frames in which fewer than two cameras show a person. The method works best for a person
-/// who fills half of the picture's height.
+/// who fills half of the picture's height. Throws BadInput if cameras and masks do not fit each other, if a camera has
+/// lens distortion, or if a limb has length zero.
 /// @param cameras two or more fixed cameras without lens distortion: undistort the pictures first
 /// @param masks one mask per camera and frame; all cameras take a frame at the same moment. A mask has the size of its
 /// camera's picture, or is smaller by the same whole factor in both directions. Pixels other than 0 show the person.
-/// Throws BadInput if cameras and masks do not fit each other, if a camera has lens distortion, or if a limb has length
-/// zero.
 ETUDE_API std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamera> cameras,
                                                                 std::span<const std::vector<Mask>> masks,
                                                                 const FollowOptions& options = {});

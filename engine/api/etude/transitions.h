@@ -15,8 +15,9 @@ namespace etude::engine {
 
 /// The settings of a transition from one clip to another.
 struct TransitionOptions {
-  std::string choice = "played";      ///< which frames are left and entered: one of TransitionChoices()
-  std::string join = "planted-feet";  ///< how the two clips are joined: one of TransitionJoins()
+  /// name of the choice of the frames to leave and enter: one of TransitionChoices()
+  std::string choice = "played";
+  std::string join = "planted-feet";  ///< name of the method that joins the two clips: one of TransitionJoins()
   double threshold = 0.4;             ///< maximum fuzzy distance of matching frames for the fuzzy choices, in (0, 6]
   /// The settings of the choice and of the join, by key; missing ones keep their defaults.
   std::map<std::string, double> choice_settings = {}, join_settings = {};

@@ -129,7 +129,7 @@ bool KeepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, 
 std::string Complaint(std::string_view text) {
   constexpr std::array<std::string_view, 3> kHarmless = {
       "'inverseBindMatrices' property is missing in Skin.",  // optional since 2.0
-      "'node' property is missing.",                         // such channels are to be ignored
+      "'node' property is missing.",                         // channels without a node are ignored, as specified
       "`node` field is missing in animation.channels.target",
   };
   while (!text.empty()) {
@@ -183,7 +183,8 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
     for (const auto& [key, value] : json.items()) {
       if (key == "extras" || key == "extensions") continue;
       const std::string name = where.empty() ? key : where + "." + key;
-      const bool may_be_object = key == "indices" && !where.starts_with("meshes");  // an object in a sparse accessor
+      // a sparse accessor has an object there
+      const bool may_be_object = key == "indices" && !where.starts_with("meshes");
       if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() &&
           !(may_be_object && value.is_object())) {
         return Fail({file}, "{}: found {}; allowed: a whole number from 0", name, value.dump().substr(0, 40));

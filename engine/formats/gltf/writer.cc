@@ -195,7 +195,7 @@ void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& c
   model.animations.push_back(std::move(animation));
 }
 
-/// Neighbouring meshes with the same name and joints, which are written as the primitives of one mesh.
+/// Neighbouring meshes with the same name and joints: the primitives of one written mesh.
 using Group = std::span<const SkinnedMesh>;
 
 bool SameBindings(const SkinnedMesh& a, const SkinnedMesh& b) {
