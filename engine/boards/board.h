@@ -6,9 +6,9 @@
 
 namespace etude {
 
-/// A flat calibration board: a chessboard whose top left square is black and whose white squares each carry a unique
-/// code, so that a picture of any part of the board shows which part it is (like OpenCV's ChArUco boards; codes and
-/// detection are ours). Codes are numbered row by row through the white squares, from `first_code`.
+/// A flat calibration board: a chessboard whose top left square is black. Each white square carries a unique code, so a
+/// picture of any part of the board identifies this part (like OpenCV's ChArUco boards; codes and detection are ours).
+/// Codes are numbered row by row through the white squares, from `first_code`.
 struct Board {
   int columns = 8;  ///< squares; at most kMaxSquares per side
   int rows = 8;

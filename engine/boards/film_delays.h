@@ -28,9 +28,9 @@ struct FilmDelays {
   double after_px = 0;         ///< residual with `delay_s`, pixels
 };
 
-/// Finds the delays of films of a moving board *(ours)*: the delays that minimise the residual of a joint calibration
-/// of all cameras. One film after the other is searched, first on a grid of half looks, then by halving the step down
-/// to a 64th of a look. A delay is accepted only if it lowers the residual by a tenth, because boards at rest do not
+/// Finds the delays of films of a moving board *(ours)*: they minimise the residual of a joint calibration of all
+/// cameras. One film after the other is searched, first on a grid of half looks, then by halving the step down to a
+/// 64th of a look. A delay is accepted only if it lowers the residual by a tenth, because boards at rest do not
 /// determine time. At most about 60 moments are used, evenly spaced. Fails like `CalibrateFromPlanes`.
 /// @param max_delay_s maximum delay of a film, seconds, either way
 Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,

@@ -72,9 +72,9 @@ struct BundleSolution {
 };
 
 /// Adjusts the poses of all frames, and the body's lengths if `adjusts_lengths`, by bundle adjustment. Minimises
-///   Σ_marks ρ(rᵀ Λ r) + Σ_frames |second difference of points and angles|² / σ² + Σ |angle beyond its limit|² / σ²,
-/// where r is the reprojection error of a mark in pixels, Λ its information and ρ the robust loss, by Ceres's
-/// Levenberg–Marquardt method with an analytic Jacobian and a sparse Cholesky factor; time is linear in the number of
+///   Σ_marks ρ(rᵀ Λ r) + Σ_frames |second difference of points and angles|² / σ² + Σ |angle beyond its limit|² / σ²
+/// by Ceres's Levenberg–Marquardt method with an analytic Jacobian and a sparse Cholesky factor. Here r is the
+/// reprojection error of a mark in pixels, Λ its information, and ρ the robust loss. Time is linear in the number of
 /// frames. Angles that are determined neither by marks nor by neighbouring frames stay as in `start`. Marks of a point
 /// that is behind the camera at `start` are ignored.
 BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& options = {});

@@ -46,8 +46,8 @@ struct TriangulatedPoint {
 TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 
 /// Triangulates like `Triangulate`, but also divides every row by the point's depth in its camera *(ours)*, so that
-/// distances in pixels are minimised: a distant camera measures the point less accurately and gets less weight
-/// (iterated linear least squares, Hartley and Sturm 1997, section 4.3; three iterations). For two cameras at equal
+/// distances in pixels are minimised. A distant camera measures the point less accurately and gets less weight. This is
+/// iterated linear least squares (Hartley and Sturm 1997, section 4.3) with three iterations. For two cameras at equal
 /// distances the result is that of `Triangulate`.
 TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings);
 

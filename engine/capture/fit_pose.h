@@ -40,9 +40,9 @@ class PoseFitter {
 
   /// Finds angles that minimise Σ weight · |target − role|², at least locally; the root is at the target of the left
   /// foot. `last` is the fit of the frame before, if there is one. If targets are not met and the residual is clearly
-  /// larger than that of `last`, more starts are tried: the pose of `last`, and, for every joint without a target, the
-  /// pose in which that joint bends to the other side. The lowest minimum found is returned. Returns nullopt if a
-  /// target with a weight above 0 is not finite, or if the left foot has weight 0.
+  /// larger than that of `last`, more starts are tried: the pose of `last`, and, for every joint without a target, a
+  /// pose with this joint bent to the other side. The lowest minimum found is returned. Returns nullopt if a target
+  /// with a weight above 0 is not finite, or if the left foot has weight 0.
   std::optional<PoseFit> Fit(const PoseTargets& wanted, const std::optional<PoseFit>& last = {}) const;
   /// Finds the local minimum near `state`; the root does not move.
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;

@@ -31,14 +31,14 @@ using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 struct FrameMeasurement {
   RoleVectors ends;        ///< p_WE, metres: position of each end effector in the world, by its role
   RoleVectors directions;  ///< unit vectors in the world: direction of each limb, by the role of its lower joint
-  /// The planes in which each limb without a direction lies, one per picture that shows the limb.
+  /// For each limb without a direction: the planes through the limb, one per picture that shows it.
   std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
   /// The sight line of each end that only one picture shows.
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
-/// Measurements of one frame that do not come from marks, for example from another sensor, or true values by which the
-/// error of a stage is measured. Each member that is present replaces all measurements of its kind.
+/// Measurements of one frame from another source than marks: another sensor, or true values, by which the error of a
+/// stage is measured. Each member that is present replaces all measurements of its kind.
 struct KnownMeasurement {
   std::optional<RoleVectors> ends;
   std::optional<RoleVectors> directions;

@@ -30,12 +30,12 @@ class DanceTransitions {
   const DanceLibrary& library() const { return library_; }
   const Dance& dance() const { return library_.dance(); }
 
-  /// Returns a path that shows only the clip, at the place where it was authored.
+  /// Returns a path that shows only the clip, where it was authored.
   std::shared_ptr<const ShownPath> Alone(int clip) const;
   /// Returns the path from a frame of a clip into another clip. If the method finds no transition, the path is a cut.
   std::shared_ptr<const ShownPath> Find(int from, int frame, int to) const;
-  /// Returns the path from a frame of a clip with floor move `place` into a clip that is shown at the place where it
-  /// was authored, so that rotations and shifts do not accumulate over many transitions.
+  /// Returns the path from a frame of a clip with floor move `place` into another clip, which is shown where it was
+  /// authored. Rotations and shifts therefore do not accumulate over many transitions.
   std::shared_ptr<const ShownPath> FindHome(int from, int frame, const FloorMove& place, int to) const;
 
  private:

@@ -26,8 +26,8 @@ bool IsC3d(std::string_view bytes);
 /// LONG_FRAMES). The markers' `remark` states if data follow the last frame. A point with a negative residual or
 /// without finite coordinates counts as not seen. Analogue channels, rotations and events are ignored. Widths of joints
 /// (PROCESSING:LKNEEWIDTH and so on, as Vicon writes them, millimetres) become the markers' `sizes_m`. Returns an error
-/// if the file is not C3D or is truncated, has no points or no rate, has a unit other than m, cm, mm, in, ft, or more
-/// than 10,000 points or 10⁷ frames.
+/// if the file is not C3D or is truncated, has no points or no rate, has a unit other than m, cm, mm, in, ft, or has
+/// more than 10,000 points or 10⁷ frames.
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file);
 
 /// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres; POINT:Y_SCREEN states that Y points

@@ -89,8 +89,8 @@ struct KeypointLayout {
 };
 
 /// Returns all layouts: "coco" (17 points), "coco_18" (OpenPose's), "body_25" and "body_25b" (25 each, in different
-/// orders; OpenPose), "halpe_26", "mediapipe" (33), "coco_wholebody" (133), "halpe_136", and "halpe_26_hands" (ours),
-/// in which `etude export` writes marks: halpe_26 with the finger tips, so that it contains every landmark.
+/// orders; OpenPose), "halpe_26", "mediapipe" (33), "coco_wholebody" (133), "halpe_136", and "halpe_26_hands". The last
+/// one is ours: halpe_26 with the finger tips. It contains every landmark, and `etude export` writes marks in it.
 std::span<const KeypointLayout> KeypointLayouts();
 std::vector<std::string> KeypointLayoutNames();
 /// Finds a layout by its name; returns null if there is none.

@@ -28,9 +28,9 @@ Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames);
 
 /// Finds, in every frame, the angles and the root's position that minimise Σ weight · |position − joint|², at least
 /// locally, over the joints that landmarks determine (`JointsOf`). A joint that a frame lacks gets a target with weight
-/// 0.01 that keeps its relative position from the frame before. The spine, which no landmark shows, has a target on the
-/// line from hips to shoulders with weight 1, because otherwise a trunk that appears too short could bend in any
-/// direction. Returns nullopt for frames with fewer than eight joints. *(Ours.)*
+/// 0.01, which keeps its relative position from the frame before. No landmark shows the spine, so its target lies on
+/// the line from hips to shoulders. This target has weight 1, because otherwise a trunk that appears too short could
+/// bend in any direction. Returns nullopt for frames with fewer than eight joints. *(Ours.)*
 std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPositions> frames);
 
 struct RecoverPersonOptions {
@@ -44,8 +44,8 @@ struct RecoverPersonOptions {
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
 
-/// Returns the options for pictures whose longer side is `longer_side_px`: keypoints that are off by more than 3 % of
-/// that side are outliers, and somebody who was not seen for half a second is a new person.
+/// Returns the options for pictures whose longer side is `longer_side_px`. Keypoints that are off by more than 3 % of
+/// that side are outliers. Somebody who was not seen for half a second is a new person.
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 
 /// A person recovered from several cameras' keypoints.

@@ -12,7 +12,7 @@ namespace etude {
 /// The kinds of landmarks of a foot: ankle, heel, big toe, small toe.
 constexpr std::size_t kFootKinds = 4;
 
-/// Returns the height of a kind of landmark above the sole of a flat foot *(ours)*, in the unit of `stature`.
+/// Returns how high a kind of landmark is above the sole of a flat foot *(ours)*, in the unit of `stature`.
 double AboveSole(std::size_t kind, double stature);
 
 /// A period of a fifth of a second or longer in which a landmark of a foot rested.

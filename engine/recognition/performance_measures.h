@@ -61,8 +61,9 @@ class ClockComparison {
 /// that was seen.
 constexpr std::size_t kRigidMeasures = 41;
 
-/// Compares the steps since the window opened with an example that is shifted and stretched in time as a whole, limb by
-/// limb, at the lag and pace that fit best. Parts of a performance that come too early or too late remain errors.
+/// Compares the steps since the window opened with the example, limb by limb. The example is shifted and stretched in
+/// time as a whole, by the lag and pace that fit best. Parts of a performance that come too early or too late remain
+/// errors.
 class RigidComparison {
  public:
   /// `pattern` is the example, in parts of kLimbs. It must outlive this object.
@@ -106,8 +107,8 @@ constexpr int kMeasuresVersion = 1;
 /// For each limb: its error, its error after its mean direction is corrected, and the missing share of its amplitude.
 /// For a left and a right limb, the larger value comes first.
 constexpr MeasureSlice kLimbMeasures{0, 36};
-/// The square root of the path's cost and of its parts for each third of the example, then the error of the worst limb
-/// and of the mean limb.
+/// The square root of the path's cost, the same for each third of the example, the error of the worst limb, and the
+/// mean error of the limbs.
 constexpr MeasureSlice kDistanceMeasures{kLimbMeasures.end(), 6};
 /// Lag, stretch, unsteadiness and largest timing error of the path.
 constexpr MeasureSlice kPathClockMeasures{kDistanceMeasures.end(), 4};

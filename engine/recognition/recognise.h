@@ -21,7 +21,7 @@ struct FrameInterval {
 /// first frame, clamped to the stream.
 FrameInterval FramesBetween(double start_s, double end_s, const SkeletonStream& stream);
 
-/// A performance that is asked for: the move, and the window in which it is expected.
+/// A requested performance: the move, and the window in which it is expected.
 struct AskedMove {
   std::size_t move = 0;  ///< the taught move's index
   FrameInterval window;
