@@ -70,7 +70,7 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
                                     std::span<const double> delay_s) {
   SightingMap map;
   for (const BoardSighting& s : sightings) map[{s.view.camera, s.board, s.look}] = &s;
-  // index of each target, by board and look of the first film
+  // Index of each target, by board and look of the first film.
   std::map<std::pair<std::size_t, int>, std::size_t> targets;
   std::size_t count = 0;
   const auto target_of = [&](std::size_t board, int look) {

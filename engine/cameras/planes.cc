@@ -156,7 +156,7 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
     ab.setConstant(both.dot(rhs) / both.squaredNorm());
   }
   const Eigen::Vector2d focal = unit * ab.cwiseSqrt().cwiseInverse();
-  // maximum focal length, picture widths; longer lenses are implausible for filming a person
+  // Maximum focal length, picture widths; longer lenses are implausible for filming a person.
   constexpr double kMaxFocal = 50;
   if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kMaxFocal * unit) {
     return Fail({},

@@ -62,7 +62,7 @@ void AddCorners(const ActivatedTerm& term, const Universe& universe, std::vector
   }
   if (const auto* gaussian = std::get_if<Gaussian>(&term.shape)) {
     constexpr int kSteps = 128;
-    // distance from the mean in standard deviations; farther away, the grade is below 1e-13
+    // Distance from the mean in standard deviations; farther away, the grade is below 1e-13.
     constexpr double kReach = 8;
     for (int i = 0; i <= kSteps; ++i) {
       corners.push_back(gaussian->mean + gaussian->sigma * kReach * (2.0 * i / kSteps - 1));

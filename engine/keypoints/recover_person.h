@@ -37,7 +37,8 @@ struct RecoverPersonOptions {
   double rate_hz = 30;
   MatchOptions match;
   TriangulateOptions triangulate;
-  std::size_t person = 0;      ///< index among all people found, in descending order of `sightings`
+  /// Index among the people seen by two cameras or more, in descending order of `sightings`.
+  std::size_t person = 0;
   double max_gap_s = 0.5;  ///< longer gaps are not filled
   double cutoff_hz = 0;        ///< cutoff of the low-pass filter of positions; 0 turns it off
   bool mends = false;  ///< run MendPerson; `triangulate.robust.outlier_px` is then the upper limit of OutlierLimit
@@ -51,7 +52,7 @@ RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 /// A person recovered from several cameras' keypoints.
 struct RecoveredPerson {
   std::vector<MatchedPerson> people;      ///< all people that were found
-  /// positions of the requested person's landmarks, with gaps filled and smoothed
+  /// Positions of the requested person's landmarks, with gaps filled and smoothed.
   std::vector<LandmarkPositions> landmarks;
   TriangulationReport report;
   std::vector<Mend> mends;  ///< corrections of the requested person's keypoints

@@ -13,7 +13,7 @@ namespace etude::engine {
 
 struct CaptureOptions {
   double rate_hz = 30;
-  int person = 0;        ///< index among the people found; person 0 has the most sightings
+  int person = 0;        ///< index among the people seen by two cameras or more; person 0 has the most sightings
   double smooth_hz = 0;  ///< cut-off frequency of the low-pass filter on the landmarks, Hz; 0: no smoothing
 };
 

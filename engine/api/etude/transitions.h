@@ -15,7 +15,7 @@ namespace etude::engine {
 
 /// The settings of a transition from one clip to another.
 struct TransitionOptions {
-  /// name of the choice of the frames to leave and enter: one of TransitionChoices()
+  /// Name of the choice of the frames to leave and enter: one of TransitionChoices().
   std::string choice = "played";
   std::string join = "planted-feet";  ///< name of the method that joins the two clips: one of TransitionJoins()
   double threshold = 0.4;             ///< maximum fuzzy distance of matching frames for the fuzzy choices, in (0, 6]
