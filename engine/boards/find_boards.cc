@@ -19,7 +19,7 @@ using GridIndex = std::pair<int, int>;
 /// The corners of one chessboard: the index of the saddle at each grid index.
 using CornerGrid = std::map<GridIndex, std::size_t>;
 
-constexpr double kMaxSpacingPx = 150;  // maximum distance of the first neighbour
+constexpr double kMaxSpacingPx = 150;  // maximum distance between the first two corners of a grid
 // Cosine of 14°: maximum angle between an edge and the direction to the next corner.
 constexpr double kMinAlignment = 0.97;
 constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of edges from a corner to the next

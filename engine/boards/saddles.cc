@@ -9,8 +9,9 @@ namespace {
 
 constexpr int kBorder = 7;                     // width of the picture's margin that is not searched, pixels
 constexpr int kNeighbourhood = 3;              // radius within which a saddle must be the strongest, pixels
-constexpr double kMinRelativeStrength = 0.02;  // share of the strongest saddle's strength
-constexpr double kMinStrength = 60;            // (grey levels per pixel²)²; weaker saddles are camera noise
+constexpr double kMinRelativeStrength = 0.02;  // minimum strength as a share of the strongest saddle's
+// Minimum strength, (grey levels per pixel²)²; weaker saddles are camera noise.
+constexpr double kMinStrength = 60;
 constexpr int kRefineReachPx = 5;
 constexpr int kRefineSteps = 8;
 constexpr double kConvergedPx = 0.01;

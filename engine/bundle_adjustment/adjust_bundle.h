@@ -66,7 +66,7 @@ struct BundleOptions {
 struct BundleSolution {
   bool is_solved = false;  ///< false if the cost at the start could not be evaluated; the solution is then the start
   std::vector<TreeState> states;
-  std::vector<double> lengths;  ///< metres
+  std::vector<double> lengths;  ///< lengths of the body, metres
   double first_cost = 0, last_cost = 0;
   int iterations = 0;
 };

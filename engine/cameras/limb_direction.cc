@@ -83,7 +83,7 @@ std::optional<StrokePlane> PlaneOf(const LimbSighting& sighting) {
                    b_W = glm::normalize(ViewingRay(matrix, stroke.b));
   const glm::dvec3 normal_W = glm::cross(a_W, b_W);
   const double length = glm::length(normal_W);
-  if (!(length > kSamePixel)) return std::nullopt;  // true for NaN, too
+  if (!(length > kSamePixel)) return std::nullopt;  // NaN is refused, too
   return StrokePlane{normal_W / length, a_W, b_W, glm::distance(stroke.a, stroke.b)};
 }
 

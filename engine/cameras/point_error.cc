@@ -110,7 +110,7 @@ PointError ExpectedPointError(std::span<const Camera> cameras, const glm::dvec3&
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (!(subset >> i & 1)) continue;
       const PixelErrors& pixel = pixels[i];
-      const glm::dmat2x3 gain = *inverse * glm::transpose(pixel.by_position);  // K of point_error.h
+      const glm::dmat2x3 gain = *inverse * glm::transpose(pixel.by_position);  // the matrix K of ExpectedPointError
       const glm::dmat3 noise = share * (gain * pixel.noise * glm::transpose(gain));
       expected.noise += noise;
       expected.covariance += noise;

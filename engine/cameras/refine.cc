@@ -171,7 +171,7 @@ class Bundle {
   /// The free parameter of a column of the Jacobian.
   struct Column {
     std::size_t camera = 0;  ///< index of the camera, or number of cameras + index of the target
-    int intrinsic = -1;      ///< an Intrinsic; −1 if the parameter belongs to a pose
+    int intrinsic = -1;      ///< index of an Intrinsic; −1 if the parameter belongs to a pose
   };
 
   void AddView(const TargetView& view) {

@@ -75,7 +75,7 @@ Result<Window> WindowOf(const xmlNode* camera, const Window& sensor) {
 Result<OpenCvParameters> InsideOf(const xmlNode* camera, const xmlNode* intrinsic) {
   Numbers of(intrinsic);
   constexpr double kMaxPixelRange = 16384;
-  const double unit = of["sensorMaxU"] > kMaxPixelRange ? 64 : 1;  // units per pixel
+  const double unit = of["sensorMaxU"] > kMaxPixelRange ? 64 : 1;  // units of the file per pixel
   const auto side = [&](const char* low, const char* high) { return std::round((of[high] - of[low]) / unit); };
   const Window sensor{0, 0, side("sensorMinU", "sensorMaxU"), side("sensorMinV", "sensorMaxV")};
   ASSIGN_OR_RETURN(const Window window, WindowOf(camera, sensor));
@@ -299,7 +299,8 @@ Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
 }
 
 Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file) {
-  constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;  // larger, because COLMAP's files also list points
+  // Larger than for one file, because COLMAP's files also list points.
+  constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;
   if (inside.size() + outside.size() > kMaxPairBytes) {
     return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kMaxPairBytes);
   }

@@ -19,7 +19,7 @@ struct Sighting {
 /// The line of sight of a pixel: all points that the pixel may show.
 struct SightLine {
   glm::dvec3 camera_W{0};     ///< the camera's centre, metres
-  glm::dvec3 direction_W{0};  ///< unit, away from the camera
+  glm::dvec3 direction_W{0};  ///< unit vector away from the camera
 };
 
 /// Returns the line of sight; nullopt if the matrix has no centre (a camera at infinity) or a number is not finite.

@@ -31,7 +31,7 @@ LimbLengths LimbLengthsOf(std::span<const double> lengths);
 std::array<double, 10> ListOf(const LimbLengths& lengths);
 
 struct AdjustTakeInputs {
-  MeasureInputs pictures;  ///< `known` is ignored
+  MeasureInputs pictures;  ///< cameras and marks; `known` is ignored
   LimbLengths lengths;     ///< lengths of the person, metres; the start of the search if lengths are adjusted
   /// The joint positions of each frame at which the search starts (`BridgeJoints`).
   std::span<const OptionalJoints> start;

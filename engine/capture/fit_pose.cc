@@ -56,8 +56,8 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
   return tree;
 }
 
-constexpr double kGoal = 1e-7;                       // a target is met at this distance, metres
-constexpr double kMet = kRoleCount * kGoal * kGoal;  // a smaller residual means that all targets are met, m²
+constexpr double kGoal = 1e-7;                       // distance at which a target counts as met, metres
+constexpr double kMet = kRoleCount * kGoal * kGoal;  // residual below which all targets count as met, m²
 // If the residual is below this multiple of the last frame's residual, no other start is tried.
 constexpr double kLikeTheLast = 1.5 * 1.5;
 

@@ -14,7 +14,7 @@ namespace etude {
 /// Target positions of the twenty roles, with weights.
 struct PoseTargets {
   BodyPose places;                           ///< target positions in the world, metres
-  std::array<double, kRoleCount> weights{};  ///< 0 if the position of the role is unknown
+  std::array<double, kRoleCount> weights{};  ///< weight of each role; 0 if its position is unknown
 };
 
 /// Returns a pose as targets of equal weight.

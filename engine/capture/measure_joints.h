@@ -37,7 +37,7 @@ std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& er
 /// because no mark shows them.
 struct JointMeasurements {
   std::array<PointMeasurement, kRoleCount> joints;
-  std::array<bool, kRoleCount> is_triangulated{};  ///< true if measured from two or more pictures
+  std::array<bool, kRoleCount> is_triangulated{};  ///< true if the joint was measured from two or more pictures
 };
 
 /// Triangulates every joint from all marks that end there: the position minimises Σ rᵀ Λ r over the pictures, with r

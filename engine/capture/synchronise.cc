@@ -54,7 +54,7 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
   const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
   // If the improvement over offset 0 is this small, nobody moved.
   constexpr double kNoBetter = 0.001, kNothing = 1e-4;  // as a share of the misfit; in squared pixels
-  // With at least 300 distances, noise alone keeps the ratio of the mean misfit to the minimum below this.
+  // With 300 distances or more, noise alone keeps the ratio of the mean misfit to the minimum below this value.
   constexpr double kTold = 1.25;
   const bool is_better = *assumed - min_misfit + minimum.gain > kNothing + kNoBetter * *assumed;
   const bool is_told = std::abs(best) < max_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);

@@ -21,7 +21,7 @@ namespace etude {
 
 /// The state that SeeClap keeps between two frames.
 struct ClapState {
-  int since_apart = kLongAgo;  ///< frames since the hands were last apart
+  int since_apart = kLongAgo;  ///< number of frames since the hands were last apart
   int together = 0;            ///< number of consecutive frames in which the hands have been together
   static constexpr int kLongAgo = 1000;
 };
@@ -34,8 +34,8 @@ bool SeeClap(const SensedFrame& frame, ClapState& state);
 struct StillnessState {
   std::array<glm::dvec3, kRoleCount> rest{};  ///< recent position of each joint, low-pass filtered
   bool started = false;
-  int seen = 0;    ///< frames since ResetCounts in which a body was seen
-  int moving = 0;  ///< frames since ResetCounts in which the body moved
+  int seen = 0;    ///< number of frames since ResetCounts in which a body was seen
+  int moving = 0;  ///< number of frames since ResetCounts in which the body moved
   int frames = 0;  ///< number of all frames since ResetCounts
 };
 
@@ -136,7 +136,7 @@ class Coach {
  public:
   struct PolicyChoice {
     const Policy* policy = nullptr;
-    std::vector<double> settings;  ///< one per setting of the policy; if empty, the defaults apply
+    std::vector<double> settings;  ///< one value per setting of the policy; if empty, the defaults apply
   };
 
   /// Makes a coach. `transitions` must outlive the coach.

@@ -46,15 +46,15 @@ std::string_view MistakeName(Mistake mistake);
 /// A decision with its explanation.
 struct CoachRecord {
   CoachEvent event = CoachEvent::kWoken;
-  std::int64_t frame = 0;  ///< counted from the session's beginning
+  std::int64_t frame = 0;  ///< frame number, counted from the session's beginning
   int repetition = -1;     ///< index in Dance::repetitions; −1 if the record concerns no repetition
   int move = -1;           ///< index in Dance::moves; −1 if the record concerns no move
   int tag = -1;            ///< index in Dance::tags; set for the event kTag
   Mistake mistake = Mistake::kNone;
-  double evidence = 0;      ///< set for the events kRight, kWrong and kUnjudged
+  double evidence = 0;      ///< evidence of the performance; set for the events kRight, kWrong and kUnjudged
   double beat_error_s = 0;  ///< set for kTag: the delay of the dance behind the music; negative if the dance is early
   double rate = 1;          ///< set for kTag: the new speed of the dance, in frames of the dance per shown frame
-  std::shared_ptr<const TransitionRecord> transition;  ///< set for kTransition
+  std::shared_ptr<const TransitionRecord> transition;  ///< the planned transition; set for kTransition
   std::string why;                                     ///< reason for the event: one sentence with numbers
 };
 

@@ -35,7 +35,7 @@ struct Repetition {
 /// A clip that the coach plays outside the dance.
 struct CoachAct {
   std::string name;
-  BodyMotion motion;  ///< 30 Hz, at least two frames
+  BodyMotion motion;  ///< motion at 30 Hz, at least two frames
   bool loops = false;
 };
 

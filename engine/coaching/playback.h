@@ -12,12 +12,13 @@ namespace etude {
 
 /// The frames of a transition: those shown after the request, until only the wanted clip plays.
 struct ShownPath {
-  int clip = 0;                                    ///< the wanted clip, as an index in the library
-  std::vector<BodyPose> frames;                    ///< shown poses, in the coordinates of the clip that was left
-  std::size_t entered = 0;                         ///< index in `frames` from which the wanted clip plays
-  int clip_frame = 0;                              ///< the wanted clip's frame at that index
-  FloorMove place;                                 ///< the wanted clip's floor move, in the coordinates of `frames`
-  std::shared_ptr<const TransitionRecord> record;  ///< null if the path does not begin with a transition
+  int clip = 0;                  ///< the wanted clip, as an index in the library
+  std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that was left
+  std::size_t entered = 0;       ///< index in `frames` from which the wanted clip plays
+  int clip_frame = 0;            ///< the wanted clip's frame at that index
+  FloorMove place;               ///< the wanted clip's floor move, in the coordinates of `frames`
+  /// Record of the transition; null if the path does not begin with one.
+  std::shared_ptr<const TransitionRecord> record;
 };
 
 /// Plans the transitions within a dance by one method. Each transition is planned on its first use and cached, so a
@@ -51,7 +52,7 @@ class DanceTransitions {
 
 /// The current state of playing: the dance itself, or a path (a transition and the clip it leads into).
 struct Playback {
-  std::shared_ptr<const ShownPath> path;  ///< null while the dance itself plays
+  std::shared_ptr<const ShownPath> path;  ///< the path that is shown; null while the dance itself plays
   double path_frame = 0;                  ///< index in the path's frames, and after them in its clip; may be fractional
   FloorMove place;                        ///< floor move of the path
   double dance_frame = 0;                 ///< index of the shown frame of the dance; used only if `path` is null

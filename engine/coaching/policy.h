@@ -18,9 +18,9 @@ enum class WindowVerdict {
 
 /// The coach's memory of one move, or of all moves.
 struct MoveMemory {
-  int judged = 0;           ///< windows with a verdict of right or wrong
-  int mistakes = 0;         ///< judged windows with the verdict wrong
-  int mistakes_in_row = 0;  ///< consecutive wrong windows since the last right one
+  int judged = 0;           ///< number of windows with a verdict of right or wrong
+  int mistakes = 0;         ///< number of windows with the verdict wrong
+  int mistakes_in_row = 0;  ///< number of consecutive wrong windows since the last right one
   int corrections = 0;      ///< number of corrections given
 };
 

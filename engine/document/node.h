@@ -17,7 +17,7 @@ struct Node {
   Kind kind = Kind::kNull;
   std::string scalar;          ///< kScalar: the text without quotes
   std::vector<Node> items;     ///< kSequence: the elements, in order
-  std::vector<Entry> entries;  ///< kMapping, in the order of the document; keys are unique
+  std::vector<Entry> entries;  ///< kMapping: the entries, in the order of the document; keys are unique
   Place place;
 
   /// Returns the value of `key`, or null if this is not a mapping or has no such key.

@@ -24,7 +24,7 @@ struct AcclaimSkeleton {
   std::vector<std::vector<Channel>> channels;
   std::vector<glm::dquat> axes;  ///< per joint: the axes of its rotations
   bool in_degrees = true;
-  std::string remark = "";  ///< about angles that are impossible in the stated unit; "" if there are none
+  std::string remark = "";  ///< message about angles that are impossible in the stated unit; "" if there are none
 };
 
 /// Returns true if a text begins like a motion (AMC): after comments, with a line ":FULLY-SPECIFIED" or ":DEGREES".

@@ -33,9 +33,9 @@ struct JointCsv {
   JointCsvColumns columns;
   std::optional<double> rate_hz;  ///< rate from the median of the positive time steps; nullopt if there is none
   TimeScale scale;                ///< unit and origin of the column `time_s`
-  std::vector<double> times_s;    ///< per frame, in seconds, converted by `scale`; NaN if unknown
-  std::vector<double> numbers;    ///< per frame: its value in the column `frame`; empty if the file lacks this column
-  std::vector<int> lines;         ///< per frame: its line in the text, from 1
+  std::vector<double> times_s;    ///< time of each frame, in seconds, converted by `scale`; NaN if unknown
+  std::vector<double> numbers;    ///< value of each frame in the column `frame`; empty if the file lacks this column
+  std::vector<int> lines;         ///< line of each frame in the text, from 1
   std::vector<std::array<std::optional<glm::dvec3>, kRoleCount>> frames;
   std::string remark;  ///< message for the user about assumptions and ignored columns
 };

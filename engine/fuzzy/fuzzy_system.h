@@ -19,7 +19,7 @@ struct Rule {
 
 /// The rules of a fuzzy system. Several rules may conclude the same pose.
 struct RuleBase {
-  std::vector<std::string> poses;  ///< unique, in the order of their first use by a rule
+  std::vector<std::string> poses;  ///< names of the poses, unique, in the order of their first use by a rule
   std::vector<Rule> rules;
 };
 

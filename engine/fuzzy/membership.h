@@ -35,7 +35,7 @@ using Shape = std::variant<Triangular, Trapezoidal, Gaussian, Singleton>;
 double GradeOf(const Shape& shape, double input);
 
 struct Cut {
-  double low = 0, high = 0;  ///< closed interval
+  double low = 0, high = 0;  ///< limits of the closed interval
 };
 
 /// Returns the α-cut for a grade in (0, 1]: the set of inputs whose grade is at least `grade`. It is one interval,

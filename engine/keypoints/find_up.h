@@ -13,7 +13,7 @@ namespace etude {
 struct FoundUp {
   glm::dvec3 up;
   double deviation = 0;  ///< standard deviation in radians, along the axis in which the direction is least certain
-  double within = 0;     ///< the truth is within this angle in 95 of 100 takes, radians
+  double within = 0;     ///< angle from the true direction that is not exceeded in 95 of 100 takes, radians
   std::string by;        ///< the evidence: "the cameras' horizons and resting feet"
 };
 

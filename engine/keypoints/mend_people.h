@@ -25,7 +25,7 @@ struct Mend {
   };
   Kind kind = Kind::kSwappedSides;
   std::size_t camera = 0;
-  std::vector<std::size_t> frames;  ///< ascending
+  std::vector<std::size_t> frames;  ///< the frames of this mistake, ascending
 };
 
 /// Corrects the keypoints of a person seen by two cameras or more *(ours)*. First, it checks the identity: if a

@@ -39,9 +39,10 @@ struct RecoverPersonOptions {
   TriangulateOptions triangulate;
   /// Index among the people seen by two cameras or more, in descending order of `sightings`.
   std::size_t person = 0;
-  double max_gap_s = 0.5;  ///< longer gaps are not filled
+  double max_gap_s = 0.5;  ///< maximum length of gaps that are filled
   double cutoff_hz = 0;        ///< cutoff of the low-pass filter of positions; 0 turns it off
-  bool mends = false;  ///< run MendPerson; `triangulate.robust.outlier_px` is then the upper limit of OutlierLimit
+  /// If true, MendPerson is run, and `triangulate.robust.outlier_px` is the upper limit of OutlierLimit.
+  bool mends = false;
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
 
@@ -59,7 +60,7 @@ struct RecoveredPerson {
   double outlier_px = 0;    ///< the threshold for outliers that was used, pixels
   CaptureBody body;
   std::vector<TreeState> states;  ///< poses of the body, one per frame
-  Clip clip;                      ///< metres, Y up
+  Clip clip;                      ///< the motion as a clip, metres, Y up
   BodyMotion motion;              ///< the motion of `clip` as twenty joints
   std::vector<bool> is_held;      ///< true for frames that could not be recovered and repeat the last pose
 };

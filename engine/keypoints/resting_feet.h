@@ -18,7 +18,7 @@ double AboveSole(std::size_t kind, double stature);
 /// A period of a fifth of a second or longer in which a landmark of a foot rested.
 struct FootStay {
   glm::dvec3 place{0};
-  std::size_t kind = 0;  ///< below kFootKinds
+  std::size_t kind = 0;  ///< index of the landmark's kind, below kFootKinds
 };
 
 /// Returns the stays of all feet, the longest first, at most 200. A landmark rests while its speed is below a fifth of

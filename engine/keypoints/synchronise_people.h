@@ -35,7 +35,7 @@ struct FilmClock {
 
 struct FoundClock {
   FilmClock clock;
-  double before = 0, after = 0;  ///< set if `is_mended`: the loss of the given clock; the loss of `clock`
+  double before = 0, after = 0;  ///< losses of the given clock and of `clock`; set if `is_mended`
   bool is_mended = false;        ///< false if `clock` is still the given clock
   FilmClock nearest;             ///< the clock of minimal loss, even if it was not accepted
 };

@@ -52,7 +52,7 @@ class DtwFollower final : public StepFollower {
 
   const std::vector<Examples>& moves_;
   const DtwOptions& options_;
-  std::vector<std::vector<SubsequenceAligner>> always_;  // per move, one aligner per example; never reset
+  std::vector<std::vector<SubsequenceAligner>> always_;  // for each move, one aligner per example; they are never reset
   std::vector<SubsequenceAligner> in_window_;
 };
 
@@ -142,7 +142,7 @@ double Distance(std::span<const PoseVector> seen, const Pattern& pattern, double
 }
 
 Example ExampleOf(std::size_t move, Pattern right) {
-  constexpr double kOwnImage = 0.03;  // metres; a move this close to its mirror image has no wrong side
+  constexpr double kOwnImage = 0.03;  // distance, metres; a move this close to its mirror image has no wrong side
   Example example{.move = move, .right = std::move(right), .wrong = {}, .middle = {}};
   example.middle = MeanOf(example.right);
   Pattern mirrored = Changed(example.right, [](const PoseVector& pose) { return Mirrored(pose, PoseParts::kJoints); });
@@ -168,7 +168,7 @@ class Stillness {
  private:
   PoseVector pose_;
   std::size_t count_ = 0;
-  std::vector<double> gaps_;  // squared distances to the pose, a ring
+  std::vector<double> gaps_;  // the last squared distances to the pose, as a ring
 };
 
 class NearestFollower final : public StepFollower {
@@ -237,7 +237,7 @@ class NearestFollower final : public StepFollower {
   }
 
   const std::vector<Example>& examples_;
-  std::vector<double> right_, wrong_, held_still_;  // distances per move, of this step
+  std::vector<double> right_, wrong_, held_still_;  // distances of this step, per move
   std::size_t longest_, since_open_ = 0;
   Stillness standing_;
   std::vector<Stillness> held_;   // held pose of each example

@@ -109,8 +109,8 @@ class StreamFilter {
 
  private:
   FilterKind kind_;
-  std::vector<HoltFilter> holt_;         // one per joint if the kind is kHolt, else empty
-  std::vector<OneEuroFilter> one_euro_;  // one per joint if the kind is kOneEuro, else empty
+  std::vector<HoltFilter> holt_;         // one filter per joint if the kind is kHolt, else empty
+  std::vector<OneEuroFilter> one_euro_;  // one filter per joint if the kind is kOneEuro, else empty
 };
 
 /// Filters a whole stream with a StreamFilter.

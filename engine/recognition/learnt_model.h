@@ -31,7 +31,7 @@ struct DecisionTree {
 
 /// Gradient-boosted decision trees (Friedman 2001). They judge from the measures of a performance whether it is right.
 struct BoostedTrees {
-  double bias = 0;  ///< log-odds
+  double bias = 0;  ///< log-odds before the first tree
   std::vector<DecisionTree> trees;
 
   /// Returns the probability that the performance is right, in (0, 1).
@@ -41,7 +41,7 @@ struct BoostedTrees {
 /// The candidate performances of one window. The window is right if at least one of them is right.
 struct LabelledBag {
   bool is_right = false;
-  std::vector<PerformanceMeasures> performances;  ///< at least one; the most likely one comes first
+  std::vector<PerformanceMeasures> performances;  ///< the performances, at least one; the most likely one comes first
 };
 
 struct BoostingOptions {

@@ -56,7 +56,7 @@ class RecentCosts {
   }
 
  private:
-  static constexpr std::size_t kKept = 15;  // steps: one second
+  static constexpr std::size_t kKept = 15;  // number of steps: one second
   std::size_t moves_, step_ = 0;
   std::vector<double> costs_;
 };

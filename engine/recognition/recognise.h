@@ -14,7 +14,7 @@ namespace etude {
 /// A half-open interval [begin, end) of a stream's frames.
 struct FrameInterval {
   int begin = 0;
-  int end = 0;  ///< ≥ begin
+  int end = 0;  ///< not below `begin`
 };
 
 /// Returns the frames of `stream` that overlap the interval from `start_s` to `end_s`, in seconds from the stream's
@@ -31,7 +31,7 @@ struct AskedMove {
 struct EvidenceTrace {
   std::size_t moves = 0;
   std::vector<double> asked;    ///< evidence of the asked move, per frame
-  std::vector<double> spotted;  ///< evidence of every move, per frame and move, frame-major
+  std::vector<double> spotted;  ///< evidence of every move in every frame; the moves of one frame are adjacent
 
   /// Returns the evidence of every move in a frame.
   std::span<const double> SpottedAt(std::size_t frame) const {

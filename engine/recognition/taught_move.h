@@ -12,7 +12,7 @@ namespace [[gnu::visibility("default")]] etude {
 struct PoseTarget {
   Feature feature = Feature::kRH;
   double degrees = 0;
-  double tolerance_deg = 0;  ///< > 0
+  double tolerance_deg = 0;  ///< allowed deviation, > 0
 };
 
 /// A pose that must be reached for the move to be recognised.

@@ -197,7 +197,7 @@ struct Channel {
 struct Timing {
   double start = 0;
   double rate_hz = kDefaultRateHz;
-  double frames = 1;  ///< a whole number; it may exceed the allowed number of frames
+  double frames = 1;  ///< number of frames, a whole number; it may exceed the allowed number
 };
 
 void Apply(const Channel& channel, double time, LocalPose& pose) {

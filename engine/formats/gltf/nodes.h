@@ -12,7 +12,7 @@ namespace etude {
 /// The nodes of a file as a skeleton.
 struct GltfNodes {
   Skeleton skeleton;
-  std::vector<int> joint_of;    ///< per node; −1 for nodes that are not joints
+  std::vector<int> joint_of;    ///< joint of each node; −1 for nodes that are not joints
   std::vector<int> mesh_nodes;  ///< nodes of the scene with a mesh, ascending
 };
 

@@ -128,7 +128,7 @@ bool KeepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, 
 /// possible. Warnings about optional properties are ignored.
 std::string Complaint(std::string_view text) {
   constexpr std::array<std::string_view, 3> kHarmless = {
-      "'inverseBindMatrices' property is missing in Skin.",  // optional since 2.0
+      "'inverseBindMatrices' property is missing in Skin.",  // the property is optional since glTF 2.0
       "'node' property is missing.",                         // channels without a node are ignored, as specified
       "`node` field is missing in animation.channels.target",
   };

@@ -22,7 +22,7 @@ namespace {
 /// The bytes of a buffer view under construction.
 class GltfBytes {
  public:
-  void Float(double value);  ///< rounded to a float
+  void Float(double value);  ///< adds the value, rounded to a float
   void Byte(std::uint32_t value);
   void Short(std::uint32_t value);
   void Integer(std::uint32_t value);
@@ -114,7 +114,7 @@ struct Track {
   int joint = 0;
   const char* path = "";
   std::ptrdiff_t width = 3;
-  std::vector<float> values;  ///< the value at rest, then frame by frame
+  std::vector<float> values;  ///< the value at rest, then the value of every frame
 
   void Add(const glm::vec3& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
   void Add(const glm::vec4& value) { values.insert(values.end(), {value.x, value.y, value.z, value.w}); }
@@ -372,7 +372,7 @@ class GlbWriter {
 
   const Character& character_;
   tinygltf::Model model_;
-  std::vector<const SkinnedMesh*> skinned_;  ///< per skin, a mesh that uses it
+  std::vector<const SkinnedMesh*> skinned_;  ///< for each skin, a mesh that uses it
 };
 
 }  // namespace
