@@ -97,8 +97,8 @@ std::array<glm::dvec2, 2> RootOf(const glm::dmat2& information) {
   return {glm::dvec2(a, b), glm::dvec2(0, c)};
 }
 
-/// The reprojection error of one mark in standard deviations. Its parameter blocks are position, rotation, angles, and
-/// the lengths if they are adjusted.
+/// The reprojection error of one mark in standard deviations. Parameter blocks: position, rotation, angles; lengths if
+/// adjusted.
 class MarkCost final : public ceres::CostFunction {
  public:
   MarkCost(const BundleMark& mark, const Variables& variables, bool adjusts_lengths)
@@ -140,8 +140,8 @@ class MarkCost final : public ceres::CostFunction {
 
 constexpr std::array<double, 3> kSecondDifference = {1, -2, 1};
 
-/// The second difference of each of `points` over three frames, in standard deviations. Its parameter blocks are
-/// position, rotation and angles of each frame, and the lengths if they are adjusted.
+/// The second difference of each of `points` over three frames, in standard deviations. Parameter blocks: position,
+/// rotation, angles of each frame; lengths if adjusted.
 class PointAcceleration final : public ceres::CostFunction {
  public:
   PointAcceleration(const FrameVariables* first, std::span<const int> points, std::span<const double> deviation,
@@ -187,8 +187,8 @@ class PointAcceleration final : public ceres::CostFunction {
   const int length_block_;
 };
 
-/// The second difference of all angles over three frames, in standard deviations. Its parameter blocks are the angles
-/// of each frame.
+/// The second difference of all angles over three frames, in standard deviations. Parameter blocks: angles of each
+/// frame.
 class AngleAcceleration final : public ceres::CostFunction {
  public:
   AngleAcceleration(int angles, double deviation) : angles_(angles), deviation_(deviation) {
@@ -213,8 +213,7 @@ class AngleAcceleration final : public ceres::CostFunction {
   const double deviation_;
 };
 
-/// The amounts by which angles exceed their limits, in standard deviations. Its parameter block is the angles of a
-/// frame.
+/// The amounts by which angles exceed their limits, in standard deviations. Parameter block: angles of the frame.
 class LimitViolation final : public ceres::CostFunction {
  public:
   LimitViolation(std::span<const AngleRange> limits, double deviation) : limits_(limits), deviation_(deviation) {

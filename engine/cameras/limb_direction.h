@@ -30,7 +30,7 @@ struct StrokePlane {
   glm::dvec3 normal_W{0};  ///< unit normal, ray(a) × ray(b)
   glm::dvec3 ray_a_W{0};   ///< unit vector from the camera through the stroke's start
   glm::dvec3 ray_b_W{0};   ///< unit vector from the camera through the stroke's end
-  double length_px = 0;    ///< length of the stroke
+  double length_px = 0;
 };
 
 /// Returns the plane of a stroke; nullopt if the stroke has no length, that is, less than 0.01 pixel at a focal length

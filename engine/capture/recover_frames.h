@@ -56,8 +56,7 @@ struct RecoveredFrame {
 /// earlier frame.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
-/// The true start or true pose of one frame, if known. It replaces the result of the start stage or of the solver, so
-/// that the error of that stage can be measured.
+/// The true start or true pose of one frame, if known, as in RecoverInputs.
 struct KnownAngles {
   std::optional<TreeState> start, pose;
 };

@@ -17,7 +17,6 @@ struct MusicTag {
   double music_s = 0;
 };
 
-/// A move of the dance.
 struct DanceMove {
   std::string name;   ///< the name of this move in the recogniser
   std::string hint;   ///< the key pose in words, for example "both arms up"

@@ -21,7 +21,7 @@ struct MoveMemory {
   int judged = 0;           ///< number of windows with a verdict of right or wrong
   int mistakes = 0;         ///< number of windows with the verdict wrong
   int mistakes_in_row = 0;  ///< number of consecutive wrong windows since the last right one
-  int corrections = 0;      ///< number of corrections given
+  int corrections = 0;
 };
 
 /// The input of a policy when a window has closed.

@@ -10,11 +10,11 @@
 
 namespace etude {
 
-/// The inputs of a session in addition to the sensor's frame.
+/// The inputs of a session in addition to the sensor's frame, as in CoachInput.
 struct SessionInput {
-  std::optional<double> music_s = {};   ///< as in CoachInput
-  std::optional<bool> told_right = {};  ///< as in CoachInput
-  bool moment = false;                  ///< as in CoachInput
+  std::optional<double> music_s = {};
+  std::optional<bool> told_right = {};
+  bool moment = false;
 };
 
 /// A coach with a sensor: it runs the recogniser and Coach::Step frame by frame. The benchmark and live sessions both

@@ -25,7 +25,7 @@ std::string_view DefuzzificationName(Defuzzification method);
 /// A term's shape, clipped at the grade to which the term is activated.
 struct ActivatedTerm {
   Shape shape;
-  double grade = 0;  ///< grade of activation, in [0, 1]
+  double grade = 0;  ///< in [0, 1]
 };
 
 /// Returns the crisp input that the activated terms represent, within `universe`. Returns nullopt if no term is

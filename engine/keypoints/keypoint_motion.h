@@ -21,7 +21,6 @@ struct TriangulateOptions {
   RobustOptions robust;
 };
 
-/// Statistics of a triangulation.
 struct TriangulationReport {
   std::vector<double> rejected;  ///< for each camera, the share of its keypoints that were outliers
   double residual_px = 0;        ///< median reprojection error over all points
@@ -29,7 +28,6 @@ struct TriangulationReport {
   double found = 0;
 };
 
-/// A landmark in one frame.
 struct TriangulatedLandmark {
   std::size_t frame = 0, landmark = 0;
   std::vector<std::size_t> cameras;  ///< indices of the cameras that see it with enough confidence

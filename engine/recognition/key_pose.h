@@ -35,7 +35,7 @@ class PoseSequence {
  private:
   struct Held {
     int frame;
-    std::vector<double> scores;  // score of each pose
+    std::vector<double> scores;
   };
 
   double BestPassageEndingIn(std::span<const double> held) const;

@@ -127,7 +127,7 @@ using PerformanceMeasures = std::array<double, kMeasureCount>;
 
 /// A performance that was aligned with an example.
 struct AlignedPerformance {
-  std::span<const StepPair> path;              ///< the path, at least one pair
+  std::span<const StepPair> path;              ///< at least one pair
   std::function<const PoseVector&(int)> seen;  ///< returns the pose with index StepPair::seen, in parts of kLimbs
   std::span<const PoseVector> pattern;         ///< the example, in parts of kLimbs
   double cost = 0;                             ///< the path's cost (SubsequenceAligner::Cost)

@@ -88,9 +88,8 @@ class MoveSpotter {
   std::vector<std::size_t> fired_;
 };
 
-/// The detection of one move.
 struct Detection {
-  std::size_t move = 0;  ///< index of the move
+  std::size_t move = 0;
   int frame = 0;
 };
 

@@ -178,7 +178,7 @@ void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& c
   for (std::size_t joint = 0; joint < skeleton.joints.size(); ++joint) {
     for (Track& track : TracksOf(skeleton, clip, joint)) tracks.push_back(std::move(track));
   }
-  // An animation needs at least one channel. If nothing moves, one channel needs all keys, so that the length is kept.
+  // An animation needs at least one channel, even if nothing moves.
   const bool all_still = std::ranges::all_of(tracks, &Track::IsStill);
   const int times = AddTimes(model, clip.frames.size(), clip.rate_hz);
   int first_time = -1;  // accessor with one time for constant properties; created on first use
