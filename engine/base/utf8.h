@@ -15,7 +15,7 @@ struct Utf8Character {
   std::size_t length = 0;
 };
 
-/// Decodes the first character of `text`, a text that is not empty.
+/// Decodes the first character of `text`, which must not be empty.
 Utf8Character FirstCharacter(std::string_view text);
 
 /// Returns the text without the byte order mark, which Windows programs write at the beginning of UTF-8 text.

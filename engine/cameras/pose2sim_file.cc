@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// Rotates our world (Y up) into Pose2Sim's (Z up): (z, x, y).
+/// Rotates our world (Y up) into Pose2Sim's (Z up): (x, y, z) becomes (z, x, y).
 const glm::dmat3 kZUpOfYUp = glm::transpose(glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0));
 
 std::string Vector(std::span<const double> values) {

@@ -16,8 +16,8 @@ constexpr double kTinyM = 1e-9;
 
 bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Returns the rotation about the unit vector `axis` that minimises the squared distances between `from` and `to`,
-// radians.
+// Returns the angle of the rotation about the unit vector `axis` that minimises the squared distances between `from`
+// and `to`, in radians.
 double BestTwist(const glm::dvec3& axis, const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to) {
   double cosine = 0, sine = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {

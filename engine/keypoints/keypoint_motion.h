@@ -47,8 +47,8 @@ std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatri
 /// Fills gaps of at most `max_gap` frames by linear interpolation between the landmark's positions before and after.
 void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap);
 
-/// Smooths positions by a Gaussian filter over time with half of the power at `cutoff_hz`: each position becomes a
-/// weighted mean of the positions around it. The filter has no delay. A cutoff of at least half the rate changes
+/// Smooths positions over time by a Gaussian filter that passes half of the power at `cutoff_hz`. Each position becomes
+/// a weighted mean of the positions around it. The filter has no delay. A cutoff of at least half the rate changes
 /// nothing.
 void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cutoff_hz);
 

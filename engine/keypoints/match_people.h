@@ -23,7 +23,7 @@ struct FollowOptions {
 
 /// A person tracked through frames of one camera, as indices into `people[frame]`.
 struct PersonTrack {
-  std::map<std::size_t, std::size_t> entries;  ///< index of the person by frame; at least one
+  std::map<std::size_t, std::size_t> entries;  ///< index of the person, by frame; at least one entry
 
   std::size_t first() const { return entries.begin()->first; }
   std::size_t last() const { return entries.rbegin()->first; }

@@ -22,8 +22,8 @@ struct HoltOptions {
   /// The number of frames by which the output is predicted ahead, ≥ 0; it compensates for the lag of smoothing. Above
   /// 0.5, quick changes overshoot.
   double prediction_frames = 0.5;
-  /// A step inside this radius is damped in proportion to its length. Lower it if small motions matter; 0 turns damping
-  /// off.
+  /// A step shorter than this radius is multiplied by its length divided by the radius. Lower it if small motions
+  /// matter; 0 turns damping off.
   double jitter_radius_m = 0.05;
   /// The largest distance of the output from the raw position. Raise it to suppress outliers of single frames.
   double max_deviation_radius_m = 0.04;

@@ -15,8 +15,8 @@ namespace etude::engine {
 using namespace etude;  // the library's types are the engine's own
 
 /// Thrown for input that cannot be processed. `what()` is one line: the position as far as it is known ("walk.bvh:12:3:
-/// …"), what was found and what is allowed. A numerical outcome, such as an undetermined point, is no exception but a
-/// returned status.
+/// …"), what was found and what is allowed. A numerical outcome, such as an undetermined point, is returned as a
+/// status, not thrown.
 class ETUDE_API BadInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

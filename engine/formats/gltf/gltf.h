@@ -47,7 +47,7 @@ using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, 
 /// supported. Morph targets, and animations that only move them, are left out.
 ///
 /// Surfaces are triangle lists, strips and fans; lines and points are ignored. If a vertex has several sets of joints,
-/// the four largest weights are used. Surfaces without normals get flat ones. Colours are base colour factors,
+/// the four largest weights are used. Surfaces without normals get flat normals. Colours are base colour factors,
 /// multiplied by base colour textures if `decode` is given (PNG, JPEG; others are ignored); transparency is not read.
 ///
 /// Returns an error that names the position in the JSON for:
