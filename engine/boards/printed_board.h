@@ -20,7 +20,7 @@ namespace etude {
 struct PrintedBoard {
   bool is_charuco = false;
   int columns = 0, rows = 0;  ///< squares per side: 4 to 64 for a chessboard, 3 to 64 for a ChArUco board
-  double square = 0;          ///< metres
+  double square = 0;          ///< side of a square, metres
 };
 
 /// Reads "chess:9x6x0.025" or "charuco:4x5x0.054". Returns nullopt if the text begins otherwise, and an error for

@@ -98,7 +98,7 @@ struct CoachOutput {
   std::string_view clip;       ///< "dance", an act's name, or "slow_" and a move's name; in a transition, the next clip
   double clip_frame = 0;       ///< frame index in `clip`, may be fractional
   bool in_transition = false;  ///< true from leaving one clip until the next clip is entered
-  int repetition = -1;         ///< the last repetition that has begun; −1 before the first and while no dance is shown
+  int repetition = -1;  ///< the last repetition that has begun; −1 before the first and while no dance is shown
   std::optional<OpenWindow> open;     ///< the window that is open in the next frame
   bool asks = false;                  ///< true if `open` has changed: call MoveFollower::Ask before the next frame
   std::string_view say;               ///< a line of text for the player; "" if there is none

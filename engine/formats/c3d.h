@@ -13,10 +13,10 @@ namespace etude {
 struct C3d {
   /// Positions in metres; names are the file's labels, or, without a label, for example "point 7".
   MarkerMotion markers;
-  std::string unit;      ///< the file's unit, for example "mm"; "" if the file gives none, which means millimetres
-  char up = 0;           ///< up axis 'X', 'Y' or 'Z' if POINT:Y_SCREEN gives it, else 0
+  std::string unit;  ///< the file's unit, for example "mm"; "" if the file gives none, which means millimetres
+  char up = 0;       ///< up axis 'X', 'Y' or 'Z' if POINT:Y_SCREEN gives it, else 0
   bool is_up_negative = false;  ///< true if the axis `up` points down
-  double step_m = 0;     ///< smallest difference of two coordinates if they are stored as whole numbers; 0 for floats
+  double step_m = 0;  ///< smallest difference of two coordinates if they are stored as whole numbers; 0 for floats
 };
 
 /// Returns true if bytes begin like a C3D file: a block number and the key 0x50.

@@ -49,10 +49,10 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
 /// Markers in the rows of a file, before they are placed on frames.
 struct MarkerRows {
   MarkerMotion markers;
-  std::vector<double> times_s;  ///< time of each row; NaN if the row gives none
-  std::vector<int> lines;       ///< line of each row, from 1
-  bool has_clock = true;        ///< false if the times were made from frame numbers
-  std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
+  std::vector<double> times_s;                ///< time of each row; NaN if the row gives none
+  std::vector<int> lines;                     ///< line of each row, from 1
+  bool has_clock = true;                      ///< false if the times were made from frame numbers
+  std::string rate_name = "";                 ///< the header that gives `markers.rate_hz`; "" if none does
   std::string time_name = "the column Time";  ///< what holds the times, in words for messages
 };
 /// Places markers on frames by their times, whose unit FindTimeScale finds; in a hole, no marker was seen. The remark

@@ -40,7 +40,7 @@ struct RecoverPersonOptions {
   /// Index among the people seen by two cameras or more, in descending order of `sightings`.
   std::size_t person = 0;
   double max_gap_s = 0.5;  ///< maximum length of gaps that are filled
-  double cutoff_hz = 0;        ///< cutoff of the low-pass filter of positions; 0 turns it off
+  double cutoff_hz = 0;    ///< cutoff of the low-pass filter of positions; 0 turns it off
   /// If true, MendPerson is run, and `triangulate.robust.outlier_px` is the upper limit of OutlierLimit.
   bool mends = false;
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
@@ -52,7 +52,7 @@ RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 
 /// A person recovered from several cameras' keypoints.
 struct RecoveredPerson {
-  std::vector<MatchedPerson> people;      ///< all people that were found
+  std::vector<MatchedPerson> people;  ///< all people that were found
   /// Positions of the requested person's landmarks, with gaps filled and smoothed.
   std::vector<LandmarkPositions> landmarks;
   TriangulationReport report;

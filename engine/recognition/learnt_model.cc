@@ -74,7 +74,8 @@ struct Split {
   double gain = 0;
 };
 
-/// Selects the performances and the measures to which tree number `tree` is fitted.
+/// Selects the performances and the measures to which tree number `tree` is fitted: subsets that change from tree to
+/// tree, or everything if `is_taken` is false.
 struct Turn {
   std::size_t tree;
   bool is_taken;

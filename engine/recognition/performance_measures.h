@@ -52,7 +52,7 @@ class ClockComparison {
   Fit FitOf(Part part, double usual_s) const;
 
   std::span<const PoseVector> pattern_;
-  int count_ = 0;                                                     ///< number of steps seen
+  int count_ = 0;                                                    ///< number of steps seen
   std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< one sum per half of the example and per shift
 };
 

@@ -20,7 +20,7 @@ struct TaughtPose {
   std::vector<PoseTarget> targets;  ///< the angles of the pose; at least one
 };
 
-constexpr double kMaxSpan = 60;  ///< seconds
+constexpr double kMaxSpan = 60;  ///< maximum of TaughtMove::span_s, seconds
 
 /// A move as it is taught to recognisers. Each recogniser uses the fields it needs and rejects a move that lacks them.
 struct TaughtMove {
