@@ -24,8 +24,8 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
 
 struct FilmDelays {
   std::vector<double> delay_s;  ///< delay of each film, as for `SynchronisedViews`; all 0 if films are synchronised
-  double before_px = 0;        ///< residual of all films without delays, pixels
-  double after_px = 0;         ///< residual with `delay_s`, pixels
+  double before_px = 0;         ///< residual of all films without delays, pixels
+  double after_px = 0;          ///< residual with `delay_s`, pixels
 };
 
 /// Finds the delays of films of a moving board *(ours)*: they minimise the residual of a joint calibration of all

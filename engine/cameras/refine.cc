@@ -196,7 +196,7 @@ class Bundle {
   }
 
   // Eliminate the targets first (Schur complement). Intrinsics and poses are separate groups, because Ceres sorts the
-  // blocks of a group by their addresses: within one array this order is fixed, between arrays it depends on the heap.
+  // blocks of a group by their addresses. Within one array this order is fixed; between arrays it depends on the heap.
   std::shared_ptr<ceres::ParameterBlockOrdering> TargetsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (PoseBlock& target : targets_) ordering->AddElementToGroup(target.data(), 0);

@@ -48,7 +48,7 @@ std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSight
 
 namespace {
 
-/// The distance of each view in pixels, from its sighting to the projection of a point; infinity if the view cannot
+/// For each view: the distance between its sighting and the projection of a point, pixels; infinity if the view cannot
 /// show the point.
 using DistanceOfView = std::vector<double>;
 

@@ -63,8 +63,8 @@ double MusicAt(const Dance& dance, double frame);
 int NextTag(const Dance& dance, double frame);
 
 /// Applies paper A's music-time tags (3.4). The dance is at `frame` and the music at `music_s`. Returns the number of
-/// dance frames to advance per shown frame so that tag `next` (after the last tag: the dance's end) is reached in time.
-/// Below 1 the move is slowed down, above 1 sped up; the result is clamped to [slowest, fastest].
+/// dance frames to advance per shown frame so that tag `next` is reached at its time; after the last tag, the goal is
+/// the dance's end. Below 1 the move is slowed down, above 1 sped up; the result is clamped to [slowest, fastest].
 double RateToTag(const Dance& dance, int next, double frame, double music_s, double slowest, double fastest);
 
 }  // namespace etude

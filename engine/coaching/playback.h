@@ -25,7 +25,7 @@ struct ShownPath {
 /// result does not depend on earlier calls. The class is not thread-safe.
 class DanceTransitions {
  public:
-  /// Plans for `library`, which must outlive this object.
+  /// Plans the transitions of `library`, which must outlive this object.
   DanceTransitions(const DanceLibrary& library, TransitionWay way);
 
   const DanceLibrary& library() const { return library_; }
@@ -83,7 +83,7 @@ void Advance(Playback& playback, const DanceLibrary& library, double rate);
 /// Starts a transition from the playing dance or clip to the clip `clip`, beginning with the next frame. The playback
 /// must be settled.
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions);
-/// Starts a transition like LeaveFor, into a clip that keeps the place where it was authored.
+/// Starts a transition like LeaveFor, but shows the clip at the place on the floor where it was authored.
 void LeaveForHome(int clip, Playback& playback, const DanceTransitions& transitions);
 
 }  // namespace etude

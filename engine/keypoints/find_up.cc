@@ -172,7 +172,7 @@ std::optional<glm::dvec3> Flight(std::span<const LandmarkPositions> points, doub
     }
     slope /= t4;
     curve /= norm;
-    // The frames show a flight if the parabola fits and its acceleration is near gravity's.
+    // The frames show a flight if the parabola fits and its acceleration is close to that of gravity.
     double worst = 0;
     for (std::size_t i = 0; i < window; ++i) {
       const double t = static_cast<double>(i) - middle;

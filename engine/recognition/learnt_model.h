@@ -76,7 +76,7 @@ Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& fi
 /// Returns the text from which ReadLearntModel reads the same model, bit for bit.
 std::string WriteLearntModel(const LearntModel& model);
 
-/// Returns the files scenarios/recognisers/*.yaml (written by the build).
+/// Returns the files scenarios/recognisers/*.yaml (embedded by the build).
 std::span<const EmbeddedText> BuiltinLearntModelFiles();
 /// Returns the model of recogniser `learnt`: scenarios/recognisers/learnt.yaml.
 const LearntModel& BuiltinLearntModel();
