@@ -34,7 +34,8 @@ constexpr std::size_t kCalibrationParameters = 7;
 /// The expected error of one triangulated point.
 struct PointError {
   int cameras = 0;  ///< number of cameras that have the point in their pictures
-  /// The probability that the point cannot be triangulated. If it can be triangulated, the members below describe its error.
+  /// The probability that the point cannot be triangulated. If it can be triangulated, the members below describe its
+  /// error.
   double lost = 1;
   glm::dmat3 covariance{0};  ///< covariance of the position, m²
   glm::dmat3 noise{0};       ///< the part of `covariance` due to the pixels' noise

@@ -126,8 +126,8 @@ struct CoachStep {
   CoachOutput output;
 };
 
-/// Paper A's coach as a state machine. It is immutable, and any number of sessions can share it. It gets the recogniser's
-/// evidence, but not the truth about what was danced.
+/// Paper A's coach as a state machine. It is immutable, and any number of sessions can share it. It gets the
+/// recogniser's evidence, but not the truth about what was danced.
 ///
 ///     Coach coach(transitions, {}, {FindPolicy("at-first-mistake"), {}});
 ///     CoachState state = coach.Begin();
