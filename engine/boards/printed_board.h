@@ -23,7 +23,7 @@ struct PrintedBoard {
   double square = 0;          ///< side of a square, metres
 };
 
-/// Reads "chess:9x6x0.025" or "charuco:4x5x0.054". Returns nullopt if the text begins otherwise, and an error for
+/// Reads "chess:9x6x0.025" or "charuco:4x5x0.054". Returns nullopt if the text has neither prefix, and an error for
 /// numbers that are not allowed.
 std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text);
 
