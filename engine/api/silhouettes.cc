@@ -12,7 +12,7 @@ namespace etude::engine {
 namespace {
 
 constexpr int kMaxMaskSide = 8192;
-constexpr double kFittedSide = 640;  ///< the longer side of the pictures for which the fit's options were chosen
+constexpr double kFittedSide = 640;  ///< longer side, pixels, of the pictures for which the fit's options were chosen
 
 /// Returns the mask with 1 for every pixel other than 0, as the fit expects.
 Mask OnesOf(const Mask& mask) {
@@ -69,6 +69,7 @@ LimbLengths LengthsOf(const FollowOptions& options) {
 std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamera> cameras,
                                                       std::span<const std::vector<Mask>> masks,
                                                       const FollowOptions& options) {
+  // Check the numbers of cameras and masks.
   if (cameras.size() < 2 || masks.size() != cameras.size()) {
     throw BadInput(fmt::format("{} cameras, but masks of {}; allowed: at least two cameras, and masks of each",
                                cameras.size(), masks.size()));
@@ -76,6 +77,7 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
   if (!(options.rate_hz >= 1 && options.rate_hz <= 1000)) {
     throw BadInput(fmt::format("a rate of {} Hz; allowed: 1 to 1000", options.rate_hz));
   }
+  // Make silhouettes, and scale the cameras to pictures of kFittedSide.
   std::vector<ProjectionMatrix> matrices = PinholesOf(cameras);
   const SilhouetteBody body = MakeSilhouetteBody(LengthsOf(options));
   std::vector<std::vector<Silhouette>> silhouettes;
@@ -95,6 +97,7 @@ std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamer
       of_camera.push_back(MakeSilhouette(OnesOf(mask), {.mask_pixel = scale * PixelOf(cameras[i], mask)}));
     }
   }
+  // Track the body; the limits of change per frame are adapted to the frame rate.
   TrackOptions track;
   track.angle_change *= kJudgedRateHz / options.rate_hz;
   track.position_change_m *= kJudgedRateHz / options.rate_hz;

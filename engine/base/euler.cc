@@ -31,11 +31,12 @@ glm::dmat3 RotationXyz(const glm::dvec3& angles) {
 }
 
 glm::dvec3 AnglesXyz(const glm::dmat3& rotation) {
-  constexpr double kMinCosY = 1e-6;  // at smaller |cos y| the first row is rounding noise, so z cannot be read from it
+  // Below this |cos y|, the first row is rounding noise, so z cannot be read from it.
+  constexpr double kMinCosY = 1e-6;
   const double cos_y = std::hypot(rotation[0].x, rotation[1].x);
   const double x = std::atan2(-rotation[2].y, rotation[2].z), y = std::atan2(rotation[2].x, cos_y);
   if (cos_y > kMinCosY) return {x, y, std::atan2(-rotation[1].x, rotation[0].x)};
-  // Near gimbal lock, undo the rotation about x first, and take z from the axes that result; this is exact for any x.
+  // Near gimbal lock, undo the rotation about x first, and read z from the result; this is exact for any x.
   const double c = std::cos(x), s = std::sin(x);
   return {x, y, std::atan2(c * rotation[0].y + s * rotation[0].z, c * rotation[1].y + s * rotation[1].z)};
 }

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// Error numbers that the machine causes, independently of the file's name.
+// Values of errno that are caused by the machine, not by the file's name.
 constexpr std::array kShortages = {EIO,    ENOSPC, EDQUOT, EFBIG,   EROFS,  ENOMEM,
                                    EAGAIN, EMFILE, ENFILE, ENOBUFS, ENOLCK, ESTALE};
 constexpr std::array kFaultsOfName = {ENOENT, ENOTDIR, EISDIR, EEXIST, ENOTEMPTY, EINVAL, ENAMETOOLONG, ELOOP, ETXTBSY};

@@ -42,7 +42,7 @@ constexpr auto FindValue(const Rows& rows, std::string_view name) -> std::option
   return row != nullptr ? std::optional(row->value) : std::nullopt;
 }
 
-/// Returns the value with the name `name`, which must be in the table.
+/// Returns the value with the name `name`. The table must have such a row.
 template <typename Rows>
 constexpr auto ValueNamed(const Rows& rows, std::string_view name) {
   const auto* row = FindByName(rows, name);
@@ -50,7 +50,7 @@ constexpr auto ValueNamed(const Rows& rows, std::string_view name) {
   return row->value;
 }
 
-/// Returns the name of a value, which must be in the table.
+/// Returns the name of a value. The table must have a row of this value.
 template <typename Rows, typename Value>
 constexpr std::string_view NameOfValue(const Rows& rows, Value value) {
   for (const auto& row : rows) {

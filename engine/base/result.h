@@ -18,7 +18,7 @@ struct Place {
 /// The cause of an error.
 enum class ErrorKind {
   kInput,
-  kMachine,  ///< neither the input nor a method: no process can be started, the disk is full (machine.h)
+  kMachine,  ///< caused by this machine: no process can be started, the disk is full (machine.h)
 };
 
 /// An error with a message for the user: the position in the input, what was found, what is allowed.

@@ -17,7 +17,7 @@ struct NumberSetting {
   double fallback = 0;
   double lowest = 0, largest = 0;  ///< the allowed range, both ends included
   bool is_whole = false;
-  std::string meaning;  ///< one sentence, for users
+  std::string meaning;  ///< one sentence for users
 };
 
 /// Declares once which members of a method's options can be set: `Describe` lists them for files and pages, `Apply`

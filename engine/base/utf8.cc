@@ -61,7 +61,7 @@ Result<void> CheckUtf8(std::string_view text, const std::string& file) {
 }
 
 bool IsHidden(char32_t code) {
-  // Unicode's categories Cc, Zl and Zp beyond ASCII, and its Default_Ignorable_Code_Point.
+  // Unicode's categories Cc, Zl and Zp beyond ASCII, and the characters with its property Default_Ignorable_Code_Point.
   using Range = std::pair<char32_t, char32_t>;
   constexpr auto kHidden = std::to_array<Range>({{0x80, 0x9f},
                                                  {0xad, 0xad},

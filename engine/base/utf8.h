@@ -8,14 +8,14 @@
 
 namespace etude {
 
-/// A character and its number of bytes in UTF-8 (RFC 3629: no surrogates, no overlong forms, up to U+10FFFF); 0 if the
-/// bytes are not valid UTF-8.
+/// A character and its number of bytes in UTF-8 (RFC 3629: no surrogates, no overlong forms, up to U+10FFFF). The
+/// length is 0 if the bytes are not valid UTF-8.
 struct Utf8Character {
   char32_t code = 0;
   std::size_t length = 0;
 };
 
-/// Decodes the first character of a text, which must not be empty.
+/// Decodes the first character of `text`, which must not be empty.
 Utf8Character FirstCharacter(std::string_view text);
 
 /// Returns the text without the byte order mark, which Windows programs write at the beginning of UTF-8 text.

@@ -66,7 +66,7 @@ std::uint16_t Turned(std::uint16_t code) {
 int CountCodes(const Board& board) { return board.columns * board.rows / 2; }
 
 int CodeNumberOf(const Board& board, int column, int row) {
-  // Half of all squares before this one are white, rounded down, because even rows begin with black.
+  // Even rows begin with a black square, so half of the squares before this one, rounded down, are white.
   return board.first_code + (row * board.columns + column) / 2;
 }
 

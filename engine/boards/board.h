@@ -6,14 +6,14 @@
 
 namespace etude {
 
-/// A flat calibration board: a chessboard whose top left square is black and whose white squares each carry a unique
-/// code, so that a picture of any part of the board shows which part it is (like OpenCV's ChArUco boards; codes and
-/// detection are ours). Codes are numbered row by row through the white squares, from `first_code`.
+/// A flat calibration board: a chessboard whose top left square is black. Each white square carries a unique code, so a
+/// picture of any part of the board identifies this part (like OpenCV's ChArUco boards; codes and detection are ours).
+/// Codes are numbered row by row through the white squares, from `first_code`.
 struct Board {
-  int columns = 8;  ///< squares; at most kMaxSquares per side
+  int columns = 8;  ///< number of squares; at most kMaxSquares per side
   int rows = 8;
   double square = 0.2;  ///< side of a square, metres
-  int first_code = 0;   ///< boards that are seen together must have different codes
+  int first_code = 0;   ///< number of the first code; boards that are seen together must have different codes
 };
 
 constexpr int kMaxSquares = 16;

@@ -19,9 +19,9 @@ namespace etude {
 
 /// One board in one picture of a camera.
 struct BoardSighting {
-  TargetView view;        ///< its target is the board at the moment of this picture
-  std::size_t board = 0;  ///< index of the board
-  int look = -1;          ///< index of the picture among the examined pictures of a film; −1 if it is not from a film
+  TargetView view;  ///< view of the board; its target is the board at the moment of this picture
+  std::size_t board = 0;
+  int look = -1;  ///< index of the picture among the examined pictures of a film; −1 if it is not from a film
 };
 
 /// Detects boards in the pictures of a rig's cameras and collects the sightings for `CalibrateFromPlanes`. A board at

@@ -70,7 +70,8 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
                                     std::span<const double> delay_s) {
   SightingMap map;
   for (const BoardSighting& s : sightings) map[{s.view.camera, s.board, s.look}] = &s;
-  std::map<std::pair<std::size_t, int>, std::size_t> targets;  // their indices, by board and look of the first film
+  // Index of each target, by board and look of the first film.
+  std::map<std::pair<std::size_t, int>, std::size_t> targets;
   std::size_t count = 0;
   const auto target_of = [&](std::size_t board, int look) {
     const auto [at, is_new] = targets.try_emplace({board, look}, count);
@@ -81,8 +82,8 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
   for (const BoardSighting& s : sightings) {
     const std::size_t camera = s.view.camera;
     const double period = period_s[camera];
-    // Find the look of the first film that is nearest in time, and the time from this sighting to that look, as a
-    // fraction of a look.
+    // Find the nearest look of the first film in time, and the time from this sighting to that look, as a fraction of a
+    // look.
     const int look = static_cast<int>(std::lround((s.look * period - delay_s[camera]) / period_s[0]));
     const double share = (look * period_s[0] + delay_s[camera]) / period - s.look;
     constexpr double kHalf = 0.5 + 1e-9;
@@ -110,7 +111,7 @@ Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<
     ASSIGN_OR_RETURN(const RefinedRig rig, CalibrateFromPlanes(sizes, SynchronisedViews(tried, period_s, delay_s), quick));
     return rig.rms_px;
   };
-  // If calibration fails without delays, it may still succeed with delays.
+  // If calibration fails without delays, its residual counts as infinite: calibration may succeed with delays.
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const auto in_step = residual(steps.delay_s);
   steps.before_px = steps.after_px = in_step ? *in_step : kNever;

@@ -16,7 +16,7 @@ namespace etude {
 /// Between looks, a corner's position is interpolated by a parabola through its positions in the nearest look and both
 /// neighbours, or by a line through two looks. A board without a neighbouring look becomes a target of its own, which
 /// constrains only its camera.
-/// @param sightings all from films (`look` ≥ 0)
+/// @param sightings the sightings, all from films (`look` ≥ 0)
 /// @param period_s time between the looks of each film, seconds
 /// @param delay_s delay of each film, seconds; 0 for the first
 std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightings, std::span<const double> period_s,
@@ -24,13 +24,13 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
 
 struct FilmDelays {
   std::vector<double> delay_s;  ///< delay of each film, as for `SynchronisedViews`; all 0 if films are synchronised
-  double before_px = 0;        ///< residual of all films without delays, pixels
-  double after_px = 0;         ///< residual with `delay_s`, pixels
+  double before_px = 0;         ///< residual of all films without delays, pixels
+  double after_px = 0;          ///< residual with `delay_s`, pixels
 };
 
-/// Finds the delays of films of a moving board *(ours)*: the delays that minimise the residual of a joint calibration
-/// of all cameras. One film after the other is searched, first on a grid of half looks, then by halving the step down
-/// to a 64th of a look. A delay is accepted only if it lowers the residual by a tenth, because boards at rest do not
+/// Finds the delays of films of a moving board *(ours)*: they minimise the residual of a joint calibration of all
+/// cameras. One film after the other is searched, first on a grid of half looks, then by halving the step down to a
+/// 64th of a look. A delay is accepted only if it lowers the residual by a tenth, because boards at rest do not
 /// determine time. At most about 60 moments are used, evenly spaced. Fails like `CalibrateFromPlanes`.
 /// @param max_delay_s maximum delay of a film, seconds, either way
 Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,

@@ -19,13 +19,14 @@ using GridIndex = std::pair<int, int>;
 /// The corners of one chessboard: the index of the saddle at each grid index.
 using CornerGrid = std::map<GridIndex, std::size_t>;
 
-constexpr double kMaxSpacingPx = 150;  // maximum distance of the first neighbour
+constexpr double kMaxSpacingPx = 150;  // maximum distance between the first two corners of a grid
 // Cosine of 14°: maximum angle between an edge and the direction to the next corner.
 constexpr double kMinAlignment = 0.97;
 constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of edges from a corner to the next
-// Maximum error of a corner predicted from two, as a share of the last step.
+// Maximum error of a corner predicted from two other corners, as a share of the last step.
 constexpr double kMaxPredictionError = 0.25;
-constexpr double kMaxStepRatio = 2.2;  // maximum ratio of a step to a neighbouring one in another direction
+// Maximum ratio between the step in a new direction and a known step from the same corner in another direction.
+constexpr double kMaxStepRatio = 2.2;
 
 struct Axes {
   glm::dvec2 right, down;
@@ -156,7 +157,7 @@ CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles
   return Grower(picture, saddles, taken).Grow(seed);
 }
 
-constexpr int kMinCodes = 3;         // codes that must agree about a board
+constexpr int kMinCodes = 3;         // minimum number of codes that must agree about a board
 constexpr int kMaxMisread = 1;       // maximum number of misread modules in a code, and in its margin
 constexpr double kMinContrast = 20;  // minimum difference between black and white modules, grey levels
 
@@ -201,8 +202,8 @@ class Reader {
   }
 
  private:
-  // Returns the code in the lower right square of corner `place`; nullopt if the square is black, if one of its corners
-  // is unknown, or if its margin is not white.
+  // Returns the code in the square to the lower right of corner `place`; nullopt if the square is black, if one of its
+  // corners is unknown, or if its margin is not white.
   std::optional<std::uint16_t> ReadCode(const CornerGrid& grid, const GridIndex& place) const {
     const auto [i, j] = place;
     if ((i + j) % 2 != 0) return std::nullopt;  // a black square has no code

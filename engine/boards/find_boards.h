@@ -10,7 +10,7 @@ namespace etude {
 
 /// A corner of a board in a picture.
 struct SeenCorner {
-  std::size_t board = 0;  ///< index of the board
+  std::size_t board = 0;
   BoardCorner corner;
   glm::dvec2 pixel{0};
 };

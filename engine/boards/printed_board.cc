@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kModule = "etude_boards_opencv.so";  // found beside the program by its run path
+constexpr const char* kModule = "etude_boards_opencv.so";  // dlopen finds it by the program's run path
 
 Result<OpenCvBoards> OpenBoardModule() {
   void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL);

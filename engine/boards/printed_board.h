@@ -20,10 +20,10 @@ namespace etude {
 struct PrintedBoard {
   bool is_charuco = false;
   int columns = 0, rows = 0;  ///< squares per side: 4 to 64 for a chessboard, 3 to 64 for a ChArUco board
-  double square = 0;          ///< metres
+  double square = 0;          ///< side of a square, metres
 };
 
-/// Reads "chess:9x6x0.025" or "charuco:4x5x0.054". Returns nullopt if the text begins otherwise, and an error for
+/// Reads "chess:9x6x0.025" or "charuco:4x5x0.054". Returns nullopt if the text has neither prefix, and an error for
 /// numbers that are not allowed.
 std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text);
 
@@ -57,7 +57,8 @@ struct OpenCvBoards {
   Result<OpenCvCalibration> (*calibrate)(std::span<const TargetView> views, const PictureSize& size, LensModel lens);
 };
 
-/// Fails if the module was not built (libopencv-contrib-dev; `scripts/setup --boards`).
+/// Returns a finder of the board's corners. Fails if the module was not built (libopencv-contrib-dev; `scripts/setup
+/// --boards`).
 Result<std::unique_ptr<PrintedBoardFinder>> MakePrintedBoardFinder(const PrintedBoard& board);
 
 /// Calibrates one camera by OpenCV's `calibrateCamera`, for comparison with `CalibrateFromPlanes`: both take the same

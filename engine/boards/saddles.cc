@@ -7,10 +7,11 @@
 namespace etude {
 namespace {
 
-constexpr int kBorder = 7;                     // pixels at the edges of the picture that are not searched
-constexpr int kNeighbourhood = 3;              // a saddle is the strongest within this distance, pixels
-constexpr double kMinRelativeStrength = 0.02;  // share of the strongest saddle's strength
-constexpr double kMinStrength = 60;            // squared grey levels per pixel²; weaker saddles are camera noise
+constexpr int kBorder = 7;                     // width of the picture's margin that is not searched, pixels
+constexpr int kNeighbourhood = 3;              // radius within which a saddle must be the strongest, pixels
+constexpr double kMinRelativeStrength = 0.02;  // minimum strength as a share of the strongest saddle's
+// Minimum strength, (grey levels per pixel²)²; weaker saddles are camera noise.
+constexpr double kMinStrength = 60;
 constexpr int kRefineReachPx = 5;
 constexpr int kRefineSteps = 8;
 constexpr double kConvergedPx = 0.01;
@@ -35,7 +36,7 @@ GreyImage Smooth(const GreyImage& picture) { return SmoothAlong(SmoothAlong(pict
 // The second derivatives of brightness at a pixel.
 struct Hessian {
   double xx, xy, yy;
-  /// Positive at a saddle, where the curvatures have opposite signs.
+  /// The strength is positive at a saddle, where the curvatures have opposite signs.
   double SaddleStrength() const { return xy * xy - xx * yy; }
 };
 

@@ -97,8 +97,8 @@ std::array<glm::dvec2, 2> RootOf(const glm::dmat2& information) {
   return {glm::dvec2(a, b), glm::dvec2(0, c)};
 }
 
-/// The reprojection error of one mark in standard deviations. Blocks: position, rotation, angles, and the lengths if
-/// they are adjusted.
+/// The reprojection error of one mark in standard deviations. Parameter blocks: position, rotation, angles; lengths if
+/// adjusted.
 class MarkCost final : public ceres::CostFunction {
  public:
   MarkCost(const BundleMark& mark, const Variables& variables, bool adjusts_lengths)
@@ -119,7 +119,7 @@ class MarkCost final : public ceres::CostFunction {
     for (int k = 0; k < 2; ++k) residuals[k] = glm::dot(root_[k], error);
     if (jacobians == nullptr) return true;
     ClearJacobians(*this, jacobians);
-    // Derivatives of the pixel with respect to the point.
+    // Compute the derivatives of the pixel with respect to the point.
     const auto& h = mark_.matrix.h;
     const auto row_of = [&](int k) {
       const auto gain = [&](int axis) { return (h[k][axis] - pixel[k] * h[2][axis]) / uvw.z; };
@@ -140,8 +140,8 @@ class MarkCost final : public ceres::CostFunction {
 
 constexpr std::array<double, 3> kSecondDifference = {1, -2, 1};
 
-/// The second difference of each of `points` over three frames, in standard deviations. Blocks: position, rotation,
-/// angles of each frame, and the lengths if they are adjusted.
+/// The second difference of each of `points` over three frames, in standard deviations. Parameter blocks: position,
+/// rotation, angles of each frame; lengths if adjusted.
 class PointAcceleration final : public ceres::CostFunction {
  public:
   PointAcceleration(const FrameVariables* first, std::span<const int> points, std::span<const double> deviation,
@@ -187,7 +187,8 @@ class PointAcceleration final : public ceres::CostFunction {
   const int length_block_;
 };
 
-/// The second difference of all angles over three frames, in standard deviations. Blocks: the angles of each frame.
+/// The second difference of all angles over three frames, in standard deviations. Parameter blocks: angles of each
+/// frame.
 class AngleAcceleration final : public ceres::CostFunction {
  public:
   AngleAcceleration(int angles, double deviation) : angles_(angles), deviation_(deviation) {
@@ -212,7 +213,7 @@ class AngleAcceleration final : public ceres::CostFunction {
   const double deviation_;
 };
 
-/// The amounts by which angles exceed their limits, in standard deviations. Block: the angles of a frame.
+/// The amounts by which angles exceed their limits, in standard deviations. Parameter block: angles of the frame.
 class LimitViolation final : public ceres::CostFunction {
  public:
   LimitViolation(std::span<const AngleRange> limits, double deviation) : limits_(limits), deviation_(deviation) {

@@ -23,7 +23,7 @@ struct BundleMark {
 
 struct BundleInputs {
   const MeasurableBody& body;
-  /// The start poses, one per frame. Frames are consecutive at a constant rate.
+  /// Start poses, one per frame; consecutive frames at a constant rate if there is a smoothness prior.
   std::span<const TreeState> start;
   std::span<const BundleMark> marks;
 };
@@ -64,17 +64,17 @@ struct BundleOptions {
 };
 
 struct BundleSolution {
-  bool is_solved = false;  ///< false if the cost at the start could not be evaluated; the result is then the start
+  bool is_solved = false;  ///< false if the cost at the start could not be evaluated; the solution is then the start
   std::vector<TreeState> states;
-  std::vector<double> lengths;  ///< metres
+  std::vector<double> lengths;  ///< lengths of the body, metres
   double first_cost = 0, last_cost = 0;
   int iterations = 0;
 };
 
 /// Adjusts the poses of all frames, and the body's lengths if `adjusts_lengths`, by bundle adjustment. Minimises
-///   Σ_marks ρ(rᵀ Λ r) + Σ_frames |second difference of points and angles|² / σ² + Σ |angle beyond its limit|² / σ²,
-/// where r is the reprojection error of a mark in pixels, Λ its information and ρ the robust loss, by Ceres's
-/// Levenberg–Marquardt method with an analytic Jacobian and a sparse Cholesky factor; time is linear in the number of
+///   Σ_marks ρ(rᵀ Λ r) + Σ_frames |second difference of points and angles|² / σ² + Σ |angle beyond its limit|² / σ²
+/// by Ceres's Levenberg–Marquardt method with an analytic Jacobian and a sparse Cholesky factor. Here r is the
+/// reprojection error of a mark in pixels, Λ its information, and ρ the robust loss. Time is linear in the number of
 /// frames. Angles that are determined neither by marks nor by neighbouring frames stay as in `start`. Marks of a point
 /// that is behind the camera at `start` are ignored.
 BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& options = {});

@@ -12,7 +12,7 @@ namespace etude {
 // Sizes of the root's parameter blocks; the rotation is a quaternion w, x, y, z.
 inline constexpr int kPositionSize = 3, kTurnSize = 4;
 
-/// The parameter blocks of one frame, which Ceres changes, and the points of the body in that pose.
+/// The parameter blocks of one frame, to be changed by Ceres, and the points of the body in that pose.
 struct FrameVariables {
   std::array<double, kPositionSize> position{};
   std::array<double, kTurnSize> turn{};

@@ -11,7 +11,7 @@ namespace etude {
 /// A visible point Q that is fixed to a limb L of a tree.
 struct BodyPoint {
   int joint = 0;       ///< the joint of that limb
-  glm::dvec3 p_LQ{0};  ///< metres
+  glm::dvec3 p_LQ{0};  ///< position of the point in the limb's frame, metres
 };
 
 /// The linear dependence of an offset on a length: the offset grows by `per_metre` for every metre of the length.
@@ -40,7 +40,8 @@ MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> l
 struct PlacedPoints {
   std::vector<glm::dvec3> positions;  ///< p_WQ, metres
   int columns = 0;                    ///< number of columns: 6 + angles + lengths
-  std::vector<glm::dvec3> gains;      ///< the Jacobian: [point · columns + column]
+  /// The Jacobian; the entry of a point and a column is at [point · columns + column].
+  std::vector<glm::dvec3> gains;
 
   const glm::dvec3* gains_of(int point) const { return gains.data() + static_cast<std::size_t>(point) * columns; }
 };

@@ -43,7 +43,7 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   p.principal_v = glm::dot(a2, a3);
   p.skew = std::atan2(glm::length(glm::cross(n1, n2)), -glm::dot(n1, n2));
   const double sine = std::sin(p.skew);
-  p.focal_length = glm::length(n2) * sine;  // in units of δv, which is 1
+  p.focal_length = glm::length(n2) * sine;  // f in units of δv = 1
   p.delta_u = p.focal_length / (glm::length(n1) * sine);
   const glm::dvec3 r1 = n2 / glm::length(n2), r2 = glm::cross(a3, r1);
   SetAngles(glm::transpose(glm::dmat3(r1, r2, a3)), p);

@@ -15,8 +15,8 @@ constexpr Named<Calibration> kCalibrations[] = {
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-// A cloud of points counts as flat if its smallest extent is below this share of its largest extent: measurement errors
-// would then be larger than the smallest extent, on which entries of H depend.
+// A cloud of points counts as flat if its smallest extent is below this share of its largest extent. Some entries of H
+// depend on the smallest extent, and measurement errors would be larger than it.
 constexpr double kFlat = 1e-4;
 // Below this ratio of singular values (of the normalised system), another H fits the pairs equally well.
 constexpr double kUndetermined = 1e-9;
@@ -42,8 +42,8 @@ std::optional<std::string> ReasonToRefuse(std::span<const PointPair> pairs) {
   return std::nullopt;
 }
 
-// A shift and scale p' = scale · (p − mean) after which the points lie around the origin at a mean distance of the
-// square root of their dimension (Hartley 1997).
+// A shift and scale p' = scale · (p − mean), after which the mean of the points is the origin and their mean distance
+// from it is √N (Hartley 1997).
 template <int N>
 struct Normalisation {
   Eigen::Matrix<double, N, 1> mean = Eigen::Matrix<double, N, 1>::Zero();

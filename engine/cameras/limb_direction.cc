@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-// Two rays this close to each other span no plane: 0.01 pixel at a focal length of 600.
+// Rays that differ by less than this, radians, span no plane; it is about 0.01 pixel at a focal length of 600 pixels.
 constexpr double kSamePixel = 1e-5;
 
 // Returns the planes of the strokes that have a length.
@@ -47,11 +47,12 @@ glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double
   return {along_W[0], along_W[1], along_W[2]};
 }
 
-// Returns one weight per plane, scaled so that the largest is 1: the inverse of the error of Nᵢ·d that an error of one
-// pixel at the stroke's ends causes.
+// Returns the weight 1/ε of each plane, scaled so that the largest weight is 1. ε is the error of Nᵢ·d if the ends of
+// the stroke are wrong by one pixel.
 std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dvec3& along_W) {
   std::vector<double> weights;
-  constexpr double kEndOn = 0.05;  // sine; limits the weight of a limb seen end-on
+  // Minimum sine of the angle between limb and ray; it limits the weight of a limb seen end-on.
+  constexpr double kEndOn = 0.05;
   for (const StrokePlane& plane : planes) {
     const glm::dvec3 middle = glm::normalize(plane.ray_a_W + plane.ray_b_W);
     weights.push_back(plane.length_px / std::max(kEndOn, glm::length(glm::cross(middle, along_W))));
@@ -61,8 +62,8 @@ std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dv
   return weights;
 }
 
-// Returns a value in [−1, 1]. It is positive if a point on ray a that moves along `direction` is seen to move towards
-// ray b: with direction = α·a + β·b within the plane, it has the sign of β.
+// Returns a value in [−1, 1] for a point on ray a that moves along `direction`. The value is positive if, in the
+// picture, the point moves towards ray b: with direction = α·a + β·b within the plane, it has the sign of β.
 double Sense(const StrokePlane& plane, const glm::dvec3& direction_W) {
   return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }
@@ -82,7 +83,7 @@ std::optional<StrokePlane> PlaneOf(const LimbSighting& sighting) {
                    b_W = glm::normalize(ViewingRay(matrix, stroke.b));
   const glm::dvec3 normal_W = glm::cross(a_W, b_W);
   const double length = glm::length(normal_W);
-  if (!(length > kSamePixel)) return std::nullopt;  // true for NaN, too
+  if (!(length > kSamePixel)) return std::nullopt;  // NaN is refused, too
   return StrokePlane{normal_W / length, a_W, b_W, glm::distance(stroke.a, stroke.b)};
 }
 

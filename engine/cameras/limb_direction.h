@@ -21,16 +21,16 @@ struct LimbSighting {
   PixelSegment stroke;
 };
 
-/// Returns the direction in the world, away from the camera, in which the camera sees `pixel`: the cross product of the
-/// two planes through that pixel (paper B, equations 2.4 and 2.5). It is not normalised.
+/// Returns the direction of the line of sight of `pixel`, in the world, away from the camera: the cross product of the
+/// normals of two planes through the pixel (paper B, equations 2.4 and 2.5). The direction is not normalised.
 glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel);
 
 /// The plane through a camera's centre and a stroke; it contains the limb.
 struct StrokePlane {
-  glm::dvec3 normal_W{0};  ///< unit, ray(a) × ray(b)
-  glm::dvec3 ray_a_W{0};   ///< unit, from the camera through the stroke's start
-  glm::dvec3 ray_b_W{0};   ///< unit, from the camera through the stroke's end
-  double length_px = 0;    ///< length of the stroke
+  glm::dvec3 normal_W{0};  ///< unit normal, ray(a) × ray(b)
+  glm::dvec3 ray_a_W{0};   ///< unit vector from the camera through the stroke's start
+  glm::dvec3 ray_b_W{0};   ///< unit vector from the camera through the stroke's end
+  double length_px = 0;
 };
 
 /// Returns the plane of a stroke; nullopt if the stroke has no length, that is, less than 0.01 pixel at a focal length
@@ -46,7 +46,7 @@ enum class DirectionStatus {
 
 struct LimbDirection {
   DirectionStatus status = DirectionStatus::kIllConditioned;
-  glm::dvec3 direction{0};  ///< unit, in the world, from a to b; only when kOk
+  glm::dvec3 direction{0};  ///< unit vector in the world, from a to b; only when kOk
   /// The angle between the two planes, in [0, π/2]; for more planes, the largest angle between any two. The error of
   /// the direction is the error of the strokes times 1/sin(plane_angle).
   double plane_angle = 0;

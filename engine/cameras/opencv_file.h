@@ -12,9 +12,9 @@ namespace etude {
 
 // Helpers that all formats of camera files share. OpenCV's pixel centres are at integers, ours at half-integers.
 
-/// A camera in OpenCV's parameters: K row by row; the distortion (k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4,
-/// tau_x, tau_y), of which only the first 0, 4, 5, 8, 12 or 14 are given, or for a fisheye 0 or 4 (k1 to k4); and the
-/// transformation from the world to the camera's frame, X_C = R X_W + T.
+/// A camera in OpenCV's parameters. `camera_matrix` is K row by row. `distortion` holds the first 0, 4, 5, 8, 12 or 14
+/// of k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4, tau_x, tau_y; for a fisheye, k1 to k4 or nothing. R and T
+/// transform from the world to the camera's frame: X_C = R X_W + T.
 struct OpenCvParameters {
   double width = 0, height = 0;
   std::vector<double> camera_matrix = {};

@@ -35,7 +35,7 @@ Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::strin
     const Place place{file, ++line, 0};
     std::vector<std::string_view> words = SplitAt(here, ',');
     for (std::string_view& word : words) word = Trimmed(word);
-    if (line == 1) continue;  // the heading
+    if (line == 1) continue;  // the first line is the heading
     if (words.size() == 1 && (words[0].empty() || words[0].front() == '#')) continue;
     if (words.size() != 6 || words[0].empty()) {
       return Fail(place, "'{}'; allowed: a camera's name and five numbers, {}", here, kHeading);

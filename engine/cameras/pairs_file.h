@@ -12,7 +12,7 @@ namespace etude {
 /// The point pairs for calibrating one camera.
 struct CameraPairs {
   std::string name;
-  int width = 0, height = 0;  ///< size of its picture; 0 if the file does not state it
+  int width = 0, height = 0;  ///< size of the camera's picture, pixels; 0 if the file does not state it
   std::vector<PointPair> pairs;
 };
 

@@ -70,8 +70,8 @@ class Places {
  public:
   Places(std::size_t cameras, std::size_t targets) : cameras_(cameras), targets_(targets) {}
 
-  /// Adds the pose of one camera or board. Of the views in which only the camera's or only the board's pose is known,
-  /// it uses the view with the most corners. Returns false if there is no such view. The pose of the first board must
+  /// Adds the pose of one camera or board. It uses the view with the most corners among those with exactly one known
+  /// pose, either the camera's or the board's. Returns false if there is no such view. The pose of the first board must
   /// be set before.
   bool Join(std::span<const PlaneView> views) {
     const PlaneView* best = nullptr;
@@ -156,7 +156,8 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
     ab.setConstant(both.dot(rhs) / both.squaredNorm());
   }
   const Eigen::Vector2d focal = unit * ab.cwiseSqrt().cwiseInverse();
-  constexpr double kMaxFocal = 50;  // in picture widths; longer lenses are implausible for filming a person
+  // Maximum focal length, picture widths; longer lenses are implausible for filming a person.
+  constexpr double kMaxFocal = 50;
   if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kMaxFocal * unit) {
     return Fail({},
                 "the boards face the camera straight on, which does not determine its focal length; tilt some of them");

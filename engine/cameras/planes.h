@@ -28,15 +28,15 @@ struct PictureSize {
   int height = 0;
 };
 
-/// Numbers the targets of the views from 0 without gaps, in order of appearance; returns how many there are.
+/// Numbers the targets of the views from 0 without gaps, in order of appearance; returns the number of targets.
 std::size_t NumberTargets(std::span<TargetView> views);
 
 /// Calibrates cameras from flat boards in their pictures. Each camera's intrinsics follow from its homographies; poses
-/// follow from boards that two cameras see at the same time; then `RefineRig` adjusts everything together. A target is
-/// a board in one pose; the frame of the first target in `views` is the world. Points must have z = 0. Views with fewer
-/// than four corners, or with corners on one line, are left out. Fails, naming the camera, if a camera has no view
-/// left, or never sees a board at the same time as another camera.
-/// @param sizes of the cameras' pictures
+/// follow from boards that two cameras see at the same time; then `RefineRig` adjusts all cameras and boards together.
+/// A target is a board in one pose; the frame of the first target in `views` is the world. Points must have z = 0.
+/// Views with fewer than four corners, or with corners on one line, are left out. Fails, naming the camera, if a camera
+/// has no view left, or never sees a board at the same time as another camera.
+/// @param sizes the size of each camera's pictures
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
                                        const RefineOptions& options = {});
 

@@ -13,10 +13,10 @@ namespace {
 /// The effect of one camera's errors on a pixel whose lens distortion is removed.
 struct PixelErrors {
   std::size_t camera = 0;
-  glm::dmat3x2 by_position{0};                                      ///< derivative of the pixel by the position, px/m
-  glm::dmat2 noise{0};                                              ///< covariance of the pixel, px²
-  std::array<glm::dvec2, kCalibrationParameters> by_calibration{};  ///< shift of the pixel by one standard deviation,
-                                                                    ///< px
+  glm::dmat3x2 by_position{0};  ///< derivative of the pixel with respect to the position, px/m
+  glm::dmat2 noise{0};          ///< covariance of the pixel, px²
+  /// Shift of the pixel by one standard deviation of each calibration parameter, px.
+  std::array<glm::dvec2, kCalibrationParameters> by_calibration{};
 };
 
 /// Returns the pixel, with lens distortion, if it lies within the picture.
@@ -27,7 +27,8 @@ std::optional<glm::dvec2> PixelInPicture(const Camera& camera, const glm::dvec3&
   return pixel;
 }
 
-/// Returns the covariance of a pixel whose lens distortion is removed, px²; nullopt at the rim of the lens's model.
+/// Returns the covariance of a pixel whose lens distortion is removed, px²; nullopt if the distortion of a neighbouring
+/// pixel cannot be removed.
 std::optional<glm::dmat2> NoiseWithoutLens(const Camera& camera, const glm::dvec2& shown, double noise_px) {
   if (camera.distortion.IsNone()) return glm::dmat2(noise_px * noise_px);
   constexpr double kStep = 0.1;  // pixels
@@ -50,7 +51,7 @@ std::optional<PixelErrors> PixelErrorsOf(const Camera& camera, std::size_t index
   const auto noise = NoiseWithoutLens(camera, *shown, errors.noise_px);
   if (!noise) return std::nullopt;
   pixel.noise = *noise;
-  // Compute the derivative of the pixel by the point in the camera's frame.
+  // Compute the derivative of the pixel with respect to the point in the camera's frame.
   const Intrinsics& in = camera.intrinsics;
   const glm::dvec3 p_CQ = camera.R_CW * (p_WQ - camera.p_WC);
   const double x = p_CQ.x / p_CQ.z, y = p_CQ.y / p_CQ.z;
@@ -75,7 +76,7 @@ std::optional<glm::dmat3> InverseNormal(std::span<const PixelErrors> pixels, std
     if (subset >> i & 1) normal += glm::transpose(pixels[i].by_position) * pixels[i].by_position;
   }
   const double trace = normal[0][0] + normal[1][1] + normal[2][2];
-  constexpr double kParallel = 1e-9;  // det / (trace / 3)³ of lines of sight that are 10⁻⁴ rad apart
+  constexpr double kParallel = 1e-9;  // value of det / (trace / 3)³ for lines of sight that are 10⁻⁴ rad apart
   if (!(glm::determinant(normal) > kParallel * std::pow(trace / 3, 3))) return std::nullopt;
   return glm::inverse(normal);
 }
@@ -109,7 +110,7 @@ PointError ExpectedPointError(std::span<const Camera> cameras, const glm::dvec3&
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (!(subset >> i & 1)) continue;
       const PixelErrors& pixel = pixels[i];
-      const glm::dmat2x3 gain = *inverse * glm::transpose(pixel.by_position);  // K of point_error.h
+      const glm::dmat2x3 gain = *inverse * glm::transpose(pixel.by_position);  // the matrix K of ExpectedPointError
       const glm::dmat3 noise = share * (gain * pixel.noise * glm::transpose(gain));
       expected.noise += noise;
       expected.covariance += noise;

@@ -21,21 +21,22 @@ struct CalibrationDeviation {
 /// The errors of the pixels from which a point is triangulated.
 struct SightingErrors {
   double noise_px = 5;  ///< standard deviation along each axis of the picture
-  double dropout = 0;   ///< probability that a camera which has the point in its picture gives no pixel, below 1
+  double dropout = 0;   ///< probability, below 1, that a camera gives no pixel for a point in its picture
   CalibrationDeviation calibration = {};
 };
 
 /// The maximum number of cameras if `dropout` is not 0, because all 2ⁿ combinations of n cameras are summed up.
 constexpr std::size_t kMaxDroppingCameras = 10;
 
-/// The numbers of `CalibrationDeviation` for one camera: three turns, three coordinates, one focal length.
+/// The number of calibration parameters of one camera: three rotations, three coordinates, one focal length.
 constexpr std::size_t kCalibrationParameters = 7;
 
 /// The expected error of one triangulated point.
 struct PointError {
-  int cameras = 0;           ///< number of cameras that have the point in their pictures
-  double lost = 1;           ///< probability that it cannot be triangulated; the members below describe the error if it
-                             ///< can be
+  int cameras = 0;  ///< number of cameras that have the point in their pictures
+  /// The probability that the point cannot be triangulated. If it can be triangulated, the members below describe its
+  /// error.
+  double lost = 1;
   glm::dmat3 covariance{0};  ///< covariance of the position, m²
   glm::dmat3 noise{0};       ///< the part of `covariance` due to the pixels' noise
   /// For each camera, the mean displacement of the position by one standard deviation of each calibration parameter,
@@ -47,9 +48,9 @@ struct PointError {
 };
 
 /// Computes, to first order, the expected error of the position that minimises the sum of squared pixel distances
-/// (`TriangulateLikeliest`, equal weights). The covariance of the position is K S Kᵀ with K = (JᵀJ)⁻¹Jᵀ, where J are
-/// the derivatives of the pixels by the position, and S is the covariance of the pixels: their noise after the lens
-/// distortion is removed, plus the effect of the calibration's deviations. Combinations of cameras are weighted by
+/// (`TriangulateLikeliest`, equal weights). The covariance of the position is K S Kᵀ with K = (JᵀJ)⁻¹Jᵀ. Here J holds
+/// the derivatives of the pixels with respect to the position. S is the covariance of the pixels: their noise after the
+/// lens distortion is removed, plus the effect of the calibration's deviations. Combinations of cameras are weighted by
 /// their probabilities. If fewer than two cameras have the point in their pictures, or if all lines of sight are
 /// parallel, `lost` is 1. Precondition: at most kMaxDroppingCameras cameras if `dropout` is not 0.
 PointError ExpectedPointError(std::span<const Camera> cameras, const glm::dvec3& p_WQ, const SightingErrors& errors);

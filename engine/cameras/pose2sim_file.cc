@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// Rotates our world (Y up) into Pose2Sim's (Z up): (z, x, y).
+/// Rotates our world (Y up) into Pose2Sim's (Z up): (x, y, z) becomes (z, x, y).
 const glm::dmat3 kZUpOfYUp = glm::transpose(glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0));
 
 std::string Vector(std::span<const double> values) {
@@ -115,7 +115,7 @@ Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int lin
                            .is_fisheye = fisheye != keys.end() && fisheye->second == "true"};
   const auto camera = CameraOf(p);
   if (!camera) return Fail(place, "camera {}: {}", name, camera.error().message);
-  // Prefer the table's own name key.
+  // Prefer the name under the table's own key `name`.
   std::string shown = name;
   if (const auto own = keys.find("name"); own != keys.end() && own->second.size() >= 2 && own->second.front() == '"') {
     shown = own->second.substr(1, own->second.size() - 2);
@@ -138,7 +138,7 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
   int line = 0, table_line = 0;
   // Ends a table; if the table describes a camera, adds the camera.
   const auto finish = [&]() -> Result<void> {
-    const auto ignored = keys.find("ignore");  // Caliscope's
+    const auto ignored = keys.find("ignore");  // a key that Caliscope writes
     const bool is_ignored = ignored != keys.end() && ignored->second == "true";
     if (!is_ignored && (keys.contains("matrix") || keys.contains("rotation"))) {
       ASSIGN_OR_RETURN(auto camera, ReadTable(name, keys, table_line));

@@ -94,7 +94,7 @@ class Bundle {
     if (targets_.size() > 1) o.linear_solver_ordering = TargetsFirst();
     o.num_threads = 1;
     o.max_num_iterations = options_.most_iterations;
-    // Iterate to the precision of doubles, because the remaining residual is compared with the error of the corners.
+    // Iterate to the precision of doubles, because callers compare the final residual with the error of the corners.
     o.function_tolerance = 1e-15;
     o.parameter_tolerance = 1e-14;
     o.gradient_tolerance = 1e-14;
@@ -171,7 +171,7 @@ class Bundle {
   /// The free parameter of a column of the Jacobian.
   struct Column {
     std::size_t camera = 0;  ///< index of the camera, or number of cameras + index of the target
-    int intrinsic = -1;      ///< an Intrinsic; −1 if the parameter belongs to a pose
+    int intrinsic = -1;      ///< index of an Intrinsic; −1 if the parameter belongs to a pose
   };
 
   void AddView(const TargetView& view) {
@@ -196,7 +196,7 @@ class Bundle {
   }
 
   // Eliminate the targets first (Schur complement). Intrinsics and poses are separate groups, because Ceres sorts the
-  // blocks of a group by their addresses: within one array this order is fixed, between arrays it depends on the heap.
+  // blocks of a group by their addresses. Within one array this order is fixed; between arrays it depends on the heap.
   std::shared_ptr<ceres::ParameterBlockOrdering> TargetsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (PoseBlock& target : targets_) ordering->AddElementToGroup(target.data(), 0);
@@ -240,9 +240,9 @@ class Bundle {
     return normal;
   }
 
-  // Returns the variances of the free parameters if the errors of the corners of one view are correlated (by blur, a
-  // bent board, or a bias of the finder): the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with the gradient g of each view, enlarged
-  // because views are few (Cameron and Miller 2015, CR1). Returns zeros for fewer than four views.
+  // Returns the variances of the free parameters for errors that are correlated among the corners of one view (by blur,
+  // a bent board, or a bias of the finder). This is the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with the gradient g of each view,
+  // enlarged because views are few (Cameron and Miller 2015, CR1). Returns zeros for fewer than four views.
   Eigen::VectorXd VariancesByViews(const Eigen::MatrixXd& inverse) const {
     Eigen::VectorXd variances = Eigen::VectorXd::Zero(inverse.rows());
     constexpr std::size_t kMinViews = 4;

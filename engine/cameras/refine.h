@@ -22,7 +22,7 @@ struct CalibrationTargetPose {
 struct TargetView {
   std::size_t camera = 0;
   std::size_t target = 0;
-  std::vector<PointPair> pairs;  ///< `world` holds p_TQ, metres
+  std::vector<PointPair> pairs;  ///< point pairs, in which `world` holds p_TQ, metres
 };
 
 enum class LensModel {
@@ -48,7 +48,8 @@ struct RefineOptions {
 /// Start values of all cameras and targets.
 struct RigGuess {
   std::vector<Camera> cameras;
-  std::vector<CalibrationTargetPose> targets;  ///< the first one is held fixed: it defines the world
+  /// Poses of the targets; the first one is held fixed: it defines the world.
+  std::vector<CalibrationTargetPose> targets;
 };
 
 /// The standard deviations of a camera's intrinsics, pixels. Each is the larger of two estimates. One assumes
@@ -67,7 +68,8 @@ struct RefinedRig {
   std::size_t points = 0;  ///< N, the number of point pairs
   /// p, the number of free parameters. If corners have errors of σ per coordinate, rms_px is near σ √(2 − p / N).
   std::size_t parameters = 0;
-  std::vector<IntrinsicsDeviation> deviations;  ///< per camera; 0 if cameras are held fixed
+  /// Standard deviations of each camera's intrinsics; 0 if cameras are held fixed.
+  std::vector<IntrinsicsDeviation> deviations;
 };
 
 /// Finds the cameras and target poses that minimise the sum of squared reprojection errors, with distortion (method

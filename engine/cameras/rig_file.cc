@@ -75,7 +75,7 @@ Result<Window> WindowOf(const xmlNode* camera, const Window& sensor) {
 Result<OpenCvParameters> InsideOf(const xmlNode* camera, const xmlNode* intrinsic) {
   Numbers of(intrinsic);
   constexpr double kMaxPixelRange = 16384;
-  const double unit = of["sensorMaxU"] > kMaxPixelRange ? 64 : 1;  // units per pixel
+  const double unit = of["sensorMaxU"] > kMaxPixelRange ? 64 : 1;  // units of the file per pixel
   const auto side = [&](const char* low, const char* high) { return std::round((of[high] - of[low]) / unit); };
   const Window sensor{0, 0, side("sensorMinU", "sensorMaxU"), side("sensorMinV", "sensorMaxV")};
   ASSIGN_OR_RETURN(const Window window, WindowOf(camera, sensor));
@@ -229,12 +229,12 @@ const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file
 Result<RigFile> Read(std::string_view text, const std::string& file) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return Fail({}, "nothing in it");
-  // XML: Qualisys.
+  // An XML file is from Qualisys.
   if (text[first] == '<') {
     ASSIGN_OR_RETURN(auto cameras, ReadQualisysCalibration(text));
     return RigFile{std::move(cameras), "Qualisys", kYUpOfZUp, 0.001};
   }
-  // OpenCV's YAML: a rig, or one camera.
+  // OpenCV's YAML holds a rig or one camera.
   if (text.starts_with("%YAML") || text.find("opencv-matrix") != std::string_view::npos) {
     ASSIGN_OR_RETURN(const Node root, ParseYaml(WithoutDirective(text), file));
     if (root.Find("cameras") != nullptr) {
@@ -250,7 +250,7 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     ASSIGN_OR_RETURN(const Camera camera, ReadCamera(root, true));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
   }
-  // TOML: Pose2Sim and its relatives.
+  // A TOML file is from Pose2Sim or a program with the same format.
   if (text[first] == '[' || text.find("\n[") != std::string_view::npos) {
     ASSIGN_OR_RETURN(auto cameras, ReadPose2SimCalibration(text));
     return RigFile{
@@ -299,7 +299,8 @@ Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
 }
 
 Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file) {
-  constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;  // larger, because COLMAP's files also list points
+  // Larger than for one file, because COLMAP's files also list points.
+  constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;
   if (inside.size() + outside.size() > kMaxPairBytes) {
     return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kMaxPairBytes);
   }

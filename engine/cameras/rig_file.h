@@ -29,7 +29,7 @@ std::string WriteRig(std::span<const NamedCamera> cameras);
 
 /// The content of a calibration file; its world is assumed to have the usual unit and axes of the format.
 struct RigFile {
-  /// Metres, Y up; a picture of 0 × 0 pixels means that the file does not give its size.
+  /// The cameras, in metres, Y up. A picture of 0 × 0 pixels means that the file does not state the picture's size.
   std::vector<NamedCamera> cameras;
   std::string format;    ///< name of the format, for users
   glm::dmat3 R_WF{1};    ///< rotates from the file's axes to the world of `cameras`

@@ -18,7 +18,7 @@ std::optional<PointEquations> PointEquationsAt(std::span<const InformedSighting>
     if (!pixel) return std::nullopt;
     const auto& h = seen.sighting.matrix.h;
     const double depth = h[2][0] * p_WQ.x + h[2][1] * p_WQ.y + h[2][2] * p_WQ.z + h[2][3];
-    glm::dmat3x2 gains;  // derivatives of u and v by x, y, z (columns)
+    glm::dmat3x2 gains;  // derivatives of u and v with respect to x, y, z (columns)
     for (int axis = 0; axis < 3; ++axis) {
       for (int k = 0; k < 2; ++k) gains[axis][k] = (h[k][axis] - (*pixel)[k] * h[2][axis]) / depth;
     }
@@ -48,7 +48,7 @@ std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSight
 
 namespace {
 
-/// The distance of each view in pixels, from its sighting to the projection of a point; infinity if the view cannot
+/// For each view: the distance between its sighting and the projection of a point, pixels; infinity if the view cannot
 /// show the point.
 using DistanceOfView = std::vector<double>;
 

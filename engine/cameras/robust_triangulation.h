@@ -17,8 +17,9 @@ struct InformedSighting {
   glm::dmat2 information{1};  ///< inverse covariance of the pixel, 1/px²
 };
 
-/// The normal equations of Σ rᵀ Λ r at one position, with the reprojection error r of each sighting and its information
-/// Λ: the normal matrix, which is the information of the position, and the right-hand side of the Gauss–Newton step.
+/// The normal equations of Σ rᵀ Λ r at one position, where r is the reprojection error and Λ the information of each
+/// sighting. `information` is the normal matrix, which is the information of the position; `right` is the right-hand
+/// side of the Gauss–Newton step.
 struct PointEquations {
   glm::dmat3 information{0};
   glm::dvec3 right{0};
@@ -43,11 +44,12 @@ std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSight
 /// numbers are needed, and n views cost n²/2 triangulations. With three sightings, one outlier can be detected only by
 /// its distance from the epipolar lines of the other two.
 /// @param weights the confidence of each sighting, above 0; empty: all equal
-/// @return their indices, ascending; all indices if there are fewer than three, or if no pair gives a point
+/// @return indices of the agreeing sightings, ascending; all indices if there are fewer than three, or if no pair gives
+/// a point
 std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
                                        std::span<const double> weights = {});
 
-/// Finds the sightings of a limb whose strokes agree at both ends.
+/// Finds the agreeing sightings of a limb: those in which both ends of the stroke agree.
 std::vector<std::size_t> AgreeingViews(std::span<const LimbSighting> sightings, double tolerance_px);
 
 struct WeightedSighting {

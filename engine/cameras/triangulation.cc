@@ -56,7 +56,7 @@ TriangulatedPoint TriangulateWeighted(std::span<const Sighting> sightings, std::
   if (!(svd.singularValues()[2] > kParallel * svd.singularValues()[0])) return point;
   const Eigen::Vector3d V = svd.solve(b);
   const glm::dvec3 p_WQ(V[0], V[1], V[2]);
-  // A point behind a camera cannot have been seen by it.
+  // A camera cannot have seen a point behind it.
   const double residual = ResidualPx(sightings, p_WQ);
   if (residual < 0) return point;
   return {PointStatus::kOk, p_WQ, residual};
@@ -99,7 +99,7 @@ TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings) {
 
 namespace {
 
-/// Returns the inverse of the matrix's left 3 × 3 block, which maps pixels to directions in the world.
+/// Returns the inverse of the matrix's left 3 × 3 block. The inverse maps pixels to directions in the world.
 glm::dmat3 DirectionsOf(const ProjectionMatrix& matrix) {
   const auto& h = matrix.h;
   return glm::inverse(

@@ -19,7 +19,7 @@ struct Sighting {
 /// The line of sight of a pixel: all points that the pixel may show.
 struct SightLine {
   glm::dvec3 camera_W{0};     ///< the camera's centre, metres
-  glm::dvec3 direction_W{0};  ///< unit, away from the camera
+  glm::dvec3 direction_W{0};  ///< unit vector away from the camera
 };
 
 /// Returns the line of sight; nullopt if the matrix has no centre (a camera at infinity) or a number is not finite.
@@ -46,8 +46,8 @@ struct TriangulatedPoint {
 TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 
 /// Triangulates like `Triangulate`, but also divides every row by the point's depth in its camera *(ours)*, so that
-/// distances in pixels are minimised: a distant camera measures the point less accurately and gets less weight
-/// (iterated linear least squares, Hartley and Sturm 1997, section 4.3; three iterations). For two cameras at equal
+/// distances in pixels are minimised. A distant camera measures the point less accurately and gets less weight. This is
+/// iterated linear least squares (Hartley and Sturm 1997, section 4.3) with three iterations. For two cameras at equal
 /// distances the result is that of `Triangulate`.
 TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings);
 
@@ -58,8 +58,8 @@ class EpipolarGeometry {
   /// Returns the geometry of two cameras; nullopt if a matrix has no centre (a camera at infinity).
   static std::optional<EpipolarGeometry> Of(const ProjectionMatrix& first, const ProjectionMatrix& second);
 
-  /// Returns the distance in pixels by which two sightings must move to show one point: the root mean square over the
-  /// two pictures, to first order (Sampson's distance; Hartley and Zisserman, section 11.4.3). No point needs to be
+  /// Returns the distance in pixels by which two sightings must move to show the same point: the root mean square over
+  /// the two pictures, to first order (Sampson's distance; Hartley and Zisserman, section 11.4.3). No point needs to be
   /// triangulated. The sign states on which side of the epipolar lines the pixels lie.
   double DistancePx(const glm::dvec2& first, const glm::dvec2& second) const;
 

@@ -64,8 +64,8 @@ TakeBody MakeTakeBody(const LimbLengths& lengths) {
 
 namespace {
 
-/// Returns one state per frame. A frame whose joints give no state takes the state of the frame before it; leading
-/// frames take the first state. Returns an empty list if no frame gives a state.
+/// Returns one state per frame. A frame whose joints give no state takes the state of the frame before it; frames
+/// before the first state take that state. Returns an empty list if no frame gives a state.
 std::vector<TreeState> StartOf(const CaptureBody& body, std::span<const OptionalJoints> joints) {
   const BodyPose standing = ToBodyPose(body, StandingState(body.tree));
   std::vector<TreeState> states;

@@ -26,12 +26,12 @@ struct TakeBody {
 
 TakeBody MakeTakeBody(const LimbLengths& lengths);
 
-/// These convert between LimbLengths and the list of lengths in `TakeBody::measurable`.
+/// LimbLengthsOf and ListOf convert between LimbLengths and the list of lengths in `TakeBody::measurable`.
 LimbLengths LimbLengthsOf(std::span<const double> lengths);
 std::array<double, 10> ListOf(const LimbLengths& lengths);
 
 struct AdjustTakeInputs {
-  MeasureInputs pictures;  ///< `known` is ignored
+  MeasureInputs pictures;  ///< cameras and marks; `known` is ignored
   LimbLengths lengths;     ///< lengths of the person, metres; the start of the search if lengths are adjusted
   /// The joint positions of each frame at which the search starts (`BridgeJoints`).
   std::span<const OptionalJoints> start;

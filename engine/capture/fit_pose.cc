@@ -16,8 +16,8 @@ constexpr double kTinyM = 1e-9;
 
 bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Returns the rotation about the unit vector `axis` that minimises the squared distances between `from` and `to`,
-// radians.
+// Returns the angle of the rotation about the unit vector `axis` that minimises the squared distances between `from`
+// and `to`, in radians.
 double BestTwist(const glm::dvec3& axis, const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to) {
   double cosine = 0, sine = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -56,8 +56,8 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
   return tree;
 }
 
-constexpr double kGoal = 1e-7;                       // a target is met at this distance, metres
-constexpr double kMet = kRoleCount * kGoal * kGoal;  // a residual below means that all targets are met, m²
+constexpr double kGoal = 1e-7;                       // distance at which a target counts as met, metres
+constexpr double kMet = kRoleCount * kGoal * kGoal;  // residual below which all targets count as met, m²
 // If the residual is below this multiple of the last frame's residual, no other start is tried.
 constexpr double kLikeTheLast = 1.5 * 1.5;
 
@@ -107,14 +107,14 @@ void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_L
     const bool is_seen = std::ranges::any_of(aims, [&](const Aim& aim) {
       return aim.is_on_limb && glm::distance(aim.p_LQ, p_LJ + R_LJ * joint.p_PJ) < 1e-6;
     });
-    // If the joint at the child's beginning has a target, the limbs behind it do not constrain this limb.
+    // If the joint at the child's beginning has a target, the limbs beyond it do not constrain this limb.
     if (!is_seen) AddAims(limb, p_LJ + R_LJ * joint.p_PJ, R_LJ * joint.R_PJ, child, wanted, aims);
   }
 }
 
-// Returns the axes of a limb whose chain to the next known joint contains joints without targets. The limb and the rest
-// of the chain are two sides of a triangle; the third side is the distance to the known joint. The chain bends to the
-// same side as at rest; if it is straight at rest, like a back, it bends backwards.
+// Returns the axes of a limb whose chain to the next known joint contains joints without targets. The limb and the
+// remaining chain are two sides of a triangle; the third side is the distance to the known joint. The chain bends to
+// the same side as at rest; if it is straight at rest, like a back, it bends backwards.
 glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
                                    const glm::dvec3& back_W, int mirrored) const {
   glm::dvec3 p_LT(0);  // the end of the limb, where the rest of the chain begins
@@ -141,7 +141,7 @@ glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::
   std::vector<Aim> aims;
   AddAims(limb, glm::dvec3(0), glm::dmat3(1), limb, wanted, aims);
   if (aims.empty()) return R_WJ;
-  // Point at the farthest known role on the limb itself, or else at the farthest one beyond it.
+  // Point the limb at the farthest known role on it, or else at the farthest one beyond it.
   const auto main = std::ranges::max_element(
       aims, {}, [](const Aim& aim) { return std::pair(aim.is_on_limb, glm::length(aim.p_LQ)); });
   const glm::dvec3 from = UnitOr(R_WJ * main->p_LQ, R_WJ * kAlong);

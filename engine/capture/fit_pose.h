@@ -14,7 +14,7 @@ namespace etude {
 /// Target positions of the twenty roles, with weights.
 struct PoseTargets {
   BodyPose places;                           ///< target positions in the world, metres
-  std::array<double, kRoleCount> weights{};  ///< 0 if the position of the role is unknown
+  std::array<double, kRoleCount> weights{};  ///< weight of each role; 0 if its position is unknown
 };
 
 /// Returns a pose as targets of equal weight.
@@ -39,10 +39,10 @@ class PoseFitter {
   PoseFitter& operator=(const PoseFitter&) = delete;
 
   /// Finds angles that minimise Σ weight · |target − role|², at least locally; the root is at the target of the left
-  /// foot. If targets are not met and the residual is clearly larger than that of `last` (the fit of the frame before,
-  /// if there is one), more starts are tried: the pose of `last`, and, for every joint without a target, the pose in
-  /// which it bends to the other side. The lowest minimum found is returned. Returns nullopt if a target with a weight
-  /// above 0 is not finite, or if the left foot has weight 0.
+  /// foot. `last` is the fit of the frame before, if there is one. If targets are not met and the residual is clearly
+  /// larger than that of `last`, more starts are tried: the pose of `last`, and, for every joint without a target, a
+  /// pose with this joint bent to the other side. The lowest minimum found is returned. Returns nullopt if a target
+  /// with a weight above 0 is not finite, or if the left foot has weight 0.
   std::optional<PoseFit> Fit(const PoseTargets& wanted, const std::optional<PoseFit>& last = {}) const;
   /// Finds the local minimum near `state`; the root does not move.
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;

@@ -17,7 +17,7 @@ namespace etude {
 
 /// Removes marks that disagree with those of other cameras *(ours)*. If three or more pictures of a frame show a disc
 /// or stroke, it is removed from the views that `AgreeingViews` rejects. Use this function if a camera may have moved
-/// or marks may be on the wrong limb; if all marks are equally accurate, it costs a little accuracy.
+/// or marks may be on the wrong limb; if all marks are equally accurate, the function costs a little accuracy.
 /// @param marks `marks[camera][frame]`
 /// @param tolerance_px maximum distance, in pixels, of a mark from the point that the other pictures determine. Marks
 /// with errors of 2 pixels (more at joints under clothes) agree within 12 pixels.
@@ -29,16 +29,16 @@ using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
 /// The spatial measurements from the marks of one frame.
 struct FrameMeasurement {
-  RoleVectors ends;        ///< p_WE, metres: position of each end effector in the world, at its role
-  RoleVectors directions;  ///< unit vectors in the world: direction of each limb, at the role of its lower joint
-  /// The planes in which each limb without a direction lies, one per picture that shows the limb.
+  RoleVectors ends;        ///< p_WE, metres: position of each end effector in the world, by its role
+  RoleVectors directions;  ///< unit vectors in the world: direction of each limb, by the role of its lower joint
+  /// For each limb without a direction: the planes through the limb, one per picture that shows it.
   std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
   /// The sight line of each end that only one picture shows.
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
-/// Measurements of one frame that do not come from marks, for example from another sensor, or true values by which the
-/// error of a stage is measured. Each member that is present replaces all measurements of its kind.
+/// Measurements of one frame from another source than marks: another sensor, or true values, by which the error of a
+/// stage is measured. Each member that is present replaces all measurements of its kind.
 struct KnownMeasurement {
   std::optional<RoleVectors> ends;
   std::optional<RoleVectors> directions;

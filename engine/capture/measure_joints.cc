@@ -107,7 +107,7 @@ std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const 
   const glm::dvec3 position = NearestOn(*line, near_W);
   const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
-  // The standard deviation of the depth of a joint that only one picture shows, metres *(ours)*. It is so large because
+  // Standard deviation of the depth of a joint that only one picture shows, metres *(ours)*. It is large because
   // interpolation between neighbouring frames is inaccurate.
   constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
@@ -159,7 +159,7 @@ std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const 
   std::vector<JointMeasurements> measured(count);
   for (std::size_t k = 0; k < count; ++k) sightings.push_back(SightingsOf(inputs, k, errors));
   for (std::size_t role = 0; role < kRoleCount; ++role) {
-    // Triangulate the joint where two or more pictures show it.
+    // Triangulate the joint in the frames in which two or more pictures show it.
     std::vector<std::optional<glm::dvec3>> track(count);
     for (std::size_t k = 0; k < count; ++k) {
       const auto joint = TriangulateLikeliest(sightings[k][role]);
@@ -168,7 +168,7 @@ std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const 
       measured[k].is_triangulated[role] = true;
       track[k] = joint->position;
     }
-    // Where one picture shows it, use its sight line and the neighbouring frames.
+    // If one picture shows the joint, use the sight line and the neighbouring frames.
     const auto bridged = BridgeTrack(track);
     for (std::size_t k = 0; k < count; ++k) {
       if (track[k] || !bridged[k] || sightings[k][role].empty()) continue;
@@ -236,7 +236,7 @@ std::vector<BodyPose> SmoothPoses(std::span<const std::optional<BodyPose>> poses
                                   std::span<const JointMeasurements> measured, double rate_hz) {
   assert(poses.size() == measured.size());
   std::vector<BodyPose> smooth(poses.size());
-  constexpr double kUnknownVariance = 0.02 * 0.02;  // m²: for a joint that was never triangulated *(ours)*
+  constexpr double kUnknownVariance = 0.02 * 0.02;  // variance of a joint that was never triangulated, m² *(ours)*
   for (std::size_t role = 0; role < kRoleCount; ++role) {
     const double variance = UsualVariance(measured, role).value_or(kUnknownVariance);
     std::vector<PointMeasurement> track(poses.size());

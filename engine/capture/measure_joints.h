@@ -28,8 +28,8 @@ struct MarkedJoint {
   glm::dmat2 information{0};  ///< inverse covariance, 1/px²
 };
 
-/// Returns the joints that the marks of one picture show: both ends of every stroke, and the centre of every disc,
-/// which replaces the stroke end beneath it. All marks that end at one joint come from a single decision of the
+/// Returns the joints that the marks of one picture show: both ends of every stroke, and the centre of every disc. A
+/// disc replaces the stroke end beneath it. All marks that end at one joint come from a single decision of the
 /// annotator, so together they have the information of one mark.
 std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors);
 
@@ -37,7 +37,7 @@ std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& er
 /// because no mark shows them.
 struct JointMeasurements {
   std::array<PointMeasurement, kRoleCount> joints;
-  std::array<bool, kRoleCount> is_triangulated{};  ///< true if measured from two or more pictures
+  std::array<bool, kRoleCount> is_triangulated{};  ///< true if the joint was measured from two or more pictures
 };
 
 /// Triangulates every joint from all marks that end there: the position minimises Σ rᵀ Λ r over the pictures, with r

@@ -24,8 +24,8 @@ std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& 
   return Start{*fixed, FindStartState(body.tree, *fixed, body.tree.limits)};
 }
 
-// Computes target positions by following the observed limb directions inwards from every end (paper B, figure 3.2(a)),
-// and the midpoint of the hips.
+// Computes target positions of the joints, by following the observed limb directions inwards from every end (paper B,
+// figure 3.2(a)), and of the midpoint of the hips.
 PoseTargets TargetsFromEnds(const CaptureBody& body, const LimbObservation& seen) {
   constexpr double kUnseen = 0.01;  // weight of completed positions
   constexpr double kBent = 0.1;     // weight of positions beyond a joint whose bend is not observed
@@ -71,7 +71,7 @@ std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObserva
 /// Returns the pose at which the solver starts; nullopt if neither the pictures nor the last frame give one.
 std::optional<TreeState> StartOf(const Start& found, const std::optional<RecoveredFrame>& last, bool is_marked) {
   if (!last || (found.seen && is_marked)) return found.seen;
-  // The solver does not move the root, so its position and frame always come from the pictures.
+  // The solver does not move the root, so the root's position and frame always come from the pictures.
   TreeState start = last->state;
   start.root_position = found.fixed[kLeftFoot];
   if (found.seen) start.root_frame = found.seen->root_frame;

@@ -56,8 +56,7 @@ struct RecoveredFrame {
 /// earlier frame.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
-/// The true start or true pose of one frame, if known. It replaces the result of the start stage or of the solver, so
-/// that the error of that stage can be measured.
+/// The true start or true pose of one frame, if known, as in RecoverInputs.
 struct KnownAngles {
   std::optional<TreeState> start, pose;
 };
@@ -86,8 +85,8 @@ class FrameRecovery {
   std::optional<RecoveredFrame> last_;
 };
 
-/// Fills empty frames with the last skeleton before them, leading ones with the first skeleton. At least one frame must
-/// not be empty.
+/// Fills empty frames with the last skeleton before them, and frames before the first skeleton with the first one. At
+/// least one frame must not be empty.
 std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames);
 
 /// Converts the motion to a clip that WriteBvh can write: metres, Y up. `body` must be the body with which `frames`

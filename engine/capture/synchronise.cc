@@ -52,9 +52,10 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
     best = offset;
   }
   const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
-  // If the improvement over offset 0 is this small, nobody moved.
-  constexpr double kNoBetter = 0.001, kNothing = 1e-4;  // a share of the misfit; squared pixels
-  // With at least 300 distances, noise alone keeps the ratio of the mean misfit to the minimum below this.
+  // The smallest significant improvement over offset 0 is the sum of kNoBetter (a share of the misfit at offset 0) and
+  // kNothing (squared pixels). With a smaller improvement, nobody moved.
+  constexpr double kNoBetter = 0.001, kNothing = 1e-4;
+  // With 300 distances or more, noise alone keeps the ratio of the mean misfit to the minimum below this value.
   constexpr double kTold = 1.25;
   const bool is_better = *assumed - min_misfit + minimum.gain > kNothing + kNoBetter * *assumed;
   const bool is_told = std::abs(best) < max_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);

@@ -14,8 +14,8 @@ namespace etude {
 struct SyncOptions {
   /// The maximum offset that is searched, in frames either way. Raise it for cameras that were started by hand.
   int max_frames = 16;
-  /// The distance, in pixels, at which the error of a pair of sightings is capped, so that a mark on the wrong limb
-  /// does not determine a clock.
+  /// The maximum error of a pair of sightings, pixels. Larger errors are capped, so that a mark on the wrong limb does
+  /// not determine a clock.
   double max_px = 20;
 };
 
@@ -27,28 +27,28 @@ struct ClockOffset {
 };
 
 /// Finds the offset that minimises `misfit`, in squared pixels: first the best whole number of frames, then the minimum
-/// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only: an interpolated pixel has a
-/// smaller error than measured pixels, which would bias offsets towards half frames. Returns 0 if the minimum is hardly
-/// below the misfit at 0, or if the misfit at 0 is undefined.
+/// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only. (An interpolated pixel has
+/// a smaller error than measured pixels, so offsets would be biased towards half frames.) Returns 0 if the minimum is
+/// hardly below the misfit at 0, or if the misfit at 0 is undefined.
 ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int max_frames);
 
-/// Returns the pixel at the fraction `share` of the way from b to c, which are consecutive frames with the neighbours a
-/// and d: by a Catmull-Rom spline through all four, linearly if a or d is missing. Returns nullopt if b is missing, or
-/// if c is missing and `share` is not 0.
 using OptionalPixel = std::optional<glm::dvec2>;
+/// Returns the pixel at the fraction `share` of the way from b to c, for consecutive frames a, b, c, d. A Catmull-Rom
+/// spline runs through all four; if a or d is missing, the interpolation is linear. Returns nullopt if b is missing, or
+/// if c is missing and `share` is not 0.
 OptionalPixel PixelBetween(const OptionalPixel& a, const OptionalPixel& b, const OptionalPixel& c, const OptionalPixel& d, double share);
 
 /// Estimates the delay of each camera's pictures in frames *(ours)*: frame k of a camera was taken at the first
-/// camera's time k + offset. Each camera is compared with the first one: the offset minimises the mean squared epipolar
-/// distance (`EpipolarGeometry`, `FindOffset`) of all ends and strokes that both have marked, where the camera's marks
-/// are interpolated between its frames (`MarksAt`). The offset is 0 if nothing determines it (nobody moves, or there
-/// are too few marks).
+/// camera's time k + offset. Each camera is compared with the first one. The offset minimises the mean squared epipolar
+/// distance (`EpipolarGeometry`, `FindOffset`) of all ends and strokes that are marked in both; the camera's marks are
+/// interpolated between its frames (`MarksAt`). The offset is 0 if nothing determines it (nobody moves, or there are
+/// too few marks).
 std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras,
                                     std::span<const std::vector<Marks>> marks, const SyncOptions& options = {});
 
-/// Returns the marks of a camera at a time between its frames: by a Catmull-Rom spline through the two frames on either
-/// side, linearly if one of the outer two lacks the mark, empty if one of the inner two does. If only every n-th frame
-/// is marked, pass those frames alone.
+/// Returns the marks of a camera at a time between its frames. A mark follows a Catmull-Rom spline through the two
+/// frames on either side. If one of the outer two frames lacks the mark, it is interpolated linearly; if one of the
+/// inner two does, it is missing. If only every n-th frame is marked, pass those frames alone.
 Marks MarksAt(std::span<const Marks> track, double frame);
 
 /// Returns the marks of all cameras at the frame times of the first camera.

@@ -9,8 +9,8 @@
 namespace etude {
 namespace {
 
-/// The hands count as together below the first distance of their tips and as apart above the second, metres (ours): a
-/// Kinect's hands have errors of about 5 cm while moving, and palms are thick.
+/// The hands count as together if the distance of their tips is below the first value, and as apart if it is above the
+/// second, metres (ours). A Kinect's hands have errors of about 5 cm while moving, and palms are thick.
 constexpr double kTogether = 0.15, kApart = 0.4;
 constexpr int kTogetherFrames = 2, kSwingFrames = 15;
 

@@ -21,7 +21,7 @@ namespace etude {
 
 /// The state that SeeClap keeps between two frames.
 struct ClapState {
-  int since_apart = kLongAgo;  ///< frames since the hands were last apart
+  int since_apart = kLongAgo;  ///< number of frames since the hands were last apart
   int together = 0;            ///< number of consecutive frames in which the hands have been together
   static constexpr int kLongAgo = 1000;
 };
@@ -34,9 +34,9 @@ bool SeeClap(const SensedFrame& frame, ClapState& state);
 struct StillnessState {
   std::array<glm::dvec3, kRoleCount> rest{};  ///< recent position of each joint, low-pass filtered
   bool started = false;
-  int seen = 0;    ///< frames since ResetCounts in which a body was seen
-  int moving = 0;  ///< frames since ResetCounts in which the body moved
-  int frames = 0;  ///< all frames since ResetCounts
+  int seen = 0;    ///< number of frames since ResetCounts in which a body was seen
+  int moving = 0;  ///< number of frames since ResetCounts in which the body moved
+  int frames = 0;  ///< number of all frames since ResetCounts
 };
 
 /// Takes one frame at 30 Hz. Returns true if the body is seen and moves.
@@ -84,7 +84,7 @@ struct CoachInput {
   std::optional<double> music_s = {};     ///< position in the song that is heard now, in seconds; nullopt without music
   /// For policy `oracle`: true if the requested performance was right. It is read in the last frame of the performance.
   std::optional<bool> told_right = {};
-  bool moment = false;  ///< for policy `yoked`: if true, correct as soon as the dance can be interrupted
+  bool moment = false;  ///< true: policy `yoked` corrects as soon as the dance can be interrupted
 };
 
 /// The whole state of a session, in plain values; it can be copied.
@@ -94,7 +94,7 @@ struct CoachState {
   std::int64_t mode_since = 0;  ///< first frame of this mode
   Playback playback;
 
-  // The player.
+  // State of the player.
   ClapState clap;
   bool clap_waits = false;  ///< true from the detection of a clap until the coach reacts to it
   StillnessState stillness;
@@ -102,7 +102,7 @@ struct CoachState {
   PlayerHint stand = PlayerHint::kNone;
   int stand_frames = 0;  ///< number of consecutive frames in which the position calls for another hint than `stand`
 
-  // The dance.
+  // State of the dance and the music.
   bool music_plays = false;
   double rate = 1;  ///< frames of the dance per shown frame
   int next_tag = 0;
@@ -115,8 +115,8 @@ struct CoachState {
   std::string_view say;
   std::int64_t say_until = 0;  ///< frame at which `say` ends
 
-  // The coach's memory of this song.
-  std::vector<MoveMemory> moves;  ///< one per move of the dance
+  // Memory of the performances in this song.
+  std::vector<MoveMemory> moves;  ///< memory of each move of the dance
   MoveMemory song;                ///< sums over all moves
 };
 
@@ -126,8 +126,8 @@ struct CoachStep {
   CoachOutput output;
 };
 
-/// Paper A's coach as a state machine. It is immutable, and any number of sessions can share it. It
-/// gets the recogniser's evidence, but not the truth about what was danced.
+/// Paper A's coach as a state machine. It is immutable, and any number of sessions can share it. It gets the
+/// recogniser's evidence, but not the truth about what was danced.
 ///
 ///     Coach coach(transitions, {}, {FindPolicy("at-first-mistake"), {}});
 ///     CoachState state = coach.Begin();
@@ -136,7 +136,7 @@ class Coach {
  public:
   struct PolicyChoice {
     const Policy* policy = nullptr;
-    std::vector<double> settings;  ///< one per setting of the policy; if empty, the defaults apply
+    std::vector<double> settings;  ///< one value per setting of the policy; if empty, the defaults apply
   };
 
   /// Makes a coach. `transitions` must outlive the coach.

@@ -46,16 +46,16 @@ std::string_view MistakeName(Mistake mistake);
 /// A decision with its explanation.
 struct CoachRecord {
   CoachEvent event = CoachEvent::kWoken;
-  std::int64_t frame = 0;  ///< counted from the session's beginning
+  std::int64_t frame = 0;  ///< frame number, counted from the session's beginning
   int repetition = -1;     ///< index in Dance::repetitions; −1 if the record concerns no repetition
   int move = -1;           ///< index in Dance::moves; −1 if the record concerns no move
   int tag = -1;            ///< index in Dance::tags; set for the event kTag
   Mistake mistake = Mistake::kNone;
-  double evidence = 0;      ///< set for the events kRight, kWrong and kUnjudged
+  double evidence = 0;      ///< evidence of the performance; set for the events kRight, kWrong and kUnjudged
   double beat_error_s = 0;  ///< set for kTag: the delay of the dance behind the music; negative if the dance is early
   double rate = 1;          ///< set for kTag: the new speed of the dance, in frames of the dance per shown frame
-  std::shared_ptr<const TransitionRecord> transition;  ///< set for kTransition
-  std::string why;                                     ///< one sentence with numbers
+  std::shared_ptr<const TransitionRecord> transition;  ///< the planned transition; set for kTransition
+  std::string why;                                     ///< reason for the event: one sentence with numbers
 };
 
 /// The states of the coach; README.md shows the transitions between them.
@@ -65,8 +65,8 @@ enum class CoachMode {
   kDoze,
   kWake,
   kDance,
-  kCorrect,      ///< one of the acts head shake, wave and puzzled
-  kDemonstrate,  ///< a slow demonstration of the move, which the player only watches
+  kCorrect,      ///< one of the acts head shake, wave and puzzled is played
+  kDemonstrate,  ///< a slow demonstration is shown; the player only watches
   kPraise,
 };
 /// Returns the mode's name, for example "standby" or "attract".
@@ -98,12 +98,12 @@ struct CoachOutput {
   std::string_view clip;       ///< "dance", an act's name, or "slow_" and a move's name; in a transition, the next clip
   double clip_frame = 0;       ///< frame index in `clip`, may be fractional
   bool in_transition = false;  ///< true from leaving one clip until the next clip is entered
-  int repetition = -1;         ///< the last repetition that has begun; −1 before the first and while no dance is shown
+  int repetition = -1;  ///< the last repetition that has begun; −1 before the first and while no dance is shown
   std::optional<OpenWindow> open;     ///< the window that is open in the next frame
   bool asks = false;                  ///< true if `open` has changed: call MoveFollower::Ask before the next frame
   std::string_view say;               ///< a line of text for the player; "" if there is none
-  std::string_view hint;              ///< key pose of the move asked for or shown, in words that the Dance owns
-  const BodyPose* picture = nullptr;  ///< the key pose of `hint` as a picture, which the Dance owns
+  std::string_view hint;              ///< key pose of the requested or shown move, in words; the Dance owns the text
+  const BodyPose* picture = nullptr;  ///< the key pose of `hint` as a picture; the Dance owns it
   PlayerHint stand = PlayerHint::kNone;
   MusicCommand music;
   /// The delay of the dance behind the music, in seconds; negative if the dance is early, nullopt if it follows no

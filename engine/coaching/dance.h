@@ -10,14 +10,13 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// A frame with the time of the music at which it should be shown (paper A, 3.4: the next move is slowed down or sped
-/// up).
+/// A frame of the dance, and the music time at which this frame should be shown (paper A, 3.4: the next move is slowed
+/// down or sped up).
 struct MusicTag {
   std::size_t frame = 0;
   double music_s = 0;
 };
 
-/// A move of the dance.
 struct DanceMove {
   std::string name;   ///< the name of this move in the recogniser
   std::string hint;   ///< the key pose in words, for example "both arms up"
@@ -35,7 +34,7 @@ struct Repetition {
 /// A clip that the coach plays outside the dance.
 struct CoachAct {
   std::string name;
-  BodyMotion motion;  ///< 30 Hz, at least two frames
+  BodyMotion motion;  ///< motion at 30 Hz, at least two frames
   bool loops = false;
 };
 
@@ -44,10 +43,10 @@ struct Dance {
   std::string title;
   double tempo_bpm = 120;
   BodyMotion motion = {};                    ///< the whole song at 30 Hz
-  std::vector<DanceMove> moves = {};         ///< with unique names
-  std::vector<Repetition> repetitions = {};  ///< in order and without overlap
-  std::vector<MusicTag> tags = {};           ///< frames and times ascend strictly
-  std::vector<CoachAct> acts = {};           ///< at least those of RequiredActs()
+  std::vector<DanceMove> moves = {};         ///< the moves, with unique names
+  std::vector<Repetition> repetitions = {};  ///< the repetitions, in order and without overlap
+  std::vector<MusicTag> tags = {};           ///< the tags; their frames and times ascend strictly
+  std::vector<CoachAct> acts = {};           ///< the acts; at least those of RequiredActs()
   std::vector<double> beats_s = {};  ///< times of the music's beats, ascending (for click tracks and beat errors)
 
   const CoachAct* FindAct(std::string_view name) const;
@@ -64,8 +63,8 @@ double MusicAt(const Dance& dance, double frame);
 int NextTag(const Dance& dance, double frame);
 
 /// Applies paper A's music-time tags (3.4). The dance is at `frame` and the music at `music_s`. Returns the number of
-/// dance frames to show per frame so that tag `next` (after the last tag: the dance's end) is reached at its time.
-/// Below 1 the move is slowed down, above 1 sped up; the result is clamped to [slowest, fastest].
+/// dance frames to advance per shown frame so that tag `next` is reached at its time; after the last tag, the goal is
+/// the dance's end. Below 1 the move is slowed down, above 1 sped up; the result is clamped to [slowest, fastest].
 double RateToTag(const Dance& dance, int next, double frame, double music_s, double slowest, double fastest);
 
 }  // namespace etude

@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kLeavingFrames = 60;
 /// An entering clip contains the first frames of its act: half a second, and enough frames for the longest join.
 constexpr std::size_t kEnteringFrames = 15 + 30 + 1;
-/// A returning clip contains this many frames before the beginning of its repetition, as a lead-in in which players
-/// start to move, and this many frames after the beginning, enough for the longest join.
+/// A returning clip begins `kBeforeFrames` before its repetition, so that players can start to move. It ends
+/// `kIntoFrames` after the beginning of the repetition, enough for the longest join.
 constexpr std::size_t kBeforeFrames = 45, kIntoFrames = 30;
 
 BodyMotion Excerpt(const BodyMotion& motion, std::size_t first, std::size_t end) {

@@ -31,8 +31,8 @@ class DanceLibrary {
   /// Returns the excerpt of the dance from this repetition's beginning until some time into the next repetition; for
   /// the last repetition, to the song's end. Transitions leave the dance from this clip.
   int ClipLeaving(int repetition) const;
-  /// Returns a clip of only the beginning of an act or slow demonstration, whose index is `whole`. Transitions enter
-  /// this clip, so that they cannot skip the main part.
+  /// Returns a clip that is only the beginning of clip `whole`, an act or slow demonstration. Transitions enter this
+  /// clip, so that they cannot skip the main part.
   int ClipEntering(int whole) const;
   /// Returns the excerpt of the dance from some time before a repetition's beginning to some time after it. Transitions
   /// return to the dance through this clip.

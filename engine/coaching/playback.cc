@@ -205,7 +205,7 @@ bool IsOver(const Playback& playback, const DanceLibrary& library, double before
 }
 
 bool IsSettled(const Playback& playback) {
-  constexpr double kMaxJoinFrames = 30;  // the longest join
+  constexpr double kMaxJoinFrames = 30;
   if (!playback.path || playback.path->frames.empty()) return true;
   return playback.path_frame >= static_cast<double>(playback.path->entered) + kMaxJoinFrames;
 }

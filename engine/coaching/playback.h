@@ -12,30 +12,31 @@ namespace etude {
 
 /// The frames of a transition: those shown after the request, until only the wanted clip plays.
 struct ShownPath {
-  int clip = 0;                                    ///< the wanted clip, as an index in the library
-  std::vector<BodyPose> frames;                    ///< in the coordinates of the clip that was left
-  std::size_t entered = 0;                         ///< index in `frames` from which the wanted clip plays
-  int clip_frame = 0;                              ///< the wanted clip's frame at that index
-  FloorMove place;                                 ///< the wanted clip's floor move, in the coordinates of `frames`
-  std::shared_ptr<const TransitionRecord> record;  ///< null if the path does not begin with a transition
+  int clip = 0;                  ///< the wanted clip, as an index in the library
+  std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that was left
+  std::size_t entered = 0;       ///< index in `frames` from which the wanted clip plays
+  int clip_frame = 0;            ///< the wanted clip's frame at that index
+  FloorMove place;               ///< the wanted clip's floor move, in the coordinates of `frames`
+  /// Record of the transition; null if the path does not begin with one.
+  std::shared_ptr<const TransitionRecord> record;
 };
 
 /// Plans the transitions within a dance by one method. Each transition is planned on its first use and cached, so a
 /// result does not depend on earlier calls. The class is not thread-safe.
 class DanceTransitions {
  public:
-  /// Plans for `library`, which must outlive this object.
+  /// Plans the transitions of `library`, which must outlive this object.
   DanceTransitions(const DanceLibrary& library, TransitionWay way);
 
   const DanceLibrary& library() const { return library_; }
   const Dance& dance() const { return library_.dance(); }
 
-  /// Returns a path that shows only the clip, at the place where it was authored.
+  /// Returns a path that shows only the clip, where it was authored.
   std::shared_ptr<const ShownPath> Alone(int clip) const;
   /// Returns the path from a frame of a clip into another clip. If the method finds no transition, the path is a cut.
   std::shared_ptr<const ShownPath> Find(int from, int frame, int to) const;
-  /// Returns the path from a frame of a clip with floor move `place` into a clip that is shown at the place where it
-  /// was authored, so that rotations and shifts do not accumulate over many transitions.
+  /// Returns the path from a frame of a clip with floor move `place` into another clip, which is shown where it was
+  /// authored. Rotations and shifts therefore do not accumulate over many transitions.
   std::shared_ptr<const ShownPath> FindHome(int from, int frame, const FloorMove& place, int to) const;
 
  private:
@@ -51,8 +52,8 @@ class DanceTransitions {
 
 /// The current state of playing: the dance itself, or a path (a transition and the clip it leads into).
 struct Playback {
-  std::shared_ptr<const ShownPath> path;  ///< null while the dance itself plays
-  double path_frame = 0;                  ///< index in the path's frames and, after them, its clip; may be fractional
+  std::shared_ptr<const ShownPath> path;  ///< the path that is shown; null while the dance itself plays
+  double path_frame = 0;                  ///< index in the path's frames, and after them in its clip; may be fractional
   FloorMove place;                        ///< floor move of the path
   double dance_frame = 0;                 ///< index of the shown frame of the dance; used only if `path` is null
 };
@@ -82,7 +83,7 @@ void Advance(Playback& playback, const DanceLibrary& library, double rate);
 /// Starts a transition from the playing dance or clip to the clip `clip`, beginning with the next frame. The playback
 /// must be settled.
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions);
-/// Starts a transition like LeaveFor, into a clip that keeps the place where it was authored.
+/// Starts a transition like LeaveFor, but shows the clip at the place on the floor where it was authored.
 void LeaveForHome(int clip, Playback& playback, const DanceTransitions& transitions);
 
 }  // namespace etude

@@ -18,10 +18,10 @@ enum class WindowVerdict {
 
 /// The coach's memory of one move, or of all moves.
 struct MoveMemory {
-  int judged = 0;           ///< windows with a verdict of right or wrong
-  int mistakes = 0;         ///< judged windows with the verdict wrong
-  int mistakes_in_row = 0;  ///< consecutive wrong windows since the last right one
-  int corrections = 0;      ///< number of corrections given
+  int judged = 0;           ///< number of windows with a verdict of right or wrong
+  int mistakes = 0;         ///< number of windows with the verdict wrong
+  int mistakes_in_row = 0;  ///< number of consecutive wrong windows since the last right one
+  int corrections = 0;
 };
 
 /// The input of a policy when a window has closed.
@@ -34,7 +34,7 @@ struct PolicyInput {
 
 struct PolicyDecision {
   bool corrects = false;
-  std::string why;  ///< one sentence with numbers
+  std::string why;  ///< reason for the decision: one sentence with numbers
 };
 
 /// A rule that decides when the coach interrupts, with its name in scenario files. A policy is a pure function.

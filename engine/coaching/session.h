@@ -10,11 +10,11 @@
 
 namespace etude {
 
-/// The inputs of a session in addition to the sensor's frame.
+/// The inputs of a session in addition to the sensor's frame, as in CoachInput.
 struct SessionInput {
-  std::optional<double> music_s = {};   ///< as in CoachInput
-  std::optional<bool> told_right = {};  ///< as in CoachInput
-  bool moment = false;                  ///< as in CoachInput
+  std::optional<double> music_s = {};
+  std::optional<bool> told_right = {};
+  bool moment = false;
 };
 
 /// A coach with a sensor: it runs the recogniser and Coach::Step frame by frame. The benchmark and live sessions both
@@ -23,7 +23,7 @@ class CoachSession {
  public:
   struct Parts {
     const Coach* coach = nullptr;
-    const Recogniser* recogniser = nullptr;  ///< taught the moves of the dance, in the same order
+    const Recogniser* recogniser = nullptr;  ///< a recogniser that was taught the moves of the dance, in the same order
     FilterOptions filter = {};
     /// If true, a second follower judges the mirror image; it affects only the coach's words and the computing time.
     bool tells_wrong_side = true;

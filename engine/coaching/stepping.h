@@ -22,12 +22,12 @@ class Stepping {
   void Run();
 
  private:
-  // The player.
+  // Functions that observe the player.
   void Watch();
   PlayerHint WhereToStand() const;
   bool IsIdleFor(double seconds) const;
 
-  // The output.
+  // Functions that fill the output.
   void Show();
   void Picture();
 
@@ -37,7 +37,7 @@ class Stepping {
   void DanceOn();
   void Correct();
 
-  // Music and windows of the dance (these functions are in stepping_windows.cc).
+  // Functions for the music and for the windows. (Those for windows are in stepping_windows.cc.)
   void FollowMusic(double dance_frame);
   void OpenWindowAt(double dance_frame);
   void CloseWindow();

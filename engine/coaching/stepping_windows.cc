@@ -1,4 +1,4 @@
-// Windows, verdicts and reactions to the performances that a player is asked for.
+// Functions of Stepping that open windows, judge performances, and react to the verdicts.
 #include <fmt/format.h>
 
 #include <utility>

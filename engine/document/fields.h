@@ -30,8 +30,8 @@ class Fields {
   /// `what` names the mapping in complaints, e.g. "a method of task ik". `node` must outlive this object.
   Fields(const Node& node, std::string what);
 
-  /// Each of these returns the value of `key`. If the key is absent or its value is refused, it returns `fallback`, or,
-  /// in functions without that parameter, an empty list or nullopt.
+  /// Each of these functions returns the value of `key`. If the key is absent or its value is refused, the function
+  /// returns `fallback`, or, without that parameter, an empty list or nullopt.
   double Number(std::string_view key, double fallback, Range range = {});
   int Integer(std::string_view key, int fallback, Range range = {});
   bool Boolean(std::string_view key, bool fallback);

@@ -17,7 +17,7 @@ struct Node {
   Kind kind = Kind::kNull;
   std::string scalar;          ///< kScalar: the text without quotes
   std::vector<Node> items;     ///< kSequence: the elements, in order
-  std::vector<Entry> entries;  ///< kMapping, in the order of the document; keys are unique
+  std::vector<Entry> entries;  ///< kMapping: the entries, in the order of the document; keys are unique
   Place place;
 
   /// Returns the value of `key`, or null if this is not a mapping or has no such key.
@@ -35,7 +35,7 @@ struct Node::Entry {
 /// values and nesting deeper than 32 levels.
 Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t max_bytes = std::size_t{1} << 20);
 
-/// Returns the number of values in a document or in a part of a document, which itself counts as one value.
+/// Returns the number of values in a document or in a part of a document, including `node` itself.
 std::size_t CountValues(const Node& node);
 
 /// Describes a value for complaints: "a mapping", "a list", "'abc'", "nothing".

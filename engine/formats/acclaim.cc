@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxBones = 1000;
 constexpr double kCmuRateHz = 120;
-constexpr double kMaxRadians = 4 * kPi;  // an angle with a larger number must be in degrees
+constexpr double kMaxRadians = 4 * kPi;  // a larger angle must be in degrees
 
 glm::dquat TurnAbout(int axis, double angle) {
   glm::dvec3 direction(0);
@@ -301,7 +301,7 @@ struct AcclaimFrames {
   double largest = 0;
 };
 
-/// Reads the frames. If `is_told_degrees` is true, all angles are read as degrees, whatever unit the file states.
+/// Reads the frames; `is_told_degrees` as for SkeletonReader.
 Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file,
                                  bool is_told_degrees) {
   // Look up bones by their names.
@@ -325,7 +325,7 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
         return Fail(lines.At(), "frame {} after frame {}; allowed: the next one", number, last);
       }
       last = number;
-      // A frame may leave out bones, so that it is far larger in memory than in the file.
+      // A frame takes the memory of all bones even if the file leaves some out, so limit the memory.
       constexpr double kMaxFrameBytes = 1e9;
       const double bytes = static_cast<double>(clip.frames.size() + 1) *
                            static_cast<double>(clip.skeleton.joints.size() * sizeof(LocalTransform));

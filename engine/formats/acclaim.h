@@ -19,12 +19,12 @@ struct AcclaimSkeleton {
     bool turns = true;
     int axis = 0;
   };
-  Skeleton skeleton;                           ///< "root" comes first; lengths are in the file's unit
-  std::vector<std::vector<Channel>> channels;  ///< per joint: its channels, in the order of their values in a motion
-                                               ///< file
-  std::vector<glm::dquat> axes;                ///< per joint: the axes of its rotations
+  Skeleton skeleton;  ///< "root" comes first; lengths are in the file's unit
+  /// For each joint: its channels, in the order of their values in a motion file.
+  std::vector<std::vector<Channel>> channels;
+  std::vector<glm::dquat> axes;  ///< per joint: the axes of its rotations
   bool in_degrees = true;
-  std::string remark = "";  ///< about angles that are impossible in the stated unit; "" if there are none
+  std::string remark = "";  ///< message about angles that are impossible in the stated unit; "" if there are none
 };
 
 /// Returns true if a text begins like a motion (AMC): after comments, with a line ":FULLY-SPECIFIED" or ":DEGREES".

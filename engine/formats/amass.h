@@ -10,7 +10,7 @@
 namespace etude {
 
 /// Reads a motion of AMASS (Mahmood et al. 2019) from its arrays: `poses` with 72 (SMPL), 156 (SMPL-H) or 165 (SMPL-X)
-/// numbers per frame, which are joint rotations as rotation vectors; `trans` in metres, Z up; `mocap_framerate` or
+/// numbers per frame, the rotation vectors of the joints; `trans` in metres, Z up; `mocap_framerate` or
 /// `mocap_frame_rate`. The clip has SMPL's 22 body joints; fingers, jaw and eyes are left out. The licence forbids us
 /// to distribute the body model and its shapes, so limbs have our own lengths, for a height of 1.70 m: rotations are
 /// those of the recorded person, but positions are not accurate to the centimetre. Returns an error if arrays are

@@ -143,7 +143,7 @@ class Writer {
   const Clip& clip_;
   std::vector<std::vector<int>> children_;
   int root_ = -1;
-  std::vector<Column> columns_;  ///< in the order in which they are written
+  std::vector<Column> columns_;  ///< the columns, in the order in which they are written
   UniqueNames names_;
   std::string text_;
 };

@@ -11,11 +11,12 @@ namespace etude {
 
 /// The points of a C3D file.
 struct C3d {
-  MarkerMotion markers;  ///< metres; names are the file's labels, or, without a label, for example "point 7"
-  std::string unit;      ///< the file's unit, for example "mm"; "" if the file gives none, which means millimetres
-  char up = 0;           ///< 'X', 'Y' or 'Z' if POINT:Y_SCREEN gives it, else 0
+  /// Positions in metres; names are the file's labels, or, without a label, for example "point 7".
+  MarkerMotion markers;
+  std::string unit;  ///< the file's unit, for example "mm"; "" if the file gives none, which means millimetres
+  char up = 0;       ///< up axis 'X', 'Y' or 'Z' if POINT:Y_SCREEN gives it, else 0
   bool is_up_negative = false;  ///< true if the axis `up` points down
-  double step_m = 0;     ///< smallest difference of two coordinates if they are stored as whole numbers; 0 for floats
+  double step_m = 0;  ///< smallest difference of two coordinates if they are stored as whole numbers; 0 for floats
 };
 
 /// Returns true if bytes begin like a C3D file: a block number and the key 0x50.
@@ -26,8 +27,8 @@ bool IsC3d(std::string_view bytes);
 /// LONG_FRAMES). The markers' `remark` states if data follow the last frame. A point with a negative residual or
 /// without finite coordinates counts as not seen. Analogue channels, rotations and events are ignored. Widths of joints
 /// (PROCESSING:LKNEEWIDTH and so on, as Vicon writes them, millimetres) become the markers' `sizes_m`. Returns an error
-/// if the file is not C3D or is truncated, has no points or no rate, has a unit other than m, cm, mm, in, ft, or more
-/// than 10,000 points or 10⁷ frames.
+/// if the file is not C3D or is truncated, has no points or no rate, has a unit other than m, cm, mm, in, ft, or has
+/// more than 10,000 points or 10⁷ frames.
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file);
 
 /// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres; POINT:Y_SCREEN states that Y points

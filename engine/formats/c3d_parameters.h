@@ -9,7 +9,7 @@
 
 namespace etude {
 
-constexpr std::size_t kC3dBlock = 512;  ///< bytes
+constexpr std::size_t kC3dBlock = 512;  ///< size of a block, bytes
 
 /// The types of processor whose number formats a C3D file may use, with their codes in the file.
 enum class C3dMachine { kIntel = 84, kDec = 85, kMips = 86 };
@@ -46,7 +46,7 @@ class C3dParameters {
 
  private:
   struct Parameter {
-    int type = 0;  ///< −1 text, 1 bytes, 2 whole numbers, 4 floats
+    int type = 0;  ///< −1: text, 1: bytes, 2: whole numbers, 4: floats
     std::vector<std::size_t> sizes;
     std::size_t at = 0;  ///< position of the first value
 

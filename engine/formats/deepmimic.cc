@@ -19,7 +19,8 @@ enum class Rotation { kFixed, kAboutZ, kFree };
 struct HumanoidJoint {
   const char* name;
   int parent;
-  glm::dvec3 offset;  // metres, in the parent's axes; a standing body faces +X, and its right side is at +Z
+  // Offset from the parent, metres, in the parent's axes; a standing body faces +X, and its right side is at +Z.
+  glm::dvec3 offset;
   Rotation rotation;
   bool is_end_site = false;
 };

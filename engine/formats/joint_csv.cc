@@ -134,6 +134,7 @@ std::string WriteJointCsv(const BodyMotion& motion) {
 }
 
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
+  // Find the columns, then read the rows.
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTime, true));
   if (table.RowCount() > kMaxRows) return Fail({file}, "{} rows; allowed: {}", table.RowCount(), kMaxRows);
   JointCsv csv;
@@ -166,7 +167,8 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
 }
 
 Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file) {
-  // Below their heading, values are separated as in the file, and a word in the first column is no heading.
+  // Put the heading above the row: it determines the separator, and a word in the row's first column is then no
+  // heading.
   ASSIGN_OR_RETURN(const NumberRows table,
                    ReadNumberRows(columns.heading + "\n" + std::string(row), file, kMaxTime, true));
   RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));

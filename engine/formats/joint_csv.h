@@ -20,7 +20,7 @@ std::string WriteJointCsv(const BodyMotion& motion);
 
 /// The columns of a joint CSV file, found by their headings.
 struct JointCsvColumns {
-  std::string heading;  ///< their line; it also decides what separates the values of a row
+  std::string heading;  ///< the line of headings, which also determines the separator of values
   std::size_t count = 0;
   std::optional<std::size_t> time = {}, number = {};
   /// The columns of x, y and z for each joint; nullopt if the file lacks the joint.
@@ -31,11 +31,11 @@ struct JointCsvColumns {
 /// The contents of a joint CSV file. It may lack joints, and a joint may be missing in some frames.
 struct JointCsv {
   JointCsvColumns columns;
-  std::optional<double> rate_hz;  ///< from the median of the positive time steps; nullopt if there is none
+  std::optional<double> rate_hz;  ///< rate from the median of the positive time steps; nullopt if there is none
   TimeScale scale;                ///< unit and origin of the column `time_s`
-  std::vector<double> times_s;    ///< per frame, in seconds, converted by `scale`; NaN if unknown
-  std::vector<double> numbers;    ///< per frame: its value in the column `frame`; empty if the file lacks this column
-  std::vector<int> lines;         ///< per frame: its line in the text, from 1
+  std::vector<double> times_s;    ///< time of each frame, in seconds, converted by `scale`; NaN if unknown
+  std::vector<double> numbers;    ///< value of each frame in the column `frame`; empty if the file lacks this column
+  std::vector<int> lines;         ///< line of each frame in the text, from 1
   std::vector<std::array<std::optional<glm::dvec3>, kRoleCount>> frames;
   std::string remark;  ///< message for the user about assumptions and ignored columns
 };
@@ -46,7 +46,7 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file);
 
 /// One row of a joint CSV file.
 struct JointCsvRow {
-  double time_s = 0;  ///< in the file's own unit and origin; NaN if unknown
+  double time_s = 0;  ///< time in the file's own unit and origin; NaN if unknown
   std::array<std::optional<glm::dvec3>, kRoleCount> places = {};
 };
 /// Reads one more row of a file with known columns. Returns an error for anything that `ReadJointCsv` refuses in a row.

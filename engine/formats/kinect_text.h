@@ -17,9 +17,9 @@ constexpr std::size_t kKinectV2JointCount = 25;
 /// The position of each role; empty if it is missing.
 using RolePositions = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
-/// One frame of a Kinect v2: the positions of its 25 joints in the order of the SDK's JointType, in metres, in the
-/// sensor's frame (Y up, Z away from the sensor, X to the sensor's left: the left side of a person who faces it has
-/// smaller X).
+/// One frame of a Kinect v2: the positions of its 25 joints in the order of the SDK's JointType, metres. Axes are the
+/// sensor's: Y up, Z away from the sensor, X to the sensor's left. The left side of a person who faces the sensor has
+/// smaller X.
 using KinectV2Frame = std::array<std::optional<glm::dvec3>, kKinectV2JointCount>;
 
 /// Reads a recording of a Kinect v2 as text with one line per frame: 25 × (x, y, z), or 25 × (x, y, z, qx, qy, qz, qw),

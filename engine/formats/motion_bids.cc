@@ -189,7 +189,7 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
       const bool is_gap = gaps[i] >= (missing == 0 ? 3 : 1);
       if (!is_gap && !std::isnan(places[i].x + places[i].y + places[i].z)) frame[i] = places[i];
     }
-    // 0 is a time, too.
+    // A time of 0 is a value, even in a file where 0 means "missing".
     const double time = channels.latency ? row[*channels.latency] : std::nan("");
     laid.times_s.push_back(missing && *missing != 0 && time == *missing ? std::nan("") : time);
     laid.lines.push_back(table.lines[t]);

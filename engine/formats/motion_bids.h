@@ -25,8 +25,8 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
 
 /// The properties that `_motion.json` states.
 struct BidsFacts {
-  double rate_hz = 0;            ///< the value of SamplingFrequency
-  std::string missing = "n/a";  ///< MissingValues: how the recording writes a missing value
+  double rate_hz = 0;           ///< the value of SamplingFrequency
+  std::string missing = "n/a";  ///< the value of MissingValues: the text of a cell without a value
 };
 
 /// Reads the POS channels of a recording: tracked points with the components x, y, z in m, cm or mm; a point is not

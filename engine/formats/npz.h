@@ -12,7 +12,7 @@ namespace etude {
 
 /// An array of numbers in C order (the last index varies fastest).
 struct NumberArray {
-  std::vector<std::size_t> shape;  ///< empty for a single number
+  std::vector<std::size_t> shape;  ///< size of each dimension; empty for a single number
   std::vector<double> values;
 };
 

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-constexpr double kMaxPosition = 1e9;  // in any unit
+constexpr double kMaxPosition = 1e9;  // limit of positions, in any unit
 constexpr std::size_t kMaxTextColumns = 100;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -44,7 +44,7 @@ std::vector<std::string_view> WordsOf(std::string_view line, char separator) {
   return words;
 }
 
-/// Removes the empty word behind a separator that ends a line ("1,2,3,"), unless the line has no more words than
+/// Removes the empty word after a separator that ends a line ("1,2,3,"), unless the line has no more words than
 /// `columns`: then its last value is missing.
 void DropEmptyEnd(std::vector<std::string_view>& words, std::size_t columns) {
   if (words.size() > std::max<std::size_t>(columns, 1) && words.back().empty()) words.pop_back();
@@ -111,7 +111,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
         value = NumberWithComma(words[i]);
         table.has_decimal_commas = table.has_decimal_commas || value;
       }
-      // A column of texts.
+      // In the first row, a word makes its column a column of texts.
       const bool may_be_text = is_first && allows_texts && table.texts.size() < kMaxTextColumns;
       if (!value && may_be_text) table.texts.emplace_back(i, words[i]);
       const auto is_here = [i](const auto& column) { return column.first == i; };

@@ -15,8 +15,8 @@ namespace etude {
 struct NumberRows {
   std::string heading;  ///< the first line that is neither empty nor a comment, unless it is a row of numbers
   std::size_t columns = 0;
-  std::vector<double> values;  ///< row by row; NaN for a missing value
-  std::vector<int> lines;      ///< per row: its line in the text, from 1
+  std::vector<double> values;  ///< the numbers, row by row; NaN for a missing value
+  std::vector<int> lines;      ///< line of each row in the text, from 1
   bool has_decimal_commas = false;
   /// The columns that contain texts, each with its first text; all their values are NaN.
   std::vector<std::pair<std::size_t, std::string>> texts = {};

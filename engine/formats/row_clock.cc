@@ -20,8 +20,8 @@ constexpr double kBriefTolerance = 0.05;
 constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;
 constexpr double kMaxAddedValues = 1e7;
 
-/// Returns the power of ten, at most 0.1, of which all times are multiples: the last decimal to which they were
-/// printed. Returns 0 if they have more than six decimals.
+/// Returns the last decimal to which all times were printed: the largest power of ten, at most 0.1, of which they are
+/// multiples. Returns 0 if they have more than six decimals.
 double PrintedStep(std::span<const double> times) {
   constexpr double kRounding = 1e-6;
   for (double scale = 10; scale < 2e6; scale *= 10) {

@@ -30,15 +30,15 @@ struct RowGrid {
 };
 
 /// Places rows on an even grid of frames by their times, which may be rounded to some decimals. The rate fits the steps
-/// between neighbouring rows; a whole rate, or `told_hz` (from the file's header, if any), is preferred if it is within
-/// their rounding. Rows are evenly spaced if times are printed so coarsely that neighbours share one. Rows that span
-/// less than half a second get the rate `told_hz`, or count as having no clock if their steps differ from it by more
-/// than 5 %. A frame takes the row whose time is within a tenth of a frame of the frame's time (or within the rounding
-/// of times). Without such a row, the frame is interpolated between two rows, or it is a hole if a row is missing. Of
-/// rows with equal times only the last is used. Returns nullopt if there is no clock: there are fewer than two rows, no
-/// row has a time, or all times are equal. Fails, naming the row's line (`lines` may be empty), for a missing time,
-/// decreasing times, steps over ten minutes, and holes of more than ten million values in total, `width` values per
-/// frame.
+/// between neighbouring rows; a whole rate, or `told_hz` (from the file's header, if any), is preferred if the rounding
+/// of the times allows it. Rows are evenly spaced if times are printed so coarsely that neighbours share one. Rows that
+/// span less than half a second get the rate `told_hz`, or count as having no clock if their steps differ from it by
+/// more than 5 %. A frame takes the row whose time is within a tenth of a frame of the frame's time (or within the
+/// rounding of times). Without such a row, the frame is interpolated between two rows, or it is a hole if a row is
+/// missing. Of rows with equal times only the last is used. Returns nullopt if there is no clock: there are fewer than
+/// two rows, no row has a time, or all times are equal. Fails, naming the row's line (`lines` may be empty), for a
+/// missing time, decreasing times, steps over ten minutes, and holes of more than ten million values in total, `width`
+/// values per frame.
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 
@@ -49,11 +49,11 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
 /// Markers in the rows of a file, before they are placed on frames.
 struct MarkerRows {
   MarkerMotion markers;
-  std::vector<double> times_s;  ///< one per row; NaN if the row gives none
-  std::vector<int> lines;       ///< line of each row, from 1
-  bool has_clock = true;        ///< false if the times were made from frame numbers
-  std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
-  std::string time_name = "the column Time";  ///< what holds the times
+  std::vector<double> times_s;                ///< time of each row; NaN if the row gives none
+  std::vector<int> lines;                     ///< line of each row, from 1
+  bool has_clock = true;                      ///< false if the times were made from frame numbers
+  std::string rate_name = "";                 ///< the header that gives `markers.rate_hz`; "" if none does
+  std::string time_name = "the column Time";  ///< what holds the times, in words for messages
 };
 /// Places markers on frames by their times, whose unit FindTimeScale finds; in a hole, no marker was seen. The remark
 /// says what was changed. Fails like GridOfRows.

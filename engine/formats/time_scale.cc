@@ -12,7 +12,7 @@ namespace etude {
 
 double TimeScale::SecondsOf(double count) const {
   if (first == 0) return count * seconds;
-  constexpr double kPerSecond = 1e6;  // round to microseconds: a double has no finer times since 1970
+  constexpr double kPerSecond = 1e6;  // round to microseconds: a double cannot store times since 1970 more finely
   return std::round((count - first) * seconds * kPerSecond) / kPerSecond;
 }
 

@@ -110,7 +110,7 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
       const std::string_view cell = at < cells.size() ? cells[at] : std::string_view{};
       const auto value = NumberIn(cell);
       if (!cell.empty() && !value) return Fail(place, "{} is not a number", Quote(cell));
-      constexpr double kMaxCoordinate = 1e9;  // in millimetres, the unit of written files
+      constexpr double kMaxCoordinate = 1e9;  // limit of coordinates in millimetres, the unit of written files
       is_seen =
           is_seen && value && std::abs(*value) * (kMillimetres * header.metres) <= kMaxCoordinate;  // false for "nan"
       if (is_seen) position[static_cast<int>(axis)] = header.metres * *value;
@@ -166,7 +166,8 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   }
   TakeLine(text, line);  // skip the line X1 Y1 Z1 …
   if (text.find(',') != std::string_view::npos) motion.remark = "its numbers have decimal commas";
-  // Check the size before any frame is stored: a row may leave out the cells of its last markers.
+  // Check the size before any frame is stored: rows may leave out the cells of their last markers, so frames may take
+  // far more memory than the text.
   constexpr double kMaxFrameBytes = 1e9;
   const auto line_ends = static_cast<double>(std::ranges::count(text, '\n'));
   const double bytes = line_ends * static_cast<double>(header.markers * sizeof(std::optional<glm::dvec3>));

@@ -23,10 +23,10 @@ struct MarkerMotion {
   std::vector<std::string> names;
   /// The markers' positions in each frame, in metres; nullopt if a marker was not seen.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
-  std::string remark = "";     ///< a message of the reader for the user
-  double metres_per_unit = 1;  ///< metres per unit of the file; the positions here are in metres
-  std::map<std::string, double> sizes_m = {};  ///< sizes of the body that the file states: "LKNEEWIDTH"
-  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
+  std::string remark = "";                     ///< a message for the user about the file
+  double metres_per_unit = 1;                  ///< metres per unit of the file; the positions here are in metres
+  std::map<std::string, double> sizes_m = {};  ///< body sizes by the file's names ("LKNEEWIDTH"), metres
+  std::optional<double> start_s = {};          ///< the first frame's time by the file's own clock, if it states one
 };
 
 /// Writes markers as a TRC file. The cells of a marker that was not seen are empty, as OpenSim expects.

@@ -62,7 +62,8 @@ void AddCorners(const ActivatedTerm& term, const Universe& universe, std::vector
   }
   if (const auto* gaussian = std::get_if<Gaussian>(&term.shape)) {
     constexpr int kSteps = 128;
-    constexpr double kReach = 8;  // in standard deviations from the mean; farther away, the grade is below 1e-13
+    // Distance from the mean in standard deviations; farther away, the grade is below 1e-13.
+    constexpr double kReach = 8;
     for (int i = 0; i <= kSteps; ++i) {
       corners.push_back(gaussian->mean + gaussian->sigma * kReach * (2.0 * i / kSteps - 1));
     }
@@ -96,8 +97,8 @@ std::vector<double> CornersOf(std::span<const ActivatedTerm> terms, const Univer
   return all;
 }
 
-/// Returns the area and the first moment of the union of the terms, by Simpson's rule between corners, which is exact
-/// for straight lines.
+/// Returns the area and the first moment of the union of the terms, by Simpson's rule between corners. The rule is
+/// exact for straight lines.
 Moment AreaUnder(std::span<const ActivatedTerm> terms, const Universe& universe) {
   const auto height = [&](double x) {
     double highest = 0;

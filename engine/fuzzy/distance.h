@@ -9,7 +9,7 @@ namespace etude {
 /// One number per feature, in the order of `AllFeatures`.
 using PerFeature = std::array<double, kFeatureCount>;
 
-/// The weights S of equation 1, one per feature. They sum to 8, so that thresholds keep their meaning.
+/// The weights S of equation 1, one per feature. They sum to 8, so that a threshold means the same for all weights.
 using FeatureWeights = PerFeature;
 constexpr double kWeightSum = 8;
 

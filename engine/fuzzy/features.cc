@@ -78,7 +78,7 @@ PoseFeatures ComputeFeatures(const BodyPose& pose, double standing_hip_height) {
   features[kLH] = degrees(limb(kLeftShoulder, kLeftElbow), down);
   features[kRHE] = degrees(limb(kRightShoulder, kRightElbow), limb(kRightElbow, kRightWrist));
   features[kLHE] = degrees(limb(kLeftShoulder, kLeftElbow), limb(kLeftElbow, kLeftWrist));
-  constexpr double kStandingScale = 80;  // in equations 7–10, "stand" is at 80
+  constexpr double kStandingScale = 80;  // value of Posture when standing, as in equations 7–10
   features[kPosture] = kStandingScale * pose[kHipCentre].y / standing_hip_height;
   features[kTrunk] = 180.0 - degrees(trunk, {0, 1, 0});
   features[kRF] = degrees(limb(kRightHip, kRightKnee), down);
@@ -92,8 +92,9 @@ double StandingHipHeight(const BodyPose& pose) {
   const auto length = [&](Role from, Role to) { return glm::distance(pose[from], pose[to]); };
   const double thigh = 0.5 * (length(kLeftHip, kLeftKnee) + length(kRightHip, kRightKnee));
   const double shank = 0.5 * (length(kLeftKnee, kLeftAnkle) + length(kRightKnee, kRightAnkle));
-  // The ankle is 0.039 of the body's height above the sole, and a shank is 0.246 of it (Drillis and Contini 1966). The
-  // foot bone cannot be used, because in some files it ends at the base of the toe, in others at its tip.
+  // The ankle's height above the sole is 0.039 of the stature, and the shank's length is 0.246 of it (Drillis and
+  // Contini 1966). The foot bone cannot be used, because in some files it ends at the base of the toe, in others at its
+  // tip.
   constexpr double kAnkleHeightPerShank = 0.039 / 0.246;
   return thigh + shank * (1.0 + kAnkleHeightPerShank);
 }

@@ -20,7 +20,7 @@ namespace {
 /// The part of a fuzzy system that a file sets per feature: memberships and weights.
 struct FeatureSettings {
   Memberships memberships;
-  FeatureWeights weights{};  ///< scaled to sum to 8
+  FeatureWeights weights{};  ///< the weights, scaled to sum to 8
 };
 
 std::vector<std::string> FeatureNames() {

@@ -19,7 +19,7 @@ struct Rule {
 
 /// The rules of a fuzzy system. Several rules may conclude the same pose.
 struct RuleBase {
-  std::vector<std::string> poses;  ///< unique, in the order of their first use by a rule
+  std::vector<std::string> poses;  ///< names of the poses, unique, in the order of their first use by a rule
   std::vector<Rule> rules;
 };
 
@@ -42,8 +42,7 @@ struct FuzzySystem {
 };
 
 /// Reads a system from the text of a YAML file; error messages name it `file`. The file must hold all features and
-/// terms of table 1 and no others. Weights are relative: they are scaled to sum to 8, so that thresholds keep their
-/// meaning.
+/// terms of table 1 and no others. Weights are relative: they are scaled to sum to 8.
 Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& file);
 /// Returns the text from which ReadFuzzySystem reads the same system, bit for bit.
 std::string WriteFuzzySystem(const FuzzySystem& system);

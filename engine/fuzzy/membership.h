@@ -16,17 +16,18 @@ struct Node;
 
 /// The shapes of membership functions that paper A names (section 2.4, figure 1). Inputs have the feature's unit.
 struct Triangular {
-  /// 0 up to `left`, 1 at `peak`, 0 from `right`; left ≤ peak ≤ right, equal for a vertical side.
+  /// The grade is 0 up to `left`, 1 at `peak`, 0 from `right`; left ≤ peak ≤ right, equal for a vertical side.
   double left, peak, right;
 };
 struct Trapezoidal {
-  double left, left_top, right_top, right;  ///< 0 up to `left`, 1 between the tops, 0 from `right`; in ascending order
+  /// The grade is 0 up to `left`, 1 between the tops, 0 from `right`; the four are in ascending order.
+  double left, left_top, right_top, right;
 };
 struct Gaussian {
-  double mean, sigma;  ///< exp(−(x − mean)² / 2 sigma²), sigma > 0
+  double mean, sigma;  ///< the grade is exp(−(x − mean)² / 2 sigma²), sigma > 0
 };
 struct Singleton {
-  double at;  ///< 1 at this input, 0 elsewhere
+  double at;  ///< the grade is 1 at this input, 0 elsewhere
 };
 using Shape = std::variant<Triangular, Trapezoidal, Gaussian, Singleton>;
 
@@ -34,7 +35,7 @@ using Shape = std::variant<Triangular, Trapezoidal, Gaussian, Singleton>;
 double GradeOf(const Shape& shape, double input);
 
 struct Cut {
-  double low = 0, high = 0;  ///< closed interval
+  double low = 0, high = 0;  ///< limits of the closed interval
 };
 
 /// Returns the α-cut for a grade in (0, 1]: the set of inputs whose grade is at least `grade`. It is one interval,
@@ -64,7 +65,7 @@ struct Universe {
 /// The membership functions of all terms.
 struct Memberships {
   std::array<Universe, kFeatureCount> universes{};
-  std::array<Shape, kTermCount> shapes{};  ///< in the order of `AllTerms`
+  std::array<Shape, kTermCount> shapes{};  ///< the shape of each term, in the order of `AllTerms`
 };
 
 /// Returns equations 2–16, as in scenarios/fuzzy/paper.yaml. As printed in the paper, the grades of elbows, trunk and

@@ -37,8 +37,8 @@ struct WeightFit {
   int iterations = 0;
 };
 
-/// Fits the `adaptive` weights (ours) by logistic regression, P(close) = σ(b − Σ w_k Δ_k²), with
-/// Newton's method. Then w is clipped at 0 and rescaled to sum to 8, so that the threshold 0.4 keeps its meaning.
+/// Fits the `adaptive` weights (ours) by logistic regression, P(close) = σ(b − Σ w_k Δ_k²), with Newton's method. Then
+/// w is clipped at 0 and rescaled to sum to 8.
 WeightFit FitWeights(std::span<const LabelledPair> pairs, const WeightFitOptions& options = {});
 
 }  // namespace etude

@@ -189,8 +189,8 @@ class Adjuster {
     }
   }
 
-  // Adds a mark for each keypoint. Adds marks that keep joints which fewer than two cameras see near their start
-  // positions.
+  // Adds a mark for each keypoint. If fewer than two cameras see a joint, further marks hold it near its start position
+  // (HoldUnseen).
   void AddMarks() {
     const double error = KeypointErrorPx(cameras_, seen_, options_.min_confidence, person_.outlier_px);
     std::vector<std::array<int, kRoleCount>> views(person_.states.size());
@@ -216,9 +216,10 @@ class Adjuster {
     if (options_.outlines != nullptr) AddOutlines(error);
   }
 
-  /// Adds the motion from silhouettes: in every camera and frame, a mark at the projection of each joint. Its standard
-  /// deviation is the joint's median distance between this motion and the motion from keypoints, times the square root
-  /// of the frame rate: errors of neighbouring frames are correlated, so the marks of one second count as one.
+  /// Adds the motion from silhouettes: a mark at the projection of each joint, in every camera and frame. A mark's
+  /// standard deviation is the joint's median distance between this motion and the motion from keypoints, times the
+  /// square root of the frame rate. (Errors of neighbouring frames are correlated, so the marks of one second count as
+  /// one.)
   void AddOutlines(double min_px) {
     const auto alike = std::sqrt(std::max(1.0, options_.rate_hz));
     const std::size_t frames = std::min(person_.states.size(), options_.outlines->poses.size());

@@ -30,7 +30,8 @@ double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedP
 /// height; if no camera ever sees the landmark, the standard deviation is twice the keypoint error. The trunk has one
 /// length; the spine does not bend forward or sideways. Returns true if the problem was solved; otherwise `person` is
 /// unchanged.
-/// @param cameras of the rig, without lens distortion, in the world of `person`; all pixels must be undistorted
+/// @param cameras the cameras of the rig, without lens distortion, in the world of `person`; all pixels must be
+/// undistorted
 /// @param seen the keypoints from which `person` was recovered
 bool AdjustPerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen,
                   const AdjustPersonOptions& options, RecoveredPerson& person);

@@ -26,7 +26,8 @@ enum Cue { kCameras, kFeetAtRest, kStraight, kFlight, kCueCount };
 constexpr std::array<const char*, kCueCount> kCueNames = {"the cameras' horizons", "resting feet",
                                                           "a person who stands straight", "gravity in jumps"};
 
-/// The directions of a camera's picture in one of its quarter turns: its rows, its upper edge, and the viewing axis.
+/// The directions, in the world, of a picture that was rotated by quarter turns: along its rows, towards its upper
+/// edge, and ahead.
 struct Picture {
   glm::dvec3 right, above, ahead;
 };
@@ -171,7 +172,7 @@ std::optional<glm::dvec3> Flight(std::span<const LandmarkPositions> points, doub
     }
     slope /= t4;
     curve /= norm;
-    // The frames show a flight if the parabola fits and its acceleration is near gravity's.
+    // The frames show a flight if the parabola fits and its acceleration is close to that of gravity.
     double worst = 0;
     for (std::size_t i = 0; i < window; ++i) {
       const double t = static_cast<double>(i) - middle;
@@ -262,8 +263,8 @@ class Cues {
   void AddFeet(const glm::dvec3& up, Sum& sum) const {
     if (stays_.empty()) return;
     constexpr double kSameHeight = 0.008, kFlatFoot = 0.015, kShare = 0.5, kMaxCost = 2, kUnder = 3;
-    // per kind: mean position of its stays, height above the sole
-    std::vector<std::pair<glm::dvec3, double>> kinds;  // middle of a kind's stays; its height above the sole
+    // For each kind: the mean position of its stays, and its height above the sole.
+    std::vector<std::pair<glm::dvec3, double>> kinds;
     for (std::size_t kind = 0; kind < kFootKinds; ++kind) {
       std::vector<double> heights;
       for (const FootStay& stay : stays_) {
@@ -363,7 +364,8 @@ FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPos
   constexpr double kSolvedFor = 2;
   const double spread = std::max(1.0, sum.squares / std::max(1.0, sum.count - kSolvedFor));
   FoundUp best{up, std::sqrt(spread) * sum.Deviation(), 0, NameCues(sum)};
-  constexpr double kNinetyFive = 2.45, kNearly = 3, kOther = Radians(10);  // in the plane, 2.45 σ contain 95 %
+  // In two dimensions, a radius of 2.45 σ contains 95 %.
+  constexpr double kNinetyFive = 2.45, kNearly = 3, kOther = Radians(10);
   best.within = std::min(kPi, kNinetyFive * best.deviation);
   for (const auto& [rival_cost, rival] : found) {
     const double apart = AngleBetween(up, rival);

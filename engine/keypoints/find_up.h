@@ -13,7 +13,7 @@ namespace etude {
 struct FoundUp {
   glm::dvec3 up;
   double deviation = 0;  ///< standard deviation in radians, along the axis in which the direction is least certain
-  double within = 0;     ///< the truth is within this angle in 95 of 100 takes, radians
+  double within = 0;     ///< angle from the true direction that is not exceeded in 95 of 100 takes, radians
   std::string by;        ///< the evidence: "the cameras' horizons and resting feet"
 };
 
@@ -30,7 +30,7 @@ struct FoundUp {
 ///   parabola fits with an acceleration within 15 % of 9.81 m/s².
 /// `deviation` is enlarged if the cues disagree by more than these scales. If another direction explains the cues
 /// nearly as well, `within` is at least the angle to that direction. Other postures are not used as cues.
-/// @param metre length of a metre in the points' unit
+/// @param metre the length of a metre in the points' unit
 FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPositions> points, double rate_hz,
                double stature, double metre);
 

@@ -16,7 +16,7 @@ struct PictureOfFilm {
   Camera camera;
   PixelFit fit;           ///< the fit that the caller declares
   glm::dvec2 film_px{0};  ///< the size of the film's pictures
-  SeenPeople people;      ///< in the file's pixels
+  SeenPeople people;      ///< the people in the film, in the file's pixels
   bool is_sized = false;  ///< true if the file states the picture size; `people` are then in the film's pixels
 };
 
@@ -28,12 +28,12 @@ struct PictureGuess {
 
 /// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or
 /// mirrored. Cameras are corrected one after the other, the camera with the largest gain first. A correction is tried
-/// only if the keypoints are more than 0.3 % of the height off the other cameras' epipolar lines, and it must reduce
-/// this distance to less than half and to less than 5 % of the height (median over frames, over the best-fitting people
-/// and labelling of sides). A wrong correction cannot halve random errors. If pictures were fitted, the keypoints of
-/// all films may instead be pixels of the original pictures, on which the estimator then ran. The interpretation with
-/// the smaller distance is taken, unless a file states the film's size. `told` also names a second correction that is
-/// nearly as good, which is common with two cameras.
+/// only if the keypoints are more than 0.3 % of the height off the other cameras' epipolar lines. It must reduce this
+/// distance to less than half and to less than 5 % of the height (median over frames, for the best-fitting people and
+/// labelling of sides). A wrong correction cannot halve random errors. If pictures were fitted, the estimator may have
+/// run on the original pictures; the keypoints of all films are then pixels of these pictures. The interpretation with
+/// the smaller distance is taken, unless a file states the film's size. `told` also names a second correction if it is
+/// nearly as good, as is common with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// Returns the distance of keypoints, mapped as declared, from the other cameras' epipolar lines, as a share of the

@@ -15,8 +15,8 @@ using Films = std::vector<PictureOfFilm>;
 
 constexpr std::size_t kMaxFilms = 8;  // with more films, exchanges are not tried
 
-/// A possible mistake in how keypoints were stored: `pixel` maps a pixel of the file to the right pixel of a film of
-/// this size.
+/// A possible mistake in how keypoints were stored. `told` describes it for users. `pixel` maps a pixel of the file to
+/// the correct pixel of a film of this size.
 struct Reading {
   std::string_view told;
   glm::dvec2 (*pixel)(const glm::dvec2& p, const glm::dvec2& size);
@@ -41,8 +41,8 @@ constexpr std::array kReadings = {
     Reading{"keypoints are shares of the picture's longer side",
             [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0); }}};
 
-/// Returns the camera that results if the pose in the rig's file, p_C = R_CF p_F + t, is read in another way: as the
-/// inverse map if `is_inverse`, and as that of a camera that looks along −z if `is_opengl`.
+/// Returns the camera for another reading of the pose in the rig's file, p_C = R_CF p_F + t: the inverse map if
+/// `is_inverse`, and the pose of a camera that looks along −z if `is_opengl`.
 Camera WithPose(Camera camera, const glm::dmat3& R_WF, bool is_inverse, bool is_opengl) {
   glm::dmat3 R_CF = camera.R_CW * R_WF;
   glm::dvec3 t = -(camera.R_CW * camera.p_WC);

@@ -12,8 +12,8 @@ namespace etude {
 
 /// The correction of a mistake that concerns a whole session.
 struct SessionGuess {
-  std::vector<Camera> cameras;     ///< corrected, one per film
-  std::vector<SeenPeople> people;  ///< corrected, one per film, in the films' pixels
+  std::vector<Camera> cameras;     ///< corrected cameras, one per film
+  std::vector<SeenPeople> people;  ///< corrected keypoints of each film, in the films' pixels
   std::string mended;              ///< description of the correction; "" if everything is as declared
 };
 

@@ -135,6 +135,7 @@ void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cu
 
 RoleVectors JointsOf(const LandmarkPositions& marks) {
   const auto at = [&](Landmark landmark) { return marks[Index(landmark)]; };
+  // Take the joints that are landmarks; extend the forearm if a hand is missing.
   RoleVectors joints;
   for (const auto& [landmark, role] : kJointLandmarks) joints[Index(role)] = at(landmark);
   for (const SideRoles& side : kSides) {
@@ -142,6 +143,7 @@ RoleVectors JointsOf(const LandmarkPositions& marks) {
     auto& hand = joints[Index(side.hand)];
     if (!hand && elbow && wrist) hand = *wrist + kHandOfForearm * (*wrist - *elbow);
   }
+  // Compute the joints between landmarks.
   joints[Index(Role::kHipCentre)] = Middle(at(kLeftHip), at(kRightHip));
   joints[Index(Role::kShoulderCentre)] = Middle(at(kLeftShoulder), at(kRightShoulder));
   auto& head = joints[Index(Role::kHead)];

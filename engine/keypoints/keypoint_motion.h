@@ -21,14 +21,13 @@ struct TriangulateOptions {
   RobustOptions robust;
 };
 
-/// Statistics of a triangulation.
 struct TriangulationReport {
   std::vector<double> rejected;  ///< for each camera, the share of its keypoints that were outliers
   double residual_px = 0;        ///< median reprojection error over all points
-  double found = 0;              ///< share of frames × landmarks that were triangulated, without landmarks never seen
+  /// Triangulated share of all frames × landmarks; landmarks that are never seen do not count.
+  double found = 0;
 };
 
-/// A landmark in one frame.
 struct TriangulatedLandmark {
   std::size_t frame = 0, landmark = 0;
   std::vector<std::size_t> cameras;  ///< indices of the cameras that see it with enough confidence
@@ -41,15 +40,15 @@ std::vector<TriangulatedLandmark> TriangulateLandmarks(std::span<const Projectio
                                                        const MatchedPerson& person, const TriangulateOptions& options);
 
 /// Triangulates the person's landmarks in every frame, each from the cameras that agree on it, weighted by confidence.
-/// @param cameras of the rig, without lens distortion; all pixels must be undistorted
+/// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
 std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
                                               const TriangulateOptions& options, TriangulationReport* report = nullptr);
 
 /// Fills gaps of at most `max_gap` frames by linear interpolation between the landmark's positions before and after.
 void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap);
 
-/// Smooths positions by a Gaussian filter over time with half of the power at `cutoff_hz`: each position becomes a
-/// weighted mean of the positions around it. The filter has no delay. A cutoff of at least half the rate changes
+/// Smooths positions over time by a Gaussian filter that passes half of the power at `cutoff_hz`. Each position becomes
+/// a weighted mean of the positions around it. The filter has no delay. A cutoff of at least half the rate changes
 /// nothing.
 void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cutoff_hz);
 

@@ -30,8 +30,9 @@ double KeypointVarianceOf(const RobustPoint& point);
 
 /// Measures the random error of keypoints by how well the cameras agree: σ² is the median of KeypointVarianceOf over
 /// all points, triangulated with equal weights. Errors that all cameras share are not included; errors of a wrong
-/// calibration are. Returns nullopt if no point is found. *(Ours.)* @param cameras of the rig, without lens distortion;
-/// all pixels must be undistorted @param outlier_px keypoints farther off are left out (`RobustOptions`)
+/// calibration are. Returns nullopt if no point is found. *(Ours.)*
+/// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
+/// @param outlier_px keypoints farther off are left out (`RobustOptions`)
 std::optional<KeypointNoise> MeasureKeypointNoise(std::span<const ProjectionMatrix> cameras,
                                                   const MatchedPerson& person, double min_confidence,
                                                   double outlier_px);

@@ -23,7 +23,7 @@ struct FollowOptions {
 
 /// A person tracked through frames of one camera, as indices into `people[frame]`.
 struct PersonTrack {
-  std::map<std::size_t, std::size_t> entries;  ///< frame → index; at least one
+  std::map<std::size_t, std::size_t> entries;  ///< index of the person, by frame; at least one entry
 
   std::size_t first() const { return entries.begin()->first; }
   std::size_t last() const { return entries.rbegin()->first; }
@@ -46,7 +46,7 @@ struct MatchOptions {
 
 /// One person as seen by all cameras.
 struct MatchedPerson {
-  /// `seen[camera][frame]`
+  /// The person's keypoints, `seen[camera][frame]`; nullopt where a camera does not show the person.
   std::vector<std::vector<std::optional<SeenPerson>>> seen;
   double error = 0;      ///< the quantity that `max_error` limits; 0 if only one camera saw the person
   double sightings = 0;  ///< sum of the confidences of all keypoints, over cameras and frames
@@ -57,8 +57,8 @@ struct MatchedPerson {
 /// ascending order of the distance between their rays; two tracks of one camera that overlap in time are never one
 /// person. The result is deterministic: ties go to the track that began first. Persons are ordered by `sightings`,
 /// descending.
-/// @param cameras of the rig, without lens distortion; all pixels must be undistorted
-/// @param people of each camera, all with the same number of frames
+/// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
+/// @param people the people of each camera, all with the same number of frames
 std::vector<MatchedPerson> MatchPeople(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                        const MatchOptions& options = {});
 

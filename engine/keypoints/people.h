@@ -17,7 +17,8 @@ namespace [[gnu::visibility("default")]] etude {
 struct Marks;
 enum class Role;
 
-/// The body landmarks that keypoint estimators detect, and the finger tips that marks show. Left is the person's own.
+/// The body landmarks that keypoint estimators detect, and the finger tips that marks show. Left and right are the
+/// person's own.
 enum class Landmark {
   kNose,
   kLeftEye,
@@ -88,8 +89,8 @@ struct KeypointLayout {
 };
 
 /// Returns all layouts: "coco" (17 points), "coco_18" (OpenPose's), "body_25" and "body_25b" (25 each, in different
-/// orders; OpenPose), "halpe_26", "mediapipe" (33), "coco_wholebody" (133), "halpe_136", and "halpe_26_hands" (ours):
-/// halpe_26 with the finger tips, which contains every landmark; `etude export` writes marks in it.
+/// orders; OpenPose), "halpe_26", "mediapipe" (33), "coco_wholebody" (133), "halpe_136", and "halpe_26_hands". The last
+/// one is ours: halpe_26 with the finger tips. It contains every landmark, and `etude export` writes marks in it.
 std::span<const KeypointLayout> KeypointLayouts();
 std::vector<std::string> KeypointLayoutNames();
 /// Finds a layout by its name; returns null if there is none.

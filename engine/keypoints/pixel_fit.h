@@ -9,7 +9,8 @@
 
 namespace etude {
 
-/// The map from the rig's pixels to a film's: scale · rig + shift on each axis, then the mirroring, then the rotation.
+/// The map from the rig's pixels to a film's: scale · pixel + shift on each axis, then the mirroring, then the
+/// rotation.
 struct PixelFit {
   glm::dvec2 scale{1};
   glm::dvec2 shift{0};

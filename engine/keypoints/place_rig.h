@@ -17,8 +17,7 @@ namespace etude {
 struct PlacementOptions {
   /// "auto", a name of RigUnits(), or the number of metres in one unit of the file.
   std::string unit = "auto";
-  /// The direction that points up: "auto", an axis of the file ("z", "-y"), or "floor", which finds it from cameras and
-  /// feet.
+  /// The direction that points up: "auto", an axis of the file ("z", "-y"), or "floor": found from cameras and feet.
   std::string up = "auto";
   /// The position of the floor, which becomes height 0: "feet", "keep" (as in the file), its height in metres, or
   /// "auto" ("feet" if the feet determined the up axis, otherwise "keep").
@@ -51,7 +50,7 @@ struct RigPlacement {
 /// else the result itself; `told` then gives its 95 % angle. Fails if no unit gives a plausible stature (the message
 /// names the factor that would), if lengths have no unit, if the up direction is uncertain by more than 35°, and if a
 /// requested axis puts cameras and person upside down.
-/// @param points of the person, triangulated with the rig as in its file
+/// @param points the points of the person, triangulated with the rig as in its file
 Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
                               const PlacementOptions& options);
 

@@ -113,6 +113,7 @@ std::optional<std::array<JointErrors, kRoleCount>> PoseErrorForecast::At(std::sp
     }
     own.block<3, 3>(row, row) -= common.middleRows<3>(row) * common.middleRows<3>(row).transpose();
   }
+  // Map the covariance to the errors of all joints, triangulated and in the fitted body.
   const Square covariance = own + common * common.transpose();
   const Eigen::Map<const Square> to_points(to_points_.data()), to_body(to_body_.data());
   const Square points = to_points * covariance * to_points.transpose();

@@ -15,10 +15,10 @@ namespace etude {
 /// The expected errors of one joint, as mean squares, so that errors of several poses can be averaged. The limb of a
 /// joint is the limb that ends in the joint; the hip centre has no limb.
 struct JointErrors {
-  double point = 0;       ///< of the triangulated position, m²
-  double body = 0;        ///< of the position in the fitted body, m²
-  double point_turn = 0;  ///< of the limb's direction between the triangulated positions, rad²
-  double body_turn = 0;   ///< of the limb's direction in the fitted body, rad²
+  double point = 0;       ///< error of the triangulated position, m²
+  double body = 0;        ///< error of the position in the fitted body, m²
+  double point_turn = 0;  ///< error of the limb's direction between the triangulated positions, rad²
+  double body_turn = 0;   ///< error of the limb's direction in the fitted body, rad²
 };
 
 /// Returns false for hip centre, shoulder centre and spine, which lie between triangulated joints.
@@ -34,8 +34,8 @@ class PoseErrorForecast {
   static Result<PoseErrorForecast> Of(const BodyPose& pose);
 
   /// Returns the errors of all joints if the pose is moved by `shift`, metres; nullopt if some joint cannot be
-  /// triangulated there. The preconditions are those of ExpectedPointError. @param noise_px the deviation of each
-  /// role's keypoints; if empty, `errors.noise_px` applies to all roles
+  /// triangulated there. The preconditions are those of ExpectedPointError.
+  /// @param noise_px the deviation of each role's keypoints; if empty, `errors.noise_px` applies to all roles
   std::optional<std::array<JointErrors, kRoleCount>> At(std::span<const Camera> cameras, const glm::dvec3& shift,
                                                         SightingErrors errors,
                                                         std::span<const double> noise_px = {}) const;

@@ -177,6 +177,7 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
   if (options.person >= in_space.size()) {
     return Fail({}, "person {}: {} seen by two cameras or more", options.person + 1, in_space.size());
   }
+  // Mend the keypoints if requested, then triangulate.
   MatchedPerson& wanted = person.people[in_space[options.person]];
   TriangulateOptions triangulate = options.triangulate;
   if (options.mends) {

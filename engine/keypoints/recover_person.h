@@ -28,36 +28,39 @@ Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames);
 
 /// Finds, in every frame, the angles and the root's position that minimise Σ weight · |position − joint|², at least
 /// locally, over the joints that landmarks determine (`JointsOf`). A joint that a frame lacks gets a target with weight
-/// 0.01 that keeps its relative position from the frame before. The spine, which no landmark shows, has a target on the
-/// line from hips to shoulders with weight 1, because otherwise a trunk that appears too short could bend in any
-/// direction. Returns nullopt for frames with fewer than eight joints. *(Ours.)*
+/// 0.01, which keeps its relative position from the frame before. No landmark shows the spine, so its target lies on
+/// the line from hips to shoulders. This target has weight 1, because otherwise a trunk that appears too short could
+/// bend in any direction. Returns nullopt for frames with fewer than eight joints. *(Ours.)*
 std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPositions> frames);
 
 struct RecoverPersonOptions {
   double rate_hz = 30;
   MatchOptions match;
   TriangulateOptions triangulate;
-  std::size_t person = 0;      ///< index among all people found, in descending order of `sightings`
-  double max_gap_s = 0.5;  ///< longer gaps are not filled
-  double cutoff_hz = 0;        ///< cutoff of the low-pass filter of positions; 0 turns it off
-  bool mends = false;  ///< run MendPerson; `triangulate.robust.outlier_px` is then the upper limit of OutlierLimit
+  /// Index among the people seen by two cameras or more, in descending order of `sightings`.
+  std::size_t person = 0;
+  double max_gap_s = 0.5;  ///< maximum length of gaps that are filled
+  double cutoff_hz = 0;    ///< cutoff of the low-pass filter of positions; 0 turns it off
+  /// If true, MendPerson is run, and `triangulate.robust.outlier_px` is the upper limit of OutlierLimit.
+  bool mends = false;
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
 
-/// Returns the options for pictures whose longer side is `longer_side_px`: keypoints that are off by more than 3 % of
-/// that side are outliers, and somebody who was not seen for half a second is a new person.
+/// Returns the options for pictures whose longer side is `longer_side_px`. Keypoints that are off by more than 3 % of
+/// that side are outliers. Somebody who was not seen for half a second is a new person.
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 
 /// A person recovered from several cameras' keypoints.
 struct RecoveredPerson {
-  std::vector<MatchedPerson> people;      ///< all people that were found
-  std::vector<LandmarkPositions> landmarks;  ///< of the requested person, with gaps filled and smoothed
+  std::vector<MatchedPerson> people;  ///< all people that were found
+  /// Positions of the requested person's landmarks, with gaps filled and smoothed.
+  std::vector<LandmarkPositions> landmarks;
   TriangulationReport report;
   std::vector<Mend> mends;  ///< corrections of the requested person's keypoints
   double outlier_px = 0;    ///< the threshold for outliers that was used, pixels
   CaptureBody body;
   std::vector<TreeState> states;  ///< poses of the body, one per frame
-  Clip clip;                      ///< metres, Y up
+  Clip clip;                      ///< the motion as a clip, metres, Y up
   BodyMotion motion;              ///< the motion of `clip` as twenty joints
   std::vector<bool> is_held;      ///< true for frames that could not be recovered and repeat the last pose
 };
@@ -68,7 +71,7 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people);
 /// Finds all people and triangulates the requested one: MatchPeople, optionally MendPerson, TriangulatePerson. Fails if
 /// nobody is seen by two cameras, or if there are fewer people than the requested index.
 /// @param cameras at least two, without lens distortion; all pixels must be undistorted (`UndistortPeople`)
-/// @param people of each camera, all with the same number of frames, taken at the same times (otherwise use
+/// @param people the people of each camera, all with the same number of frames, taken at the same times (otherwise use
 /// `EstimateOffsets`, `PeopleInTime` first)
 Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                      const RecoverPersonOptions& options);

@@ -11,7 +11,7 @@ namespace {
 
 using enum Landmark;
 
-/// The landmarks of a foot, and the height of each above the sole of a person of 1.7 m, metres.
+/// The landmarks of a foot, and their heights above the sole for a stature of 1.7 m, metres.
 constexpr std::array<std::pair<std::array<Landmark, 2>, double>, kFootKinds> kFeet = {
     {{{kLeftAnkle, kRightAnkle}, 0.08},
      {{kLeftHeel, kRightHeel}, 0.03},

@@ -62,7 +62,7 @@ struct FocalGain {
 };
 
 /// The hypothesis that relative coordinates refer to a square that contains the picture. `padded` is the share of the
-/// square's padding that lies before the picture.
+/// square's padding that lies before the picture; `told` describes the square for users.
 struct SquareReading {
   double padded;
   const char* told;

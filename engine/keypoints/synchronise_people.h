@@ -19,8 +19,8 @@ struct PeopleSyncOptions {
 /// first camera is compared with all people of the other camera, and the person with the lowest mean squared epipolar
 /// distance (`EpipolarGeometry`) counts. A camera whose offset cannot be determined gets 0; the offset of the first
 /// camera is 0 by definition.
-/// @param cameras of the rig, without lens distortion; all pixels must be undistorted
-/// @param people of each camera, each with its own number of frames
+/// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
+/// @param people the people of each camera, each with its own number of frames
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                          const PeopleSyncOptions& options = {});
 
@@ -35,16 +35,16 @@ struct FilmClock {
 
 struct FoundClock {
   FilmClock clock;
-  double before = 0, after = 0;  ///< set if `is_mended`: the loss of the given clock; the loss of `clock`
+  double before = 0, after = 0;  ///< losses of the given clock and of `clock`; set if `is_mended`
   bool is_mended = false;        ///< false if `clock` is still the given clock
   FilmClock nearest;             ///< the clock of minimal loss, even if it was not accepted
 };
 
 /// Finds clocks that explain the keypoints much better than the given ones *(ours)*. The search covers offsets that
 /// differ by up to `max_frames` from the given ones, and drifts of up to three frames over half of the film. It
-/// minimises the mean Geman–McClure loss of epipolar distances at a scale of 1 % of the height, first on a grid, then
-/// with ever smaller steps down to 1/500 of a frame. A clock is changed only if that halves the loss, because wrong
-/// keypoints alone are not evidence of a wrong clock.
+/// minimises the mean Geman–McClure loss of epipolar distances, with a scale of 1 % of the height: first on a grid,
+/// then with ever smaller steps down to 1/500 of a frame. A clock is changed only if this halves the loss, because
+/// wrong keypoints alone are not evidence of a wrong clock.
 std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                    std::span<const FilmClock> given, int max_frames, const FollowOptions& options);
 

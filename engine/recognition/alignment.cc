@@ -37,17 +37,17 @@ void SubsequenceAligner::Update(const PoseVector& seen) {
   // Extend the best paths by this step. Go from the pattern's end to its start, so that costs_[j - 1] and costs_[j - 2]
   // still hold the values of the previous step.
   for (std::size_t j = size; j-- > 0;) {
-    // Either the path stays at pattern step j, …
+    // The path may stay at pattern step j.
     double best = costs_[j];
     std::uint8_t advance = 0;
     int start = starts_[j];
-    // … or it advances by one step, …
+    // The path may advance by one step.
     if (j >= 1 && costs_[j - 1] < best) {
       best = costs_[j - 1];
       advance = 1;
       start = starts_[j - 1];
     }
-    // … or by two, which also costs the distance to the step that it skips.
+    // The path may advance by two steps, which also costs the distance to the skipped step.
     if (j >= 2 && costs_[j - 2] + distances_[j - 1] < best) {
       best = costs_[j - 2] + distances_[j - 1];
       advance = 2;

@@ -52,7 +52,7 @@ class DtwFollower final : public StepFollower {
 
   const std::vector<Examples>& moves_;
   const DtwOptions& options_;
-  std::vector<std::vector<SubsequenceAligner>> always_;  // per move, one aligner per example; never reset
+  std::vector<std::vector<SubsequenceAligner>> always_;  // for each move, one aligner per example; they are never reset
   std::vector<SubsequenceAligner> in_window_;
 };
 
@@ -79,9 +79,9 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The distance, in metres, at which an unknown motion is assumed as the alternative if no known motion is nearer. In
-/// 19 of 20 cases, another person's performance of a move is nearer to the move's examples than this
-/// (tests/sim/performer; the medians of two recorded sets are 10 and 16–28 cm).
+/// If no known motion is nearer, an unknown motion at this distance, metres, is the alternative to a move. In 19 of 20
+/// cases, another person's performance of a move is nearer to the move's examples than this (tests/sim/performer; the
+/// medians of two recorded sets are 10 and 16–28 cm).
 constexpr double kUnknownMotionDistance = 0.21;
 
 /// An example of a move and the wrong patterns that it is compared with. All have the same number of steps.
@@ -142,7 +142,7 @@ double Distance(std::span<const PoseVector> seen, const Pattern& pattern, double
 }
 
 Example ExampleOf(std::size_t move, Pattern right) {
-  constexpr double kOwnImage = 0.03;  // metres; a move this close to its mirror image has no wrong side
+  constexpr double kOwnImage = 0.03;  // distance, metres; a move this close to its mirror image has no wrong side
   Example example{.move = move, .right = std::move(right), .wrong = {}, .middle = {}};
   example.middle = MeanOf(example.right);
   Pattern mirrored = Changed(example.right, [](const PoseVector& pose) { return Mirrored(pose, PoseParts::kJoints); });
@@ -168,7 +168,7 @@ class Stillness {
  private:
   PoseVector pose_;
   std::size_t count_ = 0;
-  std::vector<double> gaps_;  // squared distances to the pose, a ring
+  std::vector<double> gaps_;  // the last squared distances to the pose, as a ring
 };
 
 class NearestFollower final : public StepFollower {
@@ -237,10 +237,10 @@ class NearestFollower final : public StepFollower {
   }
 
   const std::vector<Example>& examples_;
-  std::vector<double> right_, wrong_, held_still_;  // distances per move, of this step
+  std::vector<double> right_, wrong_, held_still_;  // distances of this step, per move
   std::size_t longest_, since_open_ = 0;
   Stillness standing_;
-  std::vector<Stillness> held_;   // one per example
+  std::vector<Stillness> held_;   // held pose of each example
   std::vector<PoseVector> seen_;  // the last `longest_` steps
 };
 

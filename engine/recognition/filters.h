@@ -22,8 +22,8 @@ struct HoltOptions {
   /// The number of frames by which the output is predicted ahead, ≥ 0; it compensates for the lag of smoothing. Above
   /// 0.5, quick changes overshoot.
   double prediction_frames = 0.5;
-  /// A step inside this radius is damped in proportion to its length. Lower it if small motions matter; 0 turns damping
-  /// off.
+  /// A step shorter than this radius is multiplied by its length divided by the radius. Lower it if small motions
+  /// matter; 0 turns damping off.
   double jitter_radius_m = 0.05;
   /// The largest distance of the output from the raw position. Raise it to suppress outliers of single frames.
   double max_deviation_radius_m = 0.04;
@@ -52,11 +52,12 @@ class HoltFilter {
 /// paper tunes it in two steps: set `beta_per_m` to 0, hold the joint at rest and lower `min_cutoff_hz` until the
 /// jitter is acceptable; then move quickly and raise `beta_per_m` until the lag is acceptable.
 struct OneEuroOptions {
-  double min_cutoff_hz = 1.0;  ///< > 0, as in the paper; lower it for less jitter at rest and more lag in slow motion
+  /// Cutoff at rest, > 0, as in the paper; lower it for less jitter at rest and more lag in slow motion.
+  double min_cutoff_hz = 1.0;
   /// The increase of the cutoff frequency per m/s, ≥ 0 (ours: the paper's value is per pixel). Raise it for dances that
   /// are faster than ours.
   double beta_per_m = 5.0;
-  double derivative_cutoff_hz = 1.0;  ///< > 0, as in the paper, whose authors found no need to change it
+  double derivative_cutoff_hz = 1.0;  ///< cutoff for the speed, > 0; the paper's authors found no need to change it
 
   bool operator==(const OneEuroOptions&) const = default;
 };
@@ -108,8 +109,8 @@ class StreamFilter {
 
  private:
   FilterKind kind_;
-  std::vector<HoltFilter> holt_;         // one per joint if the kind is kHolt, else empty
-  std::vector<OneEuroFilter> one_euro_;  // one per joint if the kind is kOneEuro, else empty
+  std::vector<HoltFilter> holt_;         // one filter per joint if the kind is kHolt, else empty
+  std::vector<OneEuroFilter> one_euro_;  // one filter per joint if the kind is kOneEuro, else empty
 };
 
 /// Filters a whole stream with a StreamFilter.

@@ -58,7 +58,7 @@ class Follower final : public MoveFollower {
 
  private:
   const Taught& taught_;
-  std::vector<PoseSequence> sequences_;  // one per move
+  std::vector<PoseSequence> sequences_;  // one sequence per move
   std::vector<double> matches_, spotted_;
   std::optional<std::size_t> asked_;
 };

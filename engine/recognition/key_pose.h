@@ -35,7 +35,7 @@ class PoseSequence {
  private:
   struct Held {
     int frame;
-    std::vector<double> scores;  // per pose
+    std::vector<double> scores;
   };
 
   double BestPassageEndingIn(std::span<const double> held) const;
@@ -44,8 +44,8 @@ class PoseSequence {
   int span_frames_;
   int frame_ = 0;
   std::size_t seen_ = 0, seen_since_open_ = 0;
-  std::vector<std::vector<double>> recent_;  // per pose, the last `hold_frames` matches, as a ring
-  std::vector<double> asked_;                // per pose, the score of the best passage that has reached it
+  std::vector<std::vector<double>> recent_;  // for each pose, the last `hold_frames` matches, as a ring
+  std::vector<double> asked_;                // for each pose, the score of the best passage that has reached it
   std::deque<Held> within_span_;             // scores of the earlier frames from which a passage may still begin
   double spotted_ = 0;
 };

@@ -21,7 +21,7 @@ constexpr std::size_t kRows = 3;  // depth of a tree: comparisons from the root 
 /// The performances of one boosting round, with their measures as histogram bins.
 struct Sample {
   std::vector<std::array<std::uint8_t, kMeasureCount>> bins;
-  std::vector<std::array<double, kBins - 1>> cuts;  // per measure: the values in (cuts[b − 1], cuts[b]] are in bin b
+  std::vector<std::array<double, kBins - 1>> cuts;  // for each measure: values in (cuts[b − 1], cuts[b]] are in bin b
   std::vector<double> labels, weights, log_odds;
 };
 
@@ -74,7 +74,8 @@ struct Split {
   double gain = 0;
 };
 
-/// Selects the performances and the measures to which tree number `tree` is fitted.
+/// Selects the performances and the measures to which tree number `tree` is fitted: subsets that change from tree to
+/// tree, or everything if `is_taken` is false.
 struct Turn {
   std::size_t tree;
   bool is_taken;

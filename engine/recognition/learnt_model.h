@@ -17,11 +17,11 @@
 namespace etude {
 
 /// A decision tree of depth three. Each node compares one measure with a limit; the leaf that is reached adds its value
-/// to the log-odds.  The children of node n are 2n + 1 (at most the limit) and 2n + 2 (above it); the children of the
+/// to the log-odds. The children of node n are 2n + 1 (at most the limit) and 2n + 2 (above it); the children of the
 /// last row are leaves.
 struct DecisionTree {
   static constexpr std::size_t kNodes = 7, kLeaves = 8;
-  std::array<int, kNodes> measures{};  ///< indices below kMeasureCount
+  std::array<int, kNodes> measures{};  ///< index of each node's measure, below kMeasureCount
   std::array<double, kNodes> limits{};
   std::array<double, kLeaves> leaves{};
 
@@ -31,7 +31,7 @@ struct DecisionTree {
 
 /// Gradient-boosted decision trees (Friedman 2001). They judge from the measures of a performance whether it is right.
 struct BoostedTrees {
-  double bias = 0;  ///< log-odds
+  double bias = 0;  ///< log-odds before the first tree
   std::vector<DecisionTree> trees;
 
   /// Returns the probability that the performance is right, in (0, 1).
@@ -41,16 +41,18 @@ struct BoostedTrees {
 /// The candidate performances of one window. The window is right if at least one of them is right.
 struct LabelledBag {
   bool is_right = false;
-  std::vector<PerformanceMeasures> performances;  ///< at least one; the most likely one comes first
+  std::vector<PerformanceMeasures> performances;  ///< the performances, at least one; the most likely one comes first
 };
 
 struct BoostingOptions {
   int trees = 100;
   double rate = 0.12;  ///< shrinkage: each tree's values are multiplied by this
-  double ridge = 3;    ///< L2 penalty that shrinks leaf values towards 0; one performance at even odds counts ¼
+  /// L2 penalty that shrinks leaf values towards 0. It is added to the curvature of the loss, to which one performance
+  /// at even odds contributes ¼.
+  double ridge = 3;
   int min_per_leaf = 12;  ///< minimum number of performances in a leaf
   /// If true, trees take turns: each is fitted to three fifths of the performances and a third of the measures, so that
-  /// they differ (stochastic boosting, Friedman 2002, but with a fixed rotation instead of random numbers).
+  /// the trees differ. (This is stochastic boosting, Friedman 2002, with a fixed rotation instead of random numbers.)
   bool takes_turns = false;
   /// The number of multiple-instance rounds. Each round trains on one performance per bag. The first round takes the
   /// bag's first performance; later rounds take the performance that the previous round's model finds most likely,
@@ -74,7 +76,7 @@ Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& fi
 /// Returns the text from which ReadLearntModel reads the same model, bit for bit.
 std::string WriteLearntModel(const LearntModel& model);
 
-/// Returns the files scenarios/recognisers/*.yaml (written by the build).
+/// Returns the files scenarios/recognisers/*.yaml (embedded by the build).
 std::span<const EmbeddedText> BuiltinLearntModelFiles();
 /// Returns the model of recogniser `learnt`: scenarios/recognisers/learnt.yaml.
 const LearntModel& BuiltinLearntModel();

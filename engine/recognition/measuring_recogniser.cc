@@ -56,7 +56,7 @@ class RecentCosts {
   }
 
  private:
-  static constexpr std::size_t kKept = 15;  // steps: one second
+  static constexpr std::size_t kKept = 15;  // number of steps: one second
   std::size_t moves_, step_ = 0;
   std::vector<double> costs_;
 };
@@ -177,7 +177,7 @@ class MeasuringFollower final : public StepFollower {
   bool is_alone_;
   RecentSteps steps_;
   RecentCosts costs_;
-  std::vector<SubsequenceAligner> always_;  // one per example
+  std::vector<SubsequenceAligner> always_;  // one aligner per example
   std::vector<InWindow> in_window_;
   int opened_at_ = 0;
   PersonBaseline usual_;

@@ -98,8 +98,8 @@ struct Mean {
 
 /// Measures of one limb, as lengths of differences of unit vectors: 1 corresponds to 60 degrees.
 struct LimbMeasures {
-  double error = 0;    ///< root mean square
-  double centred = 0;  ///< root mean square after the means of seen and taught are subtracted
+  double error = 0;    ///< root mean square difference
+  double centred = 0;  ///< root mean square difference after the means of seen and taught are subtracted
   double missing = 0;  ///< missing share of the taught amplitude; negative if the amplitude is too large
 };
 

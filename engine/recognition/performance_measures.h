@@ -14,9 +14,9 @@ namespace etude {
 /// opened are compared with the example shifted in time as a whole, without warping. A warped path would hide a delay
 /// in the middle of a performance, and a move that repeats itself can be aligned anywhere.
 struct ClockMeasures {
-  double shift = 0;   ///< the delay of the example, in seconds, with which it fits best
+  double shift = 0;   ///< delay, in seconds, at which the example fits best
   double first = 0;   ///< the same delay for the first half of the example
-  double second = 0;  ///< the same delay for its second half
+  double second = 0;  ///< the same delay for the second half of the example
   double drift = 0;   ///< second − first
   /// `off` is the root mean squared distance at this person's usual shift. Each gain says by how much the best shift
   /// lowers that distance: for the whole example, its first half and its second half.
@@ -52,7 +52,7 @@ class ClockComparison {
   Fit FitOf(Part part, double usual_s) const;
 
   std::span<const PoseVector> pattern_;
-  int count_ = 0;                                                     ///< steps seen
+  int count_ = 0;                                                    ///< number of steps seen
   std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< one sum per half of the example and per shift
 };
 
@@ -61,8 +61,9 @@ class ClockComparison {
 /// that was seen.
 constexpr std::size_t kRigidMeasures = 41;
 
-/// Compares the steps since the window opened with an example that is shifted and stretched in time as a whole, limb by
-/// limb, at the lag and pace that fit best. Parts of a performance that come too early or too late remain errors.
+/// Compares the steps since the window opened with the example, limb by limb. The example is shifted and stretched in
+/// time as a whole, by the lag and pace that fit best. Parts of a performance that come too early or too late remain
+/// errors.
 class RigidComparison {
  public:
   /// `pattern` is the example, in parts of kLimbs. It must outlive this object.
@@ -86,8 +87,8 @@ class RigidComparison {
   static int TaughtAt(int seen, std::size_t pace, int lag);
 
   std::span<const PoseVector> pattern_;
-  std::vector<double> distances_;  ///< from the last seen step to each step of the pattern
-  std::vector<PoseVector> seen_;   ///< up to the last step that can match the pattern
+  std::vector<double> distances_;  ///< distance from the last seen step to each step of the pattern
+  std::vector<PoseVector> seen_;   ///< seen steps, up to the last one that can match the pattern
   std::array<std::array<Sum, kLatest - kEarliest + 1>, kPaces.size()> sums_{};
 };
 
@@ -106,14 +107,14 @@ constexpr int kMeasuresVersion = 1;
 /// For each limb: its error, its error after its mean direction is corrected, and the missing share of its amplitude.
 /// For a left and a right limb, the larger value comes first.
 constexpr MeasureSlice kLimbMeasures{0, 36};
-/// The square root of the path's cost and of its parts for each third of the example, then the error of the worst limb
-/// and of the mean limb.
+/// The square root of the path's cost, the same for each third of the example, the error of the worst limb, and the
+/// mean error of the limbs.
 constexpr MeasureSlice kDistanceMeasures{kLimbMeasures.end(), 6};
 /// Lag, stretch, unsteadiness and largest timing error of the path.
 constexpr MeasureSlice kPathClockMeasures{kDistanceMeasures.end(), 4};
 /// The path's cost divided by the sum of the path's cost and the cost of the nearest other move.
 constexpr MeasureSlice kOtherMoveMeasure{kPathClockMeasures.end(), 1};
-/// These four slices together: the measures of one performance against one example of any move.
+/// The four slices above together: the measures of one performance against one example of any move.
 constexpr MeasureSlice kOwnMeasures{0, kOtherMoveMeasure.end()};
 /// The timing relative to the window (ClockMeasures); 0 if the performance was not asked for.
 constexpr MeasureSlice kClockSlice{kOwnMeasures.Beyond().end(), kClockMeasures};

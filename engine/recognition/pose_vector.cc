@@ -42,10 +42,10 @@ const std::array<Part, kWays>& WaysOf(PoseParts parts) {
   return parts == PoseParts::kJoints ? kJointParts : kLimbParts;
 }
 
-constexpr double kTrunk = 0.5;    // metres; the trunk length to which bodies are scaled
-constexpr double kHips = 0.9;     // metres; the standing hip height of a body with that trunk
+constexpr double kTrunk = 0.5;    // trunk length to which bodies are scaled, metres
+constexpr double kHips = 0.9;     // standing hip height of a body with that trunk, metres
 constexpr double kStanding = 80;  // the value of the feature Posture when standing
-constexpr double kSmoothing = 1;  // seconds; the time constant of heading and trunk length
+constexpr double kSmoothing = 1;  // time constant of heading and trunk length, seconds
 
 double TrunkLength(const SensedFrame& skeleton) {
   return glm::distance(skeleton[kHipCentre].position, skeleton[kShoulderCentre].position);

@@ -14,14 +14,14 @@ namespace etude {
 /// A half-open interval [begin, end) of a stream's frames.
 struct FrameInterval {
   int begin = 0;
-  int end = 0;  ///< ≥ begin
+  int end = 0;  ///< not below `begin`
 };
 
 /// Returns the frames of `stream` that overlap the interval from `start_s` to `end_s`, in seconds from the stream's
 /// first frame, clamped to the stream.
 FrameInterval FramesBetween(double start_s, double end_s, const SkeletonStream& stream);
 
-/// A performance that is asked for: the move, and the window in which it is expected.
+/// A requested performance: the move, and the window in which it is expected.
 struct AskedMove {
   std::size_t move = 0;  ///< the taught move's index
   FrameInterval window;
@@ -31,7 +31,7 @@ struct AskedMove {
 struct EvidenceTrace {
   std::size_t moves = 0;
   std::vector<double> asked;    ///< evidence of the asked move, per frame
-  std::vector<double> spotted;  ///< evidence of every move, per frame and move, frame-major
+  std::vector<double> spotted;  ///< evidence of every move in every frame; the moves of one frame are adjacent
 
   /// Returns the evidence of every move in a frame.
   std::span<const double> SpottedAt(std::size_t frame) const {
@@ -47,8 +47,8 @@ Result<EvidenceTrace> FollowStream(const Recogniser& recogniser, std::size_t mov
 
 /// The options by which evidence becomes decisions.
 struct DecisionOptions {
-  /// The evidence at which a move counts as performed, in (0, 1]. Choose it on people who are not judged, low enough to
-  /// detect moves and high enough to make false alarms acceptably rare.
+  /// The evidence at which a move counts as performed, in (0, 1]. Choose it on recordings of people other than those to
+  /// be judged, low enough to detect moves and high enough to make false alarms acceptably rare.
   double threshold = 0.5;
   /// The time after a detection in which the same move is not detected again, in seconds, ≥ 0. It keeps a performance
   /// with flickering evidence from being detected twice.
@@ -57,9 +57,10 @@ struct DecisionOptions {
 
 /// The result for one performance that was asked for.
 struct Judgement {
-  std::optional<int> recognised_at;   ///< frame within the window; nullopt if the move was not recognised
-  double score = 0;                   ///< in [0, 1], for ROC curves
-  std::vector<double> running_score;  ///< per frame of the window
+  std::optional<int>
+      recognised_at;  ///< frame counted from the window's beginning; nullopt if the move was not recognised
+  double score = 0;   ///< score for ROC curves, in [0, 1]
+  std::vector<double> running_score;  ///< evidence of the asked move in each frame of the window
 };
 
 /// Judges one window of the trace. Its move must have been asked for in this window.
@@ -87,9 +88,8 @@ class MoveSpotter {
   std::vector<std::size_t> fired_;
 };
 
-/// The detection of one move.
 struct Detection {
-  std::size_t move = 0;  ///< index of the move
+  std::size_t move = 0;
   int frame = 0;
 };
 

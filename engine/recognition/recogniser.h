@@ -61,9 +61,9 @@ class MoveFollower {
   virtual void Ask(std::optional<std::size_t> move) = 0;
   /// Takes the next frame and returns its evidence.
   virtual Evidence Update(const SeenFrame& frame) = 0;
-  /// Returns the taught move that is most similar to the whole stream so far, which is compared as one performance. Use
-  /// it if you know where performances begin and end. Returns nullopt if this follower can only judge passages within a
-  /// stream.
+  /// Compares the whole stream so far, as one performance, with the taught moves and returns the most similar move. Use
+  /// this function if you know where performances begin and end. Returns nullopt if this follower can only judge
+  /// passages within a stream.
   virtual std::optional<std::size_t> Whole() const { return std::nullopt; }
 };
 

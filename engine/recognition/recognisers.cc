@@ -72,7 +72,7 @@ Result<void> Check(const RecogniserKind& kind, std::span<const TaughtMove> taugh
 // To add a recogniser, add a row here. Its options, if any, are a struct in its own header.
 std::span<const RecogniserKind> AllRecognisers() {
   static const std::vector<RecogniserKind> recognisers = {
-      // Taught by key poses.
+      // These recognisers are taught by key poses.
       WithSettings<KeyPoseOptions>(
           {.name = "key-pose",
            .description = "paper A's: the move's key poses, in their order",
@@ -91,7 +91,7 @@ std::span<const RecogniserKind> AllRecognisers() {
           MakeFuzzyRulesRecogniser,
           {{{"hold_frames", &FuzzyRulesOptions::hold_frames, 1, 30,
              "Number of successive frames in which a rule must hold."}}}),
-      // Taught by examples.
+      // These recognisers are taught by examples.
       WithSettings<DtwOptions>(
           {.name = "dtw",
            .description = "dynamic time warping of joints to the taught examples",
@@ -115,7 +115,8 @@ std::span<const RecogniserKind> AllRecognisers() {
        .description =
            "ours: `learnt` for moves asked for in time with the music; its model is learnt from people with a coach",
        .needs_examples = true,
-       .threshold = 0.25,  // of 32 simulated adults, 0.2 right performances per minute have less evidence
+       // Of the right performances of 32 simulated adults, 0.2 per minute have less evidence.
+       .threshold = 0.25,
        .teach =
            [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
              return MakeLearntRecogniser(taught, options.weights, BuiltinCoachedModel());

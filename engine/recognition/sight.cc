@@ -5,7 +5,7 @@
 namespace etude {
 
 StandingHeight::StandingHeight(double rate_hz) : wanted_(static_cast<std::size_t>(rate_hz)) {
-  constexpr double kFallback = 0.9;  // metres; the hip height to which motions are scaled for evaluation
+  constexpr double kFallback = 0.9;  // hip height to which motions are scaled for evaluation, metres
   value_ = kFallback;
 }
 

@@ -22,7 +22,7 @@ class StandingHeight {
 
  private:
   std::size_t wanted_;
-  std::vector<double> heights_;  // of the frames so far, in ascending order
+  std::vector<double> heights_;  // hip heights of the frames so far, ascending
   double value_;
 };
 
@@ -46,7 +46,7 @@ class LiveSight {
 /// A whole stream as recognisers with the same filter see it, computed once for all of them.
 struct SeenStream {
   SkeletonStream filtered;
-  std::vector<FeatureFrame> frames;  ///< one per frame of the stream
+  std::vector<FeatureFrame> frames;  ///< features of each frame of the stream
 
   SeenFrame operator[](std::size_t frame) const { return {filtered.frames[frame], frames[frame]}; }
 };

@@ -17,7 +17,7 @@ enum class TrackingState {
 };
 
 struct SensedJoint {
-  glm::dvec3 position{0};  ///< metres, in the world frame (Y up, floor at 0); the sensor's pose is known
+  glm::dvec3 position{0};  ///< position in the world (Y up, floor at 0), metres; the sensor's pose is known
   TrackingState state = TrackingState::kNotTracked;
 };
 

@@ -8,10 +8,10 @@
 
 namespace etude {
 
-/// Makes a recogniser for recordings of people (ours). It aligns whole bodies (joints and limbs, each in units of the
-/// difference between two people who do the same move) with every example and its mirror image by dynamic time warping,
-/// and combines the distances with the evidence of `judge`, which must have been taught the same moves. The distance of
-/// a move is the mean distance of its three nearest examples.
+/// Makes a recogniser for recordings of people (ours). It aligns whole bodies with every example and its mirror image
+/// by dynamic time warping. Distances of joints and of limbs are in units of the usual difference between two people
+/// who do the same move. The distance of a move is the mean distance of its three nearest examples. The distances are
+/// combined with the evidence of `judge`, which must have been taught the same moves.
 /// - If the caller knows where a performance begins and ends, the nearest move is returned (MoveFollower::Whole).
 /// - For the asked move, the evidence is the judge's. If the mirror images are nearer than the examples, the move was
 ///   done on the wrong side, and the evidence is multiplied by the squared ratio of the two distances. A move that is

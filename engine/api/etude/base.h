@@ -15,14 +15,14 @@ namespace etude::engine {
 using namespace etude;  // the library's types are the engine's own
 
 /// Thrown for input that cannot be processed. `what()` is one line: the position as far as it is known ("walk.bvh:12:3:
-/// …"), what was found and what is allowed. A numerical outcome, such as an undetermined point, is no exception but a
-/// returned status.
+/// …"), what was found and what is allowed. A numerical outcome, such as an undetermined point, is returned as a
+/// status, not thrown.
 class ETUDE_API BadInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Returns the version of the library that is loaded: "0.1.0". Until 1.0.0, a minor version may change this interface.
+/// Returns the version of the loaded library, such as "0.1.0". Until 1.0.0, a minor version may change this interface.
 ETUDE_API std::string_view Version();
 
 }  // namespace etude::engine

@@ -18,13 +18,16 @@ namespace etude::engine {
 ETUDE_API std::vector<std::string> CoachPolicies();
 
 struct CoachOptions {
-  std::string policy = "at-first-mistake";  ///< one of CoachPolicies()
-  std::string choice = "played";            ///< as TransitionOptions::choice, for transitions between clips
-  std::string join = "planted-feet";        ///< as TransitionOptions::join
-  std::string recogniser = "whole-body";    ///< or "dtw", "nearest"
-  bool smooths = false;                     ///< filters the stream by Kinect's own smoothing filter before recognition
-  bool mirrors = false;                     ///< players dance as in a mirror: the coach's left side is their right side
-  bool dances_at_once = false;              ///< starts with the dance, without waiting for a clap
+  std::string policy = "at-first-mistake";  ///< name of the policy: one of CoachPolicies()
+  /// Name of the choice for transitions between clips, as in TransitionOptions.
+  std::string choice = "played";
+  std::string join = "planted-feet";      ///< name of the join of two clips, as in TransitionOptions
+  std::string recogniser = "whole-body";  ///< name of the recogniser: "whole-body", "dtw" or "nearest"
+  /// If true, Kinect's own smoothing filter is applied to the stream before recognition.
+  bool smooths = false;
+  /// If true, players dance as in a mirror: with their right side when the coach uses the left.
+  bool mirrors = false;
+  bool dances_at_once = false;  ///< true: the coach starts with the dance, without waiting for a clap
   /// A performance is right if its evidence is at least this, in (0, 1]; nullopt: the recogniser's own threshold.
   std::optional<double> right_from = {};
   /// The position of the sensor in the world, metres; players are asked to stand 1.5 to 3.6 m from it.

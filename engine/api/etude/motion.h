@@ -15,11 +15,12 @@ using Motion = BodyMotion;
 
 /// The user's statements about a motion file.
 struct ReadingOptions {
-  bool keep_floor = false;  ///< keep the body at its height in the file
+  bool keep_floor = false;  ///< true: the body keeps its height above the floor from the file
   /// 'y' or 'z' overrules all other evidence; with 0, the file, its format and the body's posture decide.
   char up = 0;
-  double metres_per_unit = 0;   ///< 0: the file's own unit, or one derived from the body's height
-  std::string marker_set = "";  ///< for marker files: the marker set, such as "opencap"; "": the best one
+  /// Metres in one unit of the file; 0: the file's own unit, or one derived from the body's height.
+  double metres_per_unit = 0;
+  std::string marker_set = "";  ///< name of the marker set for marker files, such as "opencap"; "": the best one
 };
 
 /// Reads a motion file as the twenty joints: at `rate_hz`, in metres, Y up, with the feet on the floor unless

@@ -15,9 +15,10 @@ namespace etude::engine {
 
 /// The settings of a transition from one clip to another.
 struct TransitionOptions {
-  std::string choice = "played";      ///< which frames are left and entered: one of TransitionChoices()
-  std::string join = "planted-feet";  ///< how the two clips are joined: one of TransitionJoins()
-  double threshold = 0.4;             ///< for the fuzzy choices: frames match below this fuzzy distance, in (0, 6]
+  /// Name of the choice of the frames to leave and enter: one of TransitionChoices().
+  std::string choice = "played";
+  std::string join = "planted-feet";  ///< name of the method that joins the two clips: one of TransitionJoins()
+  double threshold = 0.4;             ///< maximum fuzzy distance of matching frames for the fuzzy choices, in (0, 6]
   /// The settings of the choice and of the join, by key; missing ones keep their defaults.
   std::map<std::string, double> choice_settings = {}, join_settings = {};
 };
@@ -35,7 +36,7 @@ struct Transition {
   /// The playing clip from its first frame, the frames in between, and the wanted clip to its end, placed on the floor
   /// where the first clip was left. The motion has no frames if the choice finds no transition.
   BodyMotion motion;
-  std::vector<int> points;  ///< the last frames of `motion` before another clip plays, ascending
+  std::vector<int> points;  ///< indices of the frames of `motion` after which another clip plays, ascending
   double wait_s = 0;        ///< seconds from the request until the wanted clip plays
   std::string branch;       ///< the kind of transition: "front half", "in-between", "now", … or "none"
   std::string why;          ///< one sentence: why this transition was chosen, or why there is none
@@ -51,9 +52,10 @@ struct BodyProportions {
 /// Clips prepared for transitions: transferred to one body, tagged, and connected by in-betweens.
 class ETUDE_API TransitionLibrary {
  public:
-  /// Transfers all clips to one body. It has the given proportions (scenarios use sim::ScenarioProportions), by default
-  /// those of the first clip's first frame. Throws BadInput for no clips, a clip with fewer than two frames or with a
-  /// rate other than 30 Hz, positions that are not finite, a body without legs, and hips that are not 0.1 to 10 m high.
+  /// Transfers all clips to one body. The body has the given proportions (scenarios use sim::ScenarioProportions), by
+  /// default those of the first clip's first frame. Throws BadInput for no clips, a clip with fewer than two frames or
+  /// with a rate other than 30 Hz, positions that are not finite, a body without legs, and hips that are not 0.1 to 10
+  /// m high.
   explicit TransitionLibrary(std::span<const BodyMotion> clips, const std::optional<BodyProportions>& proportions = {});
   TransitionLibrary(TransitionLibrary&&) noexcept;
   TransitionLibrary& operator=(TransitionLibrary&&) noexcept;

@@ -28,8 +28,7 @@ class GltfCurve {
 
   /// Reads a sampler; `width` is 3, or 4 for rotations. Times may be equal, because keys that are nanoseconds apart
   /// coincide in single precision. Returns the errors of accessors, and an error for an unknown interpolation, times
-  /// that descend, a number of values that does not fit the times, or a rotation of length
-  /// 0.
+  /// that descend, a number of values that does not fit the times, or a rotation of length 0.
   static Result<GltfCurve> Read(GltfFile& file, int animation, int sampler, std::size_t width);
 
   const std::vector<double>& times() const { return times_; }
@@ -198,7 +197,7 @@ struct Channel {
 struct Timing {
   double start = 0;
   double rate_hz = kDefaultRateHz;
-  double frames = 1;  ///< a whole number; it may exceed the allowed number of frames
+  double frames = 1;  ///< number of frames, a whole number; it may exceed the allowed number
 };
 
 void Apply(const Channel& channel, double time, LocalPose& pose) {

@@ -32,8 +32,8 @@ struct GltfNumbers {
 /// The component types that an accessor may have.
 enum class GltfComponents {
   kFloat,
-  kFloatOrNormalized,  ///< integers only if they are normalised to −1…1
-  kAny,                ///< also integers with their own values (KHR_mesh_quantization)
+  kFloatOrNormalized,  ///< floats, and integers that are normalised to −1…1
+  kAny,                ///< all numbers, also integers that are not normalised (KHR_mesh_quantization)
   kUnsigned,           ///< unsigned integers, for indices
 };
 

@@ -17,7 +17,8 @@ namespace etude {
 /// meshes), and one clip per animation on the same skeleton.
 struct GltfContent {
   Character character;
-  std::vector<Clip> clips;  ///< names as in the file, in one line; unnamed and duplicate ones are numbered
+  /// The animations; names as in the file, in one line; unnamed and duplicate ones are numbered.
+  std::vector<Clip> clips;
   /// The joints that a VRM file (0.x, 1.0) or VRM animation declares as bones, by VRM's bone names, for example
   /// "leftUpperArm".
   std::map<std::string, int> bones = {};
@@ -46,7 +47,7 @@ using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, 
 /// supported. Morph targets, and animations that only move them, are left out.
 ///
 /// Surfaces are triangle lists, strips and fans; lines and points are ignored. If a vertex has several sets of joints,
-/// the four largest weights are used. Surfaces without normals get flat ones. Colours are base colour factors,
+/// the four largest weights are used. Surfaces without normals get flat normals. Colours are base colour factors,
 /// multiplied by base colour textures if `decode` is given (PNG, JPEG; others are ignored); transparency is not read.
 ///
 /// Returns an error that names the position in the JSON for:

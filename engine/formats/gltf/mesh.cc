@@ -77,7 +77,7 @@ Result<SharedTexture> GltfTextures::ReadPlain(int index, const std::string& wher
   const tinygltf::Texture& source = model.textures[static_cast<std::size_t>(index)];
   SharedTexture& kept = plain_[index];
   const std::string name = fmt::format("textures[{}]", index);
-  if (source.source == kNoIndex) return kept;  // the picture's format belongs to an extension
+  if (source.source == kNoIndex) return kept;  // an extension defines the picture's format; such pictures are not read
   RETURN_IF_ERROR(file_.CheckIndex(source.source, model.images.size(), name + ".source"));
   const std::string image_name = fmt::format("images[{}]", source.source);
   ASSIGN_OR_RETURN(const auto bytes, BytesOf(model.images[static_cast<std::size_t>(source.source)], image_name));

@@ -8,14 +8,12 @@
 
 namespace etude {
 
-/// Reads the scene's surfaces and their colours into `character`, whose skeleton is that of the nodes. Each primitive
-/// with triangles (lists, strips, fans) becomes one mesh; points and lines are ignored.
+/// Reads the scene's surfaces and their colours, as gltf.h describes, into `character`, which must have the skeleton of
+/// the nodes. Each primitive with triangles becomes one mesh.
 /// - A mesh with a skin has one binding per joint of the skin. The four largest weights of a vertex over all sets of
 ///   joints are kept and normalised to the sum 1; a vertex without weight is bound to the skin's first joint.
 /// - A mesh without a skin has one binding to its node.
-/// - A mesh without normals gets face normals, as the specification demands.
-/// Colours are the materials' base colour factors and textures; KHR_texture_transform, vertex colours and morph targets
-/// are not read.
+/// KHR_texture_transform, vertex colours and morph targets are not read.
 Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, const DecodePicture& decode, Character& character);
 
 /// Returns true if a joint's axes at rest are a mirror image, which reverses the orientation of triangles.

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kMaxJoints = 1024;
 constexpr int kMaxLevels = 128;
 
-/// The allowed error of a matrix in its right angles and in its last row 0, 0, 0, 1, because files hold floats.
+/// Tolerance, for rounding to floats, of a matrix whose axes must be perpendicular and whose last row must be 0, 0, 0,
+/// 1.
 constexpr double kMatrixRounding = 1e-3;
 
 std::string NodeName(int node) { return fmt::format("nodes[{}]", node); }

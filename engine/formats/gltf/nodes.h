@@ -12,15 +12,15 @@ namespace etude {
 /// The nodes of a file as a skeleton.
 struct GltfNodes {
   Skeleton skeleton;
-  std::vector<int> joint_of;    ///< per node; −1 for nodes that are not joints
+  std::vector<int> joint_of;    ///< joint of each node; −1 for nodes that are not joints
   std::vector<int> mesh_nodes;  ///< nodes of the scene with a mesh, ascending
 };
 
-/// Reads the nodes of the default scene (without one, of the first scene; without scenes, all nodes), and others if
-/// they are animated or joints of a skin, with all their ancestors. Joints are in the file's order, but parents come
-/// first. A node that only holds a skinned mesh is not a joint, because such a mesh follows only its skin's joints.
-/// Matrices become translation, rotation and scale; unnamed nodes are called "node_<index>", and duplicate names are
-/// numbered (UniqueNames).
+/// Reads the nodes of the default scene. Without a default scene it reads those of the first scene, and without scenes
+/// all nodes. Nodes outside of the scene are included if they are animated or joints of a skin, with all their
+/// ancestors. Joints are in the file's order, but parents come first. A node that only holds a skinned mesh is not a
+/// joint, because such a mesh follows only its skin's joints. Matrices become translation, rotation and scale; unnamed
+/// nodes are called "node_<index>", and duplicate names are numbered (UniqueNames).
 ///
 /// Returns an error for indices out of range, cycles, a second parent, more than 1,024 joints, nesting deeper than 128
 /// levels, matrices that shear, flatten or project, and rotations of length 0.

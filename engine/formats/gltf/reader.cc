@@ -128,8 +128,8 @@ bool KeepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, 
 /// possible. Warnings about optional properties are ignored.
 std::string Complaint(std::string_view text) {
   constexpr std::array<std::string_view, 3> kHarmless = {
-      "'inverseBindMatrices' property is missing in Skin.",  // optional since 2.0
-      "'node' property is missing.",                         // such channels are to be ignored
+      "'inverseBindMatrices' property is missing in Skin.",  // the property is optional since glTF 2.0
+      "'node' property is missing.",                         // channels without a node are ignored, as specified
       "`node` field is missing in animation.channels.target",
   };
   while (!text.empty()) {
@@ -183,7 +183,8 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
     for (const auto& [key, value] : json.items()) {
       if (key == "extras" || key == "extensions") continue;
       const std::string name = where.empty() ? key : where + "." + key;
-      const bool may_be_object = key == "indices" && !where.starts_with("meshes");  // an object in a sparse accessor
+      // A sparse accessor has an object there.
+      const bool may_be_object = key == "indices" && !where.starts_with("meshes");
       if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() &&
           !(may_be_object && value.is_object())) {
         return Fail({file}, "{}: found {}; allowed: a whole number from 0", name, value.dump().substr(0, 40));
@@ -328,7 +329,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   RETURN_IF_ERROR(CheckExtensions(*model, file));
   const std::string complaint = Complaint(errors);
   if (!is_read || !complaint.empty()) {
-    // A file that could not be fetched is an error only if it was needed.
+    // If a file could not be fetched, this caused the failure. (A missing picture does not make the parser fail.)
     if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
     // Prefer our own complaints, which are the same with every version of tinygltf. They apply to glTF 2 only, because
     // glTF 1 has names where 2.0 has numbers.

@@ -22,7 +22,7 @@ namespace {
 /// The bytes of a buffer view under construction.
 class GltfBytes {
  public:
-  void Float(double value);  ///< rounded to a float
+  void Float(double value);  ///< adds the value, rounded to a float
   void Byte(std::uint32_t value);
   void Short(std::uint32_t value);
   void Integer(std::uint32_t value);
@@ -114,7 +114,7 @@ struct Track {
   int joint = 0;
   const char* path = "";
   std::ptrdiff_t width = 3;
-  std::vector<float> values;  ///< the value at rest, then frame by frame
+  std::vector<float> values;  ///< the value at rest, then the value of every frame
 
   void Add(const glm::vec3& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
   void Add(const glm::vec4& value) { values.insert(values.end(), {value.x, value.y, value.z, value.w}); }
@@ -178,7 +178,7 @@ void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& c
   for (std::size_t joint = 0; joint < skeleton.joints.size(); ++joint) {
     for (Track& track : TracksOf(skeleton, clip, joint)) tracks.push_back(std::move(track));
   }
-  // An animation needs at least one channel. If nothing moves, one channel needs all keys, so that the length is kept.
+  // An animation needs at least one channel, even if nothing moves.
   const bool all_still = std::ranges::all_of(tracks, &Track::IsStill);
   const int times = AddTimes(model, clip.frames.size(), clip.rate_hz);
   int first_time = -1;  // accessor with one time for constant properties; created on first use
@@ -195,7 +195,7 @@ void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& c
   model.animations.push_back(std::move(animation));
 }
 
-/// Neighbouring meshes with the same name and joints, which are written as the primitives of one mesh.
+/// Neighbouring meshes with the same name and joints: the primitives of one written mesh.
 using Group = std::span<const SkinnedMesh>;
 
 bool SameBindings(const SkinnedMesh& a, const SkinnedMesh& b) {
@@ -372,7 +372,7 @@ class GlbWriter {
 
   const Character& character_;
   tinygltf::Model model_;
-  std::vector<const SkinnedMesh*> skinned_;  ///< per skin, a mesh that uses it
+  std::vector<const SkinnedMesh*> skinned_;  ///< for each skin, a mesh that uses it
 };
 
 }  // namespace
