@@ -63,8 +63,8 @@ std::string WhyNone(const MotionLibrary& library, const TransitionRequest& reque
   return DescribeNoMatch(survey.nearest, survey.allowed.Pairs(), "bridge frames", rules);
 }
 
-/// Plans paper A's transition (section 3.5). Compares each bridge frame of the playing clip within the budget with
-/// those of the wanted clip, the front half before the rear half, and takes the first pair that matches. With
+/// Plans paper A's transition (section 3.5). Compares each bridge frame of the playing clip within the budget with the
+/// bridge frames of the wanted clip's front half, then of its rear half, and takes the first pair that matches. With
 /// Pick::kSmallest it takes the nearest matching pair of the front half, or of the rear half if no pair of the front
 /// half matches. If no pair matches at all, the transition goes through an in-between.
 TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionRequest& request,

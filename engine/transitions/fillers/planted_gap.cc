@@ -49,7 +49,7 @@ struct Footfalls {
   Frames stands;
 };
 
-/// One foot: the data from which its steps are planned.
+/// The data from which the steps of one foot are planned.
 struct FootView {
   const glm::dvec3& End(std::size_t end) const { return end == 0 ? path.front() : path.back(); }
   /// Returns the tip's position at an end of the gap, lowered to the surface on which the foot stands.
@@ -328,7 +328,7 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
   return poses;
 }
 
-/// Returns the ankle's rotation with the heel raised about the tip, as far as the leg needs it to reach the foot.
+/// Returns the ankle's rotation after the heel is raised about the tip, only as far as the leg must to reach the foot.
 glm::dquat RaisedHeel(const FootPose& foot, const glm::dvec3& hip, const glm::dvec3& limb, double reach) {
   const glm::dvec3 heel = -(foot.turn * limb), to_hip = hip - foot.tip;
   const double length = glm::length(heel), far = glm::length(to_hip);
@@ -349,7 +349,7 @@ void SetLeg(const JointTree& tree, const TreeLeg& leg, const FootPose& foot, dou
   const glm::dvec3 limb = glm::conjugate(world.turns[at(leg.ankle)]) * (world[leg.tip] - ankle);
   const glm::dquat turn = RaisedHeel(foot, hip, limb, reach);
   const glm::dvec3 target = foot.tip - turn * limb;
-  constexpr double kForwards = 1e-3;  // bends the knee of a straight leg, which has no direction, forwards
+  constexpr double kForwards = 1e-3;  // lets the knee of a straight leg bend forwards
   const glm::dvec3 pole = CarriedOffset(KneeOffset(hip, knee, ankle), ankle - hip, target - hip) +
                           kForwards * UnitOr(turn * limb, glm::dvec3(0));
   const Leg solved = SolveLeg(hip, target, glm::distance(hip, knee), glm::distance(knee, ankle), pole);
