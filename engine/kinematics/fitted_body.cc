@@ -167,7 +167,7 @@ class Builder {
         if (limb_of_[child] < 0) RETURN_IF_ERROR(AddOutwardLimb(child));
       }
     }
-    // Describe what pictures show of the body, and make its skeleton as a clip.
+    // Add what pictures show of the body, and the skeleton that `ToClip` writes.
     PlaceRoles();
     AddTwists();
     AddEnds();

@@ -67,7 +67,7 @@ struct FixedPoint {
 FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const EffectorTarget& target) {
   FixedPoint point{target.position, {}, glm::length(effector.p_LE)};
   const glm::dvec3& w = target.axis_weights;
-  if (w.x > 0 && w.y > 0 && w.z > 0) {  // all three axes have targets, so these also fix the upper end of the limb
+  if (w.x > 0 && w.y > 0 && w.z > 0) {  // if all axes have targets, the upper end of the limb is fixed, too
     point.position -= target.axes * effector.p_LE;
     point.last_limb = 0;
   }

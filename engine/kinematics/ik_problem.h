@@ -168,8 +168,8 @@ inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 /// finite or exceed `kMaxIkValue`; limbs of zero length (a joint may coincide with the root); limits with lower >
 /// upper; axes that are not orthonormal; negative weights; an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
-/// The following overloads make only some of these checks: of tree and options, of the tree, of the options, and of one
-/// problem whose tree has no faults.
+/// Each of the following functions makes only some of these checks. They check, in this order: tree and options; the
+/// tree; the options; a problem whose tree has no faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
 std::string_view FindTreeFault(const KinematicTree& tree);
 std::string_view FindFault(const IkOptions& options);

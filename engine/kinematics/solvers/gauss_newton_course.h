@@ -124,7 +124,8 @@ class GaussNewtonCourse {
   static constexpr double kMaxDamping = 10;
   static constexpr double kDampingUp = 10;   // multiplies the factor after a step that raised the residual
   static constexpr double kDampingDown = 3;  // divides the factor after other steps
-  // Minimum factor in the last phase, where the residual and thus the damping stay large; elsewhere it is 1.
+  // Minimum of this factor in the last phase, where the residual and thus the damping stay large. In other phases the
+  // minimum is 1.
   static constexpr double kDampingFloor = 1e-3;
 
   // Below this damping a step gets extra active-set passes.

@@ -1,6 +1,7 @@
-// Solves problems one after the other, with four limbs side by side in the lanes of a vector; the trunk's joints come
-// one by one, with a matrix row per vector. This file is compiled once per instruction set; the best one is selected at
-// run time (README.md). Whatever the width of the vectors, numbers are added in the order of the tests' plain_gauss_newton.cc.
+// Solves problems one after the other, with four limbs side by side in the lanes of a vector. The trunk's joints are
+// computed one by one, with a matrix row per vector. This file is compiled once per instruction set; the best one is
+// selected at run time (README.md). With vectors of any width, numbers are added in the order of the tests'
+// plain_gauss_newton.cc.
 #include <algorithm>
 #include <limits>
 
