@@ -15,7 +15,7 @@ namespace etude {
 struct Material {
   std::string name;
   glm::dvec3 colour{0.8};   ///< linear RGB, 0…1 (glTF's base colour factor)
-  SharedTexture texture{};  ///< if set, it replaces `colour`; it is already multiplied by the colour
+  SharedTexture texture{};  ///< if set, replaces `colour`; its texels are already multiplied by the colour
 };
 
 /// A surface that follows a skeleton by linear blend skinning (glTF's skin). A rigid mesh has one binding.

@@ -217,9 +217,9 @@ class SupportFinder::ClipSupport {
     return false;
   }
 
-  /// Returns the heights, ascending, at which the clip's joint rests near frame `frame`; before and after the clip,
-  /// near the clip's first or last frame. For a joint that never rests (walking on the spot), returns the lowest height
-  /// at which the joint bears the body.
+  /// Returns the heights, ascending, at which the clip's joint rests near frame `frame`. If the frame is before or
+  /// after the clip, the clip's first or last frame is used. For a joint that never rests (walking on the spot),
+  /// returns the lowest height at which the joint bears the body.
   std::vector<double> HeightsOfRest(int frame, std::size_t j) const {
     const int from = std::min(frame, clip_.left_at) - window_ - clip_.begin, to = frame + window_ - clip_.begin;
     std::vector<double> heights;

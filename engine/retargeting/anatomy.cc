@@ -88,7 +88,7 @@ class AnatomyFinder {
         if (proposal.confidence > best.confidence) best = proposal;
       }
     }
-    // Reduce the confidence by the score of the second best pair; an equally likely one halves it.
+    // Reduce the confidence by the score of the second best choice; an equally good second choice halves it.
     if (best.confidence > 0) best.confidence *= 1 - 0.5 * second / best.confidence;
     return best;
   }

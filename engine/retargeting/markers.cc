@@ -110,7 +110,7 @@ JointPositions PositionsOf(const MarkerSet& set, const MarkerColumns& columns, c
   return places;
 }
 
-/// Returns the names in the file of the markers that determine a joint, or the joint's name if no markers do.
+/// Returns the file's names of the markers that determine a joint, or the joint's name if no markers do.
 std::string NamesOf(Role role, const MarkerSet& set, const MarkerColumns& columns, const MarkerMotion& markers) {
   for (const MarkerRule& rule : set.rules) {
     if (rule.role != role || !HasAll(columns, rule.markers)) continue;

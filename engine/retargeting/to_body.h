@@ -24,7 +24,7 @@ struct BodyOptions {
   std::optional<UpFinding> found_up = std::nullopt;  ///< the result of FindGround, if the file has several clips
   bool keep_floor = false;                           ///< do not move the file's floor to 0
   std::optional<double> floor = std::nullopt;    ///< the floor's height along the up axis, in the file's unit
-  std::optional<double> stature = std::nullopt;  ///< of the moving body, in the file's unit: Ground::stature
+  std::optional<double> stature = std::nullopt;  ///< stature in motion, in the file's unit (Ground::stature)
   bool drop_t_pose = true;                       ///< drop a leading T-pose from which the motion jumps
 };
 
