@@ -14,9 +14,9 @@ namespace etude::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Wide = hn::ScalableTag<std::int16_t>;    ///< one vector of pixels
-using Half = hn::Half<Wide>;                   ///< half of them, …
-using Whole = hn::Rebind<std::int32_t, Half>;  ///< … widened to a full vector
+using Wide = hn::ScalableTag<std::int16_t>;    ///< a vector of pixels
+using Half = hn::Half<Wide>;                   ///< half of a vector's pixels
+using Whole = hn::Rebind<std::int32_t, Half>;  ///< the pixels of a Half as 32-bit integers: a full vector
 using Real = hn::Rebind<float, Half>;
 using Byte = hn::Rebind<std::uint8_t, Wide>;
 
