@@ -146,7 +146,7 @@ EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec
       case ErrorPower::kNone:
         return 1.0;
       case ErrorPower::kThreeQuarters:
-        return std::sqrt(error * std::sqrt(error));  // the same bits with every libm, unlike std::pow
+        return std::sqrt(error * std::sqrt(error));  // gives the same bits with every libm, unlike std::pow
       case ErrorPower::kOne:
         return error;
     }

@@ -85,13 +85,13 @@ struct IkProblem {
 /// The settings of single solvers. The comment behind a setting names the solver that reads it; the solver's header
 /// explains the setting and its default.
 struct SolverSettings {
-  std::optional<int> first_sweeps = {};      ///< gauss-newton
-  std::optional<int> memory = {};            ///< ccd-anderson
-  std::optional<double> damping_share = {};  ///< levenberg-marquardt
-  std::optional<double> first_radius = {};   ///< ceres-lm
-  std::optional<double> damping = {};        ///< damped-least-squares, damped-least-squares-active-set
-  std::optional<double> pinv_damping = {};   ///< jacobian-pinv
-  std::optional<double> gain = {};           ///< jacobian-transpose
+  std::optional<int> first_sweeps = {};      ///< read by gauss-newton
+  std::optional<int> memory = {};            ///< read by ccd-anderson
+  std::optional<double> damping_share = {};  ///< read by levenberg-marquardt
+  std::optional<double> first_radius = {};   ///< read by ceres-lm
+  std::optional<double> damping = {};        ///< read by damped-least-squares, damped-least-squares-active-set
+  std::optional<double> pinv_damping = {};   ///< read by jacobian-pinv
+  std::optional<double> gain = {};           ///< read by jacobian-transpose
 
   bool operator==(const SolverSettings&) const = default;
 };

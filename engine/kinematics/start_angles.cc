@@ -27,7 +27,7 @@ constexpr std::array<TwistHinge, 3> kTwistHinges = {{{kTreeLeftShoulder, kTreeLe
                                                      {kTreeRightShoulder, kTreeRightElbow, +1},
                                                      {kTreeRightHip, kTreeRightKnee, -1}}};
 
-using Directions = std::array<glm::dvec3, kBodyTreeJointCount>;  // of limbs, in the world, unit vectors
+using Directions = std::array<glm::dvec3, kBodyTreeJointCount>;  // unit vectors along the limbs, in the world
 
 std::optional<Directions> FindDirections(const BodyPose& joints) {
   Directions directions;

@@ -16,7 +16,7 @@ using Fits = std::vector<std::optional<SilhouetteFit>>;
 
 constexpr std::size_t kFollowedAnchors = 2;  // maximum number of start poses that are followed through the take
 constexpr int kTurnedMoments = 5;            // number of frames in which the reversed body is searched for
-constexpr double kClearlyBetter = 0.95;      // the reversed body is taken below this share of the other cost
+constexpr double kClearlyBetter = 0.95;      // ratio of costs below which the reversed body is taken
 
 double Squared(double x) { return x * x; }
 

@@ -133,8 +133,8 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
 constexpr double kMinDamping = 1e-9;
 constexpr double kMaxDamping = 1e6;
 constexpr double kDampingStep = 5;
-// The solver stalls if a step lowers the sum by less than this share: only about a million such steps would change the
-// sum noticeably.
+// The solver stalls if a step lowers the sum by less than this share: about a million such steps would be needed to
+// change the sum noticeably.
 constexpr double kMinGain = 1e-6;
 
 }  // namespace
