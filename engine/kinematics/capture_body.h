@@ -37,8 +37,8 @@ struct CaptureBody {
     std::string name;
     int parent = -1;
     glm::dvec3 offset{0};  ///< from the parent, in the rest pose, metres
-    int limb = 0;          ///< the limb of the tree that carries it
-    glm::dmat3 R_LC{1};    ///< its axes in that limb; at rest they are the world's axes
+    int limb = 0;          ///< the limb of the tree that carries this joint
+    glm::dmat3 R_LC{1};    ///< the joint's axes in that limb; at rest they are the world's axes
     bool is_end = false;
   };
 

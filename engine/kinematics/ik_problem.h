@@ -133,7 +133,7 @@ enum class IkStatus {
 /// The distance of one end effector from its target.
 struct EffectorError {
   double position = 0;        ///< metres
-  glm::dvec3 axis_angles{0};  ///< between each axis and its target axis, radians
+  glm::dvec3 axis_angles{0};  ///< angles between the axes and their target axes, radians
 
   /// Returns the mean angle over the axes whose weight is positive, radians; 0 if there is none.
   double MeanAxisAngle(const glm::dvec3& axis_weights) const;

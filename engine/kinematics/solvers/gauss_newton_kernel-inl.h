@@ -115,8 +115,8 @@ HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   }
 }
 
-/// Sets `screw` for a hinge at J: first its unit axis, then the translation per radian of that point of the limb which
-/// is at the root R.
+/// Sets `screw` for a hinge at J: first its unit axis, then the translation, per radian, of the limb's point that
+/// coincides with the root R.
 template <class V>
 HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
   V shift[3];

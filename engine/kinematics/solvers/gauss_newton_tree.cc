@@ -35,7 +35,7 @@ struct Limb {
   LimbPacks::Branch branch = {};
 };
 
-// Builds `LimbPacks`: finds the trunk, then the limbs, then packs the limbs by fours.
+// Builds `LimbPacks`: finds the trunk, then the limbs, then groups the limbs into packs of four.
 class LimbPacker {
  public:
   LimbPacker(const KinematicTree& tree, LimbPacks& made)

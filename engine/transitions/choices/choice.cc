@@ -138,7 +138,7 @@ TransitionRecord PlanThroughStanding(const MotionLibrary& library, const Transit
   const TweenRules& tween = library.in_betweens.tween;
   const BodyPose& leaving = library.motions[request.from].poses[request.request_frame];
   const BodyPose& entered = library.motions[request.to].poses.front();
-  // Compute the frames of both tweens: into the standing pose, and on into the wanted clip.
+  // Compute the frames of both tweens: into the standing pose, and from there into the wanted clip.
   std::vector<BodyPose> own = SampleTween(Tween(leaving, StandingPose(library.proportions)), playing.rate_hz, tween);
   const int standing = static_cast<int>(own.size()) - 1;
   AppendTween(entered, playing.rate_hz, tween, own);

@@ -48,7 +48,7 @@ struct TransitionWay {
 /// The transition that a method made for a request.
 struct Transition {
   TransitionRecord record;
-  Splice splice;  ///< without frames if the record has no segments
+  Splice splice;  ///< has no frames if the record has no segments
 };
 
 /// Makes a transition from a frame of one clip into another clip, within a time budget. The request's clips and frame

@@ -39,7 +39,7 @@ struct OpenWay {
       shown.reserve(window.next.size());
     }
 
-    const glm::dvec3 shift;  // moves the wanted clip
+    const glm::dvec3 shift;  // shift of the wanted clip, metres
     const JoinWindow window;
     CostMeter meter;
     std::vector<BodyPose> shown = {};
@@ -47,7 +47,7 @@ struct OpenWay {
 
   bool HasLimbs() const { return limbs && static_cast<int>(limbs->shown.size()) > way.frames; }
 
-  PlayedJoin way;  // with the cost of the frames played so far
+  PlayedJoin way;  // the join, with the cost of the frames played so far
   std::unique_ptr<Limbs> limbs = {};
   bool has_feet = false;
 };

@@ -47,7 +47,7 @@ struct FootTracks {
   const LegRoles& leg;
   int frames = 0;  ///< number of frames in which steps are planned
   Frames old_stands = 0, next_stands = 0;
-  /// For each frame, how far the foot slid while it stood in the frames before, metres.
+  /// For each frame, how far the foot slid in those earlier frames in which it stood, metres.
   std::array<double, kMaxFrames + 2> old_slid{}, next_slid{};
 };
 
@@ -57,7 +57,7 @@ struct StepOption {
   Frames stands = 0;  // the frames in which the foot bears weight
 };
 
-/// Returns the minimum-jerk movement of a step: the toe's offset between the motions goes to zero.
+/// Returns the minimum-jerk movement of a step, in which the old toe's offset from the new one goes to zero.
 Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
   const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
   const auto change = [&](const BodyPose& before, const BodyPose& after) {
@@ -289,7 +289,7 @@ void PlantFeet(const JoinWindow& window, const FootPlan& plan, std::vector<BodyP
     }
   }
   constexpr double kRounding = 1e-9;
-  if (farthest < kRounding) return;  // the join changes nothing
+  if (farthest < kRounding) return;  // the feet are already on their paths
   // Lower the body and solve each leg for its path.
   drop = SmoothlyAbove(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {

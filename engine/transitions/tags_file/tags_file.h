@@ -49,12 +49,12 @@ struct KeyTag {
 struct BridgeTags {
   std::string system;              ///< the fuzzy system's name
   std::string memberships_digest;  ///< digest of the membership functions: sixteen hexadecimal digits
-  FeatureWeights weights{};        ///< S of equation 1
+  FeatureWeights weights{};        ///< the weights S of equation 1
   double threshold = kPaperThreshold;
   bool within_class = false;
   int min_clips = 2, most_per_class = 0;                      ///< as in TagRules
   double max_neck_bend_deg = 0, max_neck_turn_deg_per_s = 0;  ///< as in HeadRule
-  double standing_hip_height_m = 0;                           ///< of the body that performs all clips
+  double standing_hip_height_m = 0;                           ///< of the body that performs all clips, metres
   std::vector<ClipTags> clips;                                ///< with unique names
   std::vector<KeyTag> keys;                                   ///< the first is the hub
 
