@@ -23,13 +23,13 @@ struct SkinnedMesh {
   /// A joint that vertices may follow.
   struct Binding {
     int joint = 0;               ///< index of a joint in the character's skeleton
-    glm::dmat4 inverse_bind{1};  ///< from the mesh's frame to the joint's, in the bind pose
+    glm::dmat4 inverse_bind{1};  ///< transform from the mesh's frame to the joint's, in the bind pose
   };
   struct Vertex {
     glm::dvec3 position{0};
     glm::dvec3 normal{0};                       ///< unit vector
     std::array<int, 4> bindings{};              ///< indices into the mesh's bindings
-    std::array<double, 4> weights{1, 0, 0, 0};  ///< sum to 1
+    std::array<double, 4> weights{1, 0, 0, 0};  ///< weights of these bindings; they sum to 1
     glm::dvec2 on_texture{0};                   ///< texture coordinates
   };
 

@@ -22,7 +22,7 @@ struct SupportRules {
   double lowest = 0.12;       ///< a joint may bear the body if it is at most this high above the lowest joint
   double rest_speed = 0.5;    ///< a joint is at rest up to this speed (feet roll, and captures are noisy)
   double height = 0.025;      ///< maximum height of a shown joint above the clip's joint at rest
-  double heel = 0.03;         ///< a clip's ankle does not support if it is this much higher above its toes than if flat
+  double heel = 0.03;         ///< a clip's ankle does not support if this much higher above its toes than in flat feet
   double toes = 0.05;         ///< a clip's toes do not support if they are higher than this above its lowest joint
   double level = 0.12;        ///< rest heights that differ by more than this are two surfaces, such as floor and step
   double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame

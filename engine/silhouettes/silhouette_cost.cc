@@ -163,7 +163,7 @@ void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
                double& sum) {
   if (silhouette.area == 0) return;
-  double outline = sum;  // a local variable, which cannot alias the options: they need not be read again
+  double outline = sum;  // a local sum, so that the compiler knows that writes to it change no option
   for (const int place : silhouette.columns.places) {
     const auto at = static_cast<std::size_t>(place);
     if (flesh.owners[at] >= 0) outline += LossOf({.value = flesh.distances[at]}, options).loss;

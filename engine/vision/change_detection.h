@@ -102,7 +102,7 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
 
 /// The rule that selects the changed components that belong to the person.
 enum class PersonPieces {
-  kLargest,  ///< only the largest one (paper B)
+  kLargest,  ///< only the largest component (paper B)
   /// *Ours*: the largest component, and all components near it above a minimum size. Forearms and feet are separate
   /// components where a sleeve ends or skin has the wall's hue; kLargest would lose them. On the other hand, a shadow
   /// may be included.

@@ -22,8 +22,8 @@ using Byte = hn::Rebind<std::uint8_t, Wide>;
 
 HWY_INLINE hn::Vec<Real> ToReal(hn::Vec<Half> v) { return hn::ConvertTo(Real(), hn::PromoteTo(Whole(), v)); }
 
-/// Returns 1 in each lane (half a vector) in which the hues differ. Sets the lanes of `close` in which rounding may
-/// have decided.
+/// Compares the hues of half a vector of pixels; returns 1 in each lane in which they differ. Sets the lanes of `close`
+/// in which rounding may have decided.
 HWY_INLINE hn::Vec<Half> Compare(hn::Vec<Half> x16, hn::Vec<Half> y16, hn::Vec<Half> bx16, hn::Vec<Half> by16,
                                  float cosine2, hn::Vec<Real>& close) {
   const Real real;
