@@ -209,8 +209,8 @@ class SupportFinder::ClipSupport {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       // A joint that has sunk into the floor is also supported.
       if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
-      // A height is a separate surface only if the clip's joint does not also rest a little below it. (The toes rest a
-      // little below a bearing heel.)
+      // A height is a separate surface only if the clip's joint does not also rest a little below it. (While a heel
+      // bears the body, the toes rest a little below it.)
       const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
       if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
     }

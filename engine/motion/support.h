@@ -60,8 +60,8 @@ FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 struct SupportingClip {
   std::span<const BodyPose> poses;  ///< poses of the clip, moved on the floor to where the clip is shown
   int begin = 0;                    ///< the shown frame of poses[0]; may be outside of the requested frames
-  /// The last shown frame of the clip. In later frames, the places at which the clip supports the body in this frame
-  /// still support it. The default means that the clip is never left.
+  /// The last shown frame of the clip. The places at which the clip supports the body in that frame still support it in
+  /// later frames. The default means that the clip is never left.
   int left_at = std::numeric_limits<int>::max();
 };
 

@@ -73,7 +73,7 @@ class PairStage {
   /// Returns PlanSteps of a window that WindowFor returned for kLengths_s[length], with CarriedShift or without. All
   /// of kWays have the same steps, so they are planned once.
   const FootPlan& StepsIn(const JoinWindow& window, std::size_t length, bool carried);
-  /// Rates the motion in which the join shows the frames `played`, and then the wanted clip moved by `shift` follows.
+  /// Rates a motion: the frames `played` of a join, and after them the wanted clip, moved by `shift`.
   Burden Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const;
 
   const OwnAccelerations& own() const { return own_; }

@@ -350,7 +350,7 @@ void SetLeg(const JointTree& tree, const TreeLeg& leg, const FootPose& foot, dou
   const glm::dvec3 limb = glm::conjugate(world.turns[at(leg.ankle)]) * (world[leg.tip] - ankle);
   const glm::dquat turn = RaisedHeel(foot, hip, limb, reach);
   const glm::dvec3 target = foot.tip - turn * limb;
-  constexpr double kForwards = 1e-3;  // lets the knee of a straight leg bend forwards
+  constexpr double kForwards = 1e-3;  // metres along the foot, so that the knee of a straight leg bends forwards
   const glm::dvec3 pole = CarriedOffset(KneeOffset(hip, knee, ankle), ankle - hip, target - hip) +
                           kForwards * UnitOr(turn * limb, glm::dvec3(0));
   const Leg solved = SolveLeg(hip, target, glm::distance(hip, knee), glm::distance(knee, ankle), pole);
