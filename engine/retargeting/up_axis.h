@@ -17,7 +17,7 @@ std::string_view UpEvidenceName(UpEvidence evidence);
 
 /// Knowledge about a file's up axis that does not come from its motion.
 struct UpRule {
-  glm::dvec3 axis{0, 1, 0};  ///< the axis that points up; with kPosture only the usual one, which the posture may overrule
+  glm::dvec3 axis{0, 1, 0};  ///< the axis that points up; with kPosture the usual one, which the posture may overrule
   UpEvidence evidence = UpEvidence::kPosture;
   /// A text that names the source of the axis: "the usual axis of TRC files", "the rule of AMASS".
   std::string source = "the usual axis";
