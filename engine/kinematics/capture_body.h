@@ -23,7 +23,7 @@ struct CaptureBody {
     Role role;
     bool has_position = true;
     bool has_direction = true;
-    double sense = 1;  ///< −1 if the tree's limb points towards the trunk; strokes point away from it
+    double sense = 1;  ///< −1 if the tree's limb points towards the trunk, against the strokes; else 1
   };
   /// The twist of a limb, given by two neighbouring limbs: the limb's X axis points along
   /// `bends` · (middle − upper) × (lower − middle).
@@ -37,8 +37,8 @@ struct CaptureBody {
     std::string name;
     int parent = -1;
     glm::dvec3 offset{0};  ///< from the parent, in the rest pose, metres
-    int limb = 0;          ///< the limb of the tree that carries it
-    glm::dmat3 R_LC{1};    ///< its axes in that limb; at rest they are the world's axes
+    int limb = 0;          ///< the limb of the tree that carries this joint
+    glm::dmat3 R_LC{1};    ///< the joint's axes in that limb; at rest they are the world's axes
     bool is_end = false;
   };
 
@@ -80,9 +80,9 @@ BodyPose ToBodyPose(const CaptureBody& body, const TreeState& state);
 BodyPose ToBodyPose(const CaptureBody& body, const TreeFrames& frames);
 
 /// Makes the inverse-kinematics problem whose start pose is `start`: move the ends back to their observed positions,
-/// and point the last limbs in their observed directions if `CaptureBody::ends` gives them a direction. The smallest
-/// rotation to that direction also turns the X and Y axes of the start pose into those of the target, which have weight
-/// 0. Parts that `observation` lacks have weight 0. The limits are those of the tree.
+/// and point the last limbs in their observed directions if `CaptureBody::ends` gives them a direction. The X and Y
+/// axes of such a target are those of the start pose, turned by the smallest rotation to that direction; they have
+/// weight 0. Parts that `observation` lacks have weight 0. The limits are those of the tree.
 IkProblem MakeImageProblem(const CaptureBody& body, const LimbObservation& observation, const TreeState& start);
 
 /// Returns a motion of the body as a clip with its own skeleton: metres, Y up, rooted at the hips. The conversion is

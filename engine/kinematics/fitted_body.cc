@@ -27,7 +27,7 @@ bool AreSame(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a,
 struct Part {
   std::string name;
   int parent = -1;
-  glm::dvec3 at{0};  ///< position of the joint about which it turns relative to its parent
+  glm::dvec3 at{0};  ///< position of the joint about which the part turns relative to its parent
   bool is_left_out = false;
 };
 
@@ -141,10 +141,10 @@ bool IsArm(Role role) {
 
 /// One limb of the tree in the rest pose, world coordinates.
 struct RestLimb {
-  glm::dvec3 from{0};  ///< its joint in the tree
-  glm::dvec3 to{0};    ///< its far end, which defines its Z axis
+  glm::dvec3 from{0};  ///< the limb's joint in the tree
+  glm::dvec3 to{0};    ///< the limb's far end, which defines its Z axis
   std::vector<glm::dvec3> tips;
-  Role leads_to = kHipCentre;  ///< the first role along it, away from the pelvis
+  Role leads_to = kHipCentre;  ///< the first role along the limb, away from the pelvis
 };
 
 /// Builds the tree from the parts: up the left leg to the pelvis, then outwards from there.
@@ -167,7 +167,7 @@ class Builder {
         if (limb_of_[child] < 0) RETURN_IF_ERROR(AddOutwardLimb(child));
       }
     }
-    // Describe what pictures show of the body, and make its skeleton as a clip.
+    // Add what pictures show of the body, and the skeleton that `ToClip` writes.
     PlaceRoles();
     AddTwists();
     AddEnds();
@@ -182,7 +182,7 @@ class Builder {
     rest_axes_.push_back(glm::dmat3(1));
   }
 
-  // Adds the limb of a part of the left leg, or of the pelvis. It begins at the end of limb `below`.
+  // Adds the limb of a part of the left leg, or of the pelvis. The limb begins at the end of limb `below`.
   Result<void> AddLeftLegLimb(int part, int below) {
     RestLimb limb;
     limb.from = below < 0 ? parts_.places()[kLeftFoot] : parts_[below].at;

@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::size_t kLine = 8;  // number of doubles in a cache line
 
-// Returns an odd number of cache lines, so that the rows of one problem do not share one cache set.
+// Returns the distance between successive rows, in doubles: an odd number of cache lines, so that the numbers of one
+// problem do not fall into one cache set.
 std::size_t StrideFor(int count) { return (((static_cast<std::size_t>(count) + kLine - 1) / kLine) | 1) * kLine; }
 
 }  // namespace
@@ -84,7 +85,8 @@ IkProblem IkBatch::Get(int problem_index) const {
   return problem;
 }
 
-// Works row by row without branches, so that compilers vectorise it. Every check is a comparison that fails for NaN.
+// The loops go row by row without branches, so that compilers vectorise them. Every check is a comparison that fails
+// for NaN.
 std::vector<int> IkBatch::FindSound() const {
   // Each check sets faults[n] for every problem n that fails it.
   const std::size_t count = count_;

@@ -67,7 +67,7 @@ struct FixedPoint {
 FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const EffectorTarget& target) {
   FixedPoint point{target.position, {}, glm::length(effector.p_LE)};
   const glm::dvec3& w = target.axis_weights;
-  if (w.x > 0 && w.y > 0 && w.z > 0) {  // all three axes have targets, so these also fix the upper end of the limb
+  if (w.x > 0 && w.y > 0 && w.z > 0) {  // if all axes have targets, the upper end of the limb is fixed, too
     point.position -= target.axes * effector.p_LE;
     point.last_limb = 0;
   }
@@ -146,7 +146,7 @@ EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec
       case ErrorPower::kNone:
         return 1.0;
       case ErrorPower::kThreeQuarters:
-        return std::sqrt(error * std::sqrt(error));  // the same bits with every libm, unlike std::pow
+        return std::sqrt(error * std::sqrt(error));  // gives the same bits with every libm, unlike std::pow
       case ErrorPower::kOne:
         return error;
     }

@@ -85,13 +85,13 @@ struct IkProblem {
 /// The settings of single solvers. The comment behind a setting names the solver that reads it; the solver's header
 /// explains the setting and its default.
 struct SolverSettings {
-  std::optional<int> first_sweeps = {};      ///< gauss-newton
-  std::optional<int> memory = {};            ///< ccd-anderson
-  std::optional<double> damping_share = {};  ///< levenberg-marquardt
-  std::optional<double> first_radius = {};   ///< ceres-lm
-  std::optional<double> damping = {};        ///< damped-least-squares, damped-least-squares-active-set
-  std::optional<double> pinv_damping = {};   ///< jacobian-pinv
-  std::optional<double> gain = {};           ///< jacobian-transpose
+  std::optional<int> first_sweeps = {};      ///< read by gauss-newton
+  std::optional<int> memory = {};            ///< read by ccd-anderson
+  std::optional<double> damping_share = {};  ///< read by levenberg-marquardt
+  std::optional<double> first_radius = {};   ///< read by ceres-lm
+  std::optional<double> damping = {};        ///< read by damped-least-squares, damped-least-squares-active-set
+  std::optional<double> pinv_damping = {};   ///< read by jacobian-pinv
+  std::optional<double> gain = {};           ///< read by jacobian-transpose
 
   bool operator==(const SolverSettings&) const = default;
 };
@@ -133,7 +133,7 @@ enum class IkStatus {
 /// The distance of one end effector from its target.
 struct EffectorError {
   double position = 0;        ///< metres
-  glm::dvec3 axis_angles{0};  ///< between each axis and its target axis, radians
+  glm::dvec3 axis_angles{0};  ///< angles between the axes and their target axes, radians
 
   /// Returns the mean angle over the axes whose weight is positive, radians; 0 if there is none.
   double MeanAxisAngle(const glm::dvec3& axis_weights) const;
@@ -168,8 +168,8 @@ inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 /// finite or exceed `kMaxIkValue`; limbs of zero length (a joint may coincide with the root); limits with lower >
 /// upper; axes that are not orthonormal; negative weights; an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
-/// The following overloads make only some of these checks: of tree and options, of the tree, of the options, and of one
-/// problem whose tree has no faults.
+/// Each of the following functions makes only some of these checks. They check, in this order: tree and options; the
+/// tree; the options; a problem whose tree has no faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
 std::string_view FindTreeFault(const KinematicTree& tree);
 std::string_view FindFault(const IkOptions& options);

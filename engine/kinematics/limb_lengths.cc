@@ -192,7 +192,7 @@ std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const
   joints[kHipCentre] = 0.5 * (joints[kLeftHip] + joints[kRightHip]);
 
   // Figure 3.2(b) and (c): joining and centring both move the arms along the shoulder line, so they are one step. The
-  // midpoint of the shoulders is moved to the known trunk length.
+  // midpoint of the shoulders then moves until the trunk has its known length.
   const glm::dvec3 shoulder_vector = joints[kRightShoulder] - joints[kLeftShoulder];
   if (glm::length(shoulder_vector) < kMinGapM) return std::nullopt;
   const glm::dvec3 across = glm::normalize(shoulder_vector);

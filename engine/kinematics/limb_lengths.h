@@ -50,9 +50,9 @@ LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
 
 /// Completes an observation so that `FixLimbLengths` can use it. Observed values stay as they are, and `lacks_end` and
 /// `lacks_direction` still mark the completed ones. *(Ours; in paper B every limb is marked in every picture.)*
-/// - A missing limb direction is taken from `like` and rotated with the nearest observed limb towards the trunk, that
-///   is, by the smallest rotation that takes that limb from `like` to the observation. If there is no such limb, the
-///   direction in `like` is used unchanged.
+/// - A missing limb direction is the direction in `like`, rotated with the nearest observed limb between it and the
+///   trunk: by the smallest rotation from that limb's direction in `like` to its observed direction. If there is no
+///   such limb, the direction in `like` is used unchanged.
 /// - A missing end follows from the rest of the body: hips and shoulders have their orientation in `like`, and the
 ///   limbs extend from there with their lengths and directions. If no foot was seen, the hips are placed below the
 ///   shoulders, along the trunk of `like`; if no hand was seen, the shoulders are placed above the hips in the same

@@ -27,7 +27,7 @@ constexpr std::array<TwistHinge, 3> kTwistHinges = {{{kTreeLeftShoulder, kTreeLe
                                                      {kTreeRightShoulder, kTreeRightElbow, +1},
                                                      {kTreeRightHip, kTreeRightKnee, -1}}};
 
-using Directions = std::array<glm::dvec3, kBodyTreeJointCount>;  // of limbs, in the world, unit vectors
+using Directions = std::array<glm::dvec3, kBodyTreeJointCount>;  // unit vectors along the limbs, in the world
 
 std::optional<Directions> FindDirections(const BodyPose& joints) {
   Directions directions;
@@ -53,7 +53,7 @@ std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
   }
   if (glm::length(normal) < std::sin(kStraight)) return std::nullopt;
   const glm::dvec3 x = glm::normalize(normal);
-  // The foot cannot point along X, because it would be normal to the shank and to the plane of the leg.
+  // Give up if the foot points along X, the hinges' axis: no hinge angle brings it there.
   if (std::abs(glm::dot(directions[kTreeLeftToe], x)) > std::cos(kStraight)) return std::nullopt;
   const glm::dvec3 z = UnitNormalPart(directions[kTreeLeftToe], x);
   return glm::dmat3(x, glm::cross(z, x), z);

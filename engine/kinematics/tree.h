@@ -81,7 +81,7 @@ struct TreeFrames {
 void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames& out);
 TreeFrames ComputeFrames(const KinematicTree& tree, const TreeState& state);
 
-/// Returns the angles of `joint` as x, y, z; missing ones are zero.
+/// Returns the angles of `joint` as x, y, z; angles that the joint does not have are zero.
 glm::dvec3 JointAngles(const TreeJoint& joint, std::span<const double> angles);
 
 /// Returns the world unit vector about which `axis` (0 = X, 1 = Y, 2 = Z) of `joint` turns the limbs beyond.

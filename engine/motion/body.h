@@ -85,8 +85,8 @@ std::span<const Bone, 8> ArmAndLegBones();
 
 double BoneLength(const BodyPose& pose, const Bone& bone);
 
-/// A rigid motion on the floor: a rotation about the vertical axis, then a translation. It changes where a clip is
-/// danced and which way it faces, but not the dance.
+/// A rigid motion on the floor: a rotation about the vertical axis, then a translation. It changes a body's heading and
+/// its position on the floor, but not its pose.
 struct FloorMove {
   double yaw = 0;  ///< radians about +Y
   double x = 0;    ///< metres

@@ -15,7 +15,7 @@ namespace etude {
 struct Material {
   std::string name;
   glm::dvec3 colour{0.8};   ///< linear RGB, 0…1 (glTF's base colour factor)
-  SharedTexture texture{};  ///< if set, it replaces `colour`; it is already multiplied by the colour
+  SharedTexture texture{};  ///< if set, replaces `colour`; its texels are already multiplied by the colour
 };
 
 /// A surface that follows a skeleton by linear blend skinning (glTF's skin). A rigid mesh has one binding.
@@ -23,13 +23,13 @@ struct SkinnedMesh {
   /// A joint that vertices may follow.
   struct Binding {
     int joint = 0;               ///< index of a joint in the character's skeleton
-    glm::dmat4 inverse_bind{1};  ///< from the mesh's frame to the joint's, in the bind pose
+    glm::dmat4 inverse_bind{1};  ///< transform from the mesh's frame to the joint's, in the bind pose
   };
   struct Vertex {
     glm::dvec3 position{0};
     glm::dvec3 normal{0};                       ///< unit vector
     std::array<int, 4> bindings{};              ///< indices into the mesh's bindings
-    std::array<double, 4> weights{1, 0, 0, 0};  ///< sum to 1
+    std::array<double, 4> weights{1, 0, 0, 0};  ///< weights of these bindings; they sum to 1
     glm::dvec2 on_texture{0};                   ///< texture coordinates
   };
 

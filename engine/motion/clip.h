@@ -27,7 +27,7 @@ struct Joint {
   std::string name;
   int parent = -1;
   LocalTransform rest;       ///< local transform in the rest pose, in the file's unit; BVH's OFFSET is its translation
-  bool is_end_site = false;  ///< an end point without channels of its own (BVH "End Site")
+  bool is_end_site = false;  ///< true for an end point without channels of its own (BVH "End Site")
 };
 
 struct Skeleton {

@@ -72,7 +72,7 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
   constexpr double kNeverAsStill = 0.003;  // stricter limit of the joints' mean speed near a freeze, metres per second
-  constexpr double kGentle = 0.6;          // speed of the last step before rest, as a share of the step before
+  constexpr double kGentle = 0.6;          // a step beside a freeze is gentle up to this share of the next farther step
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
   std::vector<double> mean(steps);
@@ -115,8 +115,8 @@ bool IsAtFrozenEnd(const FrameRange& span, const std::vector<FrameRange>& frozen
   return std::ranges::any_of(frozen, [&](const FrameRange& f) { return is_near(f.first) || is_near(f.last); });
 }
 
-/// Measures the displacement over `steps` of `joint`, or of the whole body without `joint`. The mean of the steps just
-/// before and after is subtracted.
+/// Measures the displacement of `joint` over `steps`; if `joint` is absent, that of the whole body. The mean of the
+/// steps just before and after is subtracted.
 Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::optional<Role> joint = std::nullopt) {
   const PoseSteps before = StepsFrom(motion, steps.first - 1), after = StepsFrom(motion, steps.last + 1);
   Displacement found{.before = steps.first, .after = steps.last + 1};

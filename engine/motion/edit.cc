@@ -75,7 +75,7 @@ std::string OtherSide(std::string_view name) {
     }
     const std::size_t end = EndOfWord(name, at);
     const std::string_view word = name.substr(at, end - at);
-    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // a vertebra such as "L5"
+    const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // such as the vertebra "L5"
     for (const SideWord& turn : kSideWords) {
       if (word == turn.from && !is_numbered) return Replaced(name, at, turn);
     }
@@ -121,8 +121,8 @@ std::optional<glm::dquat> NearestRotation(glm::dmat3 axes) {
   constexpr double kFlat = 1e-9;
   if (!(glm::determinant(axes) > kFlat * size * size * size)) return std::nullopt;
   axes /= std::cbrt(glm::determinant(axes));
-  // Newton's iteration first halves large singular values about once a step (forty times for the flattest allowed
-  // matrix), then converges quadratically.
+  // Newton's iteration first about halves large singular values in each step (for forty steps if the matrix is as flat
+  // as allowed), then converges quadratically.
   constexpr int kMaxSteps = 60;
   constexpr double kSame = 1e-15;
   for (int step = 0; step < kMaxSteps; ++step) {

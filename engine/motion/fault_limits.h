@@ -17,7 +17,8 @@ struct Hovering {
 };
 inline constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.09, 2, true}};
 
-// Skates: limits for steps of the velocity, for a velocity that standing feet share, and for one foot.
+// Skates. The first line limits sudden changes of the whole body's velocity and the time between two of them, the
+// second a velocity that feet which should stand share, the third the velocity of one foot.
 inline constexpr double kStep_m_s = 0.12, kMinCarried_s = 0.25, kMaxCarried_s = 20;
 inline constexpr double kGlide_m_s = 0.14, kGlide_s = 0.5;
 inline constexpr double kFootSkate_m_s = 0.14, kFootSkate_s = 0.4,

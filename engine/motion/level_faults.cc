@@ -28,7 +28,7 @@ struct Level {
 /// Returns the vertical displacement of the frames that are at the right height: the level with the lowest cost. A
 /// level costs less if its feet rest near the floor, if the clip begins and ends on it, and if it lasts long.
 double ReferenceOffset(const GroundView& ground, const std::vector<Level>& levels) {
-  constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.1;  // metres; levels that differ by kSame are equal
+  constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.1;  // metres; levels count as equal up to kSame
   constexpr double kPerMetre = 2, kForTime = 0.04, kForEnd = 0.03;
   const double rest = ground.LowestRest() - ground.floor();
   std::optional<double> best;

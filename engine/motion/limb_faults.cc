@@ -96,9 +96,9 @@ std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span
   return all;
 }
 
-/// Appends limbs whose lengths differ from their medians by more than 3 %, in frames that last a twentieth of a second
-/// in all. One fault covers all of these frames. Joints that were found from markers move, because skin moves over
-/// bones; their limbs must differ by fifteen times the usual deviation.
+/// Appends limbs whose lengths differ from their medians by more than 3 % for at least 0.05 s in all. One fault covers
+/// all frames with such a difference. Joints that were found from markers move, because skin moves over bones; their
+/// limbs must differ by fifteen times the usual deviation.
 void FindStretches(const BodyMotion& motion, const FaultOptions& options, const std::vector<Pop>& pops,
                    std::vector<MotionFault>& faults) {
   constexpr int kMinFrames = 3;

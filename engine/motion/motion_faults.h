@@ -25,7 +25,7 @@ enum class FaultKind {
                ///< exchanged; size: error of the position, metres
   kGaps,       ///< some frames lack joints that other frames show; size: seconds
   kPasses,     ///< a forearm or a hand passes through trunk or head; size: its distance from the spine's line, metres
-  kRate,       ///< in flight the body falls with another acceleration than gravity's; size: metres per second²
+  kRate,       ///< in flight the body falls with a wrong acceleration; size: that acceleration, metres per second²
   kSpeed,      ///< in the median frame a joint is faster than people are; size: its speed, metres per second
 };
 
@@ -62,7 +62,7 @@ struct FaultOptions {
   /// For each frame, the joints that it does not show, because the file lacks them and a reader guessed their
   /// positions; empty: all joints are shown. Limbs that end at such joints are not judged.
   std::vector<JointSet> unseen = {};
-  double lost_before_s = 0, lost_after_s = 0;  ///< time of the file before and after the motion, without needed joints
+  double lost_before_s = 0, lost_after_s = 0;  ///< seconds of the file before and after the motion that lack joints
   bool is_of_markers = false;  ///< true: joints were found from markers on the skin, so the lengths of limbs may change
 };
 

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// Models the body as a linear inverted pendulum (Kajita et al. 2001): a mass that keeps its height above the joints
-/// that bear it.
+// The functions below model the body as a linear inverted pendulum (Kajita et al. 2001): a mass that keeps its height
+// above the joints that bear it.
 
 /// Returns the acceleration of the mass centre in frame `frame`, metres per second²: the second difference over a tenth
 /// of a second in each direction. Near the ends, the nearest frame with both neighbours is used. Returns 0 if the

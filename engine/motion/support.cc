@@ -209,17 +209,17 @@ class SupportFinder::ClipSupport {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       // A joint that has sunk into the floor is also supported.
       if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
-      // A height is a separate surface only if the clip's joint does not also rest a little below it. (The toes rest a
-      // little below a bearing heel.)
+      // A height is a separate surface only if the clip's joint does not also rest a little below it. (While a heel
+      // bears the body, the toes rest a little below it.)
       const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
       if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
     }
     return false;
   }
 
-  /// Returns the heights, ascending, at which the clip's joint rests near frame `frame`; before and after the clip,
-  /// near the clip's first or last frame. For a joint that never rests (walking on the spot), returns the lowest height
-  /// at which the joint bears the body.
+  /// Returns the heights, ascending, at which the clip's joint rests near frame `frame`. If the frame is before or
+  /// after the clip, the clip's first or last frame is used. For a joint that never rests (walking on the spot),
+  /// returns the lowest height at which the joint bears the body.
   std::vector<double> HeightsOfRest(int frame, std::size_t j) const {
     const int from = std::min(frame, clip_.left_at) - window_ - clip_.begin, to = frame + window_ - clip_.begin;
     std::vector<double> heights;

@@ -22,9 +22,9 @@ struct SupportRules {
   double lowest = 0.12;       ///< a joint may bear the body if it is at most this high above the lowest joint
   double rest_speed = 0.5;    ///< a joint is at rest up to this speed (feet roll, and captures are noisy)
   double height = 0.025;      ///< maximum height of a shown joint above the clip's joint at rest
-  double heel = 0.03;         ///< a clip's ankle this much higher above its toes than in a flat foot does not support
+  double heel = 0.03;         ///< a clip's ankle does not support if this much higher above its toes than in flat feet
   double toes = 0.05;         ///< a clip's toes do not support if they are higher than this above its lowest joint
-  double level = 0.12;        ///< heights of rest farther apart than this are two surfaces: a floor and a step
+  double level = 0.12;        ///< rest heights that differ by more than this are two surfaces, such as floor and step
   double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame
   /// A body without support is in flight if the downward acceleration of its mass centre is in this range, metres per
   /// second², and if the height deviates from a parabola by at most `flight_stray` (root mean square).
@@ -60,8 +60,8 @@ FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 struct SupportingClip {
   std::span<const BodyPose> poses;  ///< poses of the clip, moved on the floor to where the clip is shown
   int begin = 0;                    ///< the shown frame of poses[0]; may be outside of the requested frames
-  /// The last shown frame of the clip. In later frames, the places at which the clip supports the body in this frame
-  /// still support it. The default means that the clip is never left.
+  /// The last shown frame of the clip. The places at which the clip supports the body in that frame still support it in
+  /// later frames. The default means that the clip is never left.
   int left_at = std::numeric_limits<int>::max();
 };
 

@@ -241,7 +241,7 @@ class TornFinder {
     const auto only = [&](const std::vector<bool>& one) { return Lasting([&](int f) { return one[f] && !both[f]; }); };
     Add(tears_[kLeftFoot], only(left), 2 * median(kLeftAnkle, kLeftFoot));
     Add(tears_[kRightFoot], only(right), 2 * median(kRightAnkle, kRightFoot));
-    // Sides: hips and shoulders point in opposite directions, or their joints coincide.
+    // Sides: the lines of hips and shoulders point in opposite directions, or both hips or both shoulders coincide.
     const auto is_exchanged = [&](int f) {
       const glm::dvec3 hips = between(f, kRightHip, kLeftHip), shoulders = between(f, kRightShoulder, kLeftShoulder);
       return is_against(hips, shoulders) || glm::length(shoulders) < kMinShoulders * size_ ||

@@ -53,8 +53,8 @@ struct Limbs {
 /// taken.
 struct Proportions {
   double upper_low, upper_high;  ///< length of the upper bone ÷ length of the lower bone
-  double end_low, end_high;      ///< length beyond the lower bone ÷ length of the lower bone
-  double skipped_high;           ///< length before the upper bone ÷ length of the upper bone
+  double end_low, end_high;      ///< length of the chain beyond the lower bone ÷ length of the lower bone
+  double skipped_high;           ///< length of the chain before the upper bone ÷ length of the upper bone
 };
 constexpr Proportions kLegProportions{0.8, 1.25, 0.15, 0.75, 0.35};
 constexpr Proportions kArmProportions{0.8, 1.45, 0.2, 1.2, 1.0};
@@ -88,7 +88,7 @@ class AnatomyFinder {
         if (proposal.confidence > best.confidence) best = proposal;
       }
     }
-    // Reduce the confidence by the score of the second best pair; an equally likely one halves it.
+    // Reduce the confidence by the score of the second best choice; an equally good second choice halves it.
     if (best.confidence > 0) best.confidence *= 1 - 0.5 * second / best.confidence;
     return best;
   }

@@ -19,9 +19,9 @@ struct AnatomyProposal {
 /// A proposal with at least this confidence may be used without confirmation.
 constexpr double kMinAnatomyConfidence = 0.9;
 
-/// Proposes the limbs from the topology of the tree and the rest pose (ours). Legs and arms are two pairs of siblings,
-/// each with equally long chains of bones below it. The trunk leads from the legs to the arms, and the legs point away
-/// from the trunk. In each chain, the three joints are chosen so that the bones between them have human proportions.
+/// Proposes the limbs from the topology of the tree and the rest pose (ours). Legs and arms are two pairs of siblings;
+/// the two chains of bones below a pair are equally long. The trunk leads from the legs to the arms, and the legs point
+/// away from the trunk. In each chain, the three joints are chosen for human proportions of the bones between them.
 /// Left is the direction up × forward, where forward is the direction of the toes. Without toes, the body is assumed to
 /// face +Z, with a lower confidence. The confidence is the product of one score per criterion; a score is 1 within the
 /// range of adults and decreases outside.

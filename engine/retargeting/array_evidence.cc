@@ -50,7 +50,8 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints) {
       if (IsSeen(place)) distances.push_back(glm::distance(place, middle));
     }
     double limit = kTimesUsual * Median(distances);
-    // If more than a quarter are so far away, they belong to the body: hands of many points may be held together.
+    // If more than a quarter of the points are so far away, they belong to the body, so keep them. (Most points of some
+    // layouts are on the hands, which may be held together.)
     const auto far = std::ranges::count_if(distances, [&](double distance) { return distance > limit; });
     if (4 * static_cast<std::size_t>(far) > distances.size()) limit = std::numeric_limits<double>::infinity();
     // Measure the extent of the points that are not too far from the median point.

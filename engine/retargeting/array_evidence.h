@@ -18,8 +18,9 @@ std::optional<double> UnitOfSpread(double spread);
 
 /// How a body stands if it does not stand along Y on its feet.
 enum class Standing { kNotTold, kAlongMinusY, kOnHands, kAlongZ };
-/// Returns how the shoulders lie over the knees in three of four frames that show them. A body that is upside down
-/// stands on its hands if its wrists are near the lowest joint, which stays at one height.
+/// Returns how the body stands, by the direction from knees to shoulders in at least three quarters of the frames that
+/// show them. A body that is upside down stands on its hands if its wrists are near the lowest joint and if that joint
+/// stays at one height.
 Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names);
 
 }  // namespace etude

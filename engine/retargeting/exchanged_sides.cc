@@ -28,7 +28,7 @@ struct Spread {
   double Deviation() const { return std::sqrt(std::max(0.0, count > 0 ? squares / count - Mean() * Mean() : 0)); }
 };
 
-/// How the limbs between two pairs of joints fit, as they are and with one pair exchanged.
+/// The evidence that the left and right limbs between two pairs of joints cross, because one pair is exchanged.
 struct Crossing {
   bool is_certain = false;
   bool may_be = false;  ///< true if exchanging one pair makes the limbs shorter in nearly all frames
@@ -52,7 +52,7 @@ Crossing CrossingOf(std::span<const JointPositions> frames, Role near, Role far)
   const bool may_be = straight.count > 0 && shorter >= kNearlyAll * straight.count;
   const bool is_constant = crossed.Mean() < kShorter * length && deviation > kMoves * length &&
                            deviation > kRatio * crossed.Deviation();
-  // Nobody's knees are on each other's side all the time, nor elbows at the opposite shoulders.
+  // In no real motion are the knees crossed in nearly all frames, or the elbows near the opposite shoulders.
   const bool is_impossible =
       (near == kLeftHip && may_be) || (near == kLeftShoulder && crossed.Mean() < kMuchShorter * length);
   return {.is_certain = is_constant || is_impossible, .may_be = may_be};
@@ -77,7 +77,7 @@ bool IsTrunkTwisted(std::span<const JointPositions> frames) {
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
   std::vector<Role> exchanged, others;
   for (const auto& chain : kChains) {
-    // A limb that may cross counts as crossing if the next limb along the chain may cross, too.
+    // If the first two limbs of a chain may both cross, both count as crossing.
     std::array<Crossing, 3> limbs;
     for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] = CrossingOf(frames, chain[i], chain[i + 1]);
     if (limbs[0].may_be && limbs[1].may_be) limbs[0].is_certain = limbs[1].is_certain = true;

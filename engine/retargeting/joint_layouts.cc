@@ -6,8 +6,8 @@
 namespace etude {
 namespace {
 
-/// The 70 keypoints of SAM 3D Body and the 127 joints of its body model MHR, in their order; those that play a role
-/// have its name: a foot ends at its big toe (keypoints) or its ball (joints), a hand at its middle finger.
+/// The 70 keypoints of SAM 3D Body and the 127 joints of its body model MHR, in their order. A point that plays a role
+/// has the role's name: the foot is the big toe (keypoints) or the ball (joints), the hand is the middle finger.
 constexpr std::string_view kMhrKeypoints =
     "nose left_eye right_eye left_ear right_ear left_shoulder right_shoulder left_elbow right_elbow left_hip "
     "right_hip left_knee right_knee left_ankle right_ankle left_foot left_small_toe left_heel right_foot "

@@ -264,8 +264,8 @@ class MapFinder {
   const MovingPoses& moving_;
 };
 
-/// Returns how upright a pose is: the cosine of the angle between the line from shoulders to hips and a thigh or shank,
-/// taking the least upright limb. Only limbs that are found by name count; nullopt if none is found.
+/// Returns how upright a pose is: the smallest cosine of the angles between the line from shoulders to hips and each
+/// thigh and shank. Returns nullopt unless all joints of arms and legs are found by name.
 std::optional<double> StandingOf(const Skeleton& skeleton, const JointNames& names, const LocalPose& pose) {
   const SkeletonTree tree(skeleton, pose);
   std::array<glm::dvec3, kRoleCount> at{};

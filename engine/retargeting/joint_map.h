@@ -14,7 +14,7 @@ namespace etude {
 /// A point that is fixed to a joint.
 struct RolePoint {
   int joint = -1;
-  glm::dvec3 offset{0};  ///< in the joint's frame and the file's unit; zero means the joint itself
+  glm::dvec3 offset{0};  ///< from the joint, in its frame and the file's unit; zero means the joint itself
 };
 
 /// The points of a clip's own skeleton that play the twenty roles.

@@ -14,9 +14,9 @@ using enum Language;
 constexpr LimbNames kArmSchemes[] = {
     {{"arm", "forearm", "hand"}},                // MotionBuilder: CMU, LAFAN1, Mixamo, MASS, Rokoko, DeepMotion
     {{"arm", "elbow", "wrist"}},                 // "Shoulder" is the collar bone: MikuMikuDance in English
-    {{"upperarm", "elbow", "wrist"}},            // the same
-    {{"arm", "elbow", "hand"}},                  // likewise
-    {{"upperarm", "elbow", "hand"}},             // likewise
+    {{"upperarm", "elbow", "wrist"}},            // "Shoulder" is the collar bone
+    {{"arm", "elbow", "hand"}},                  // "Shoulder" is the collar bone
+    {{"upperarm", "elbow", "hand"}},             // "Shoulder" is the collar bone
     {{"shoulder", "elbow", "wrist"}},            // Biovision, CMU as converted for Poser, Xsens, SMPL, Kinect
     {{"shoulder", "elbow", "hand"}},             // CMU as converted for Daz
     {{"uparm", "lowarm", "hand"}},               // Biovision's own samples
@@ -25,9 +25,9 @@ constexpr LimbNames kArmSchemes[] = {
     {{"upperarm", "forearm", "hand"}},           // 3ds Max' biped, Blender's rigs
     {{"upperarm", "lowerarm", "palm2"}},         // RobotExpressive of three.js
     {{"upperarm", "lowerarm", "palm"}},          // Quaternius
-    {{"upperarm", "lowerarm", "fist"}},          // likewise
-    {{"upperarm", "forearm", "wrist"}},          // mixed: seen in hand-made rigs
-    {{"bicep", "forearm", "hand"}},              // likewise
+    {{"upperarm", "lowerarm", "fist"}},          // Quaternius
+    {{"upperarm", "forearm", "wrist"}},          // seen in hand-made rigs
+    {{"bicep", "forearm", "hand"}},              // seen in hand-made rigs
     {{"arm", "forearm", "wrist"}},               // Talking With Hands, GENEA
     {{"uarm", "farm", "hand"}},                  // OptiTrack's classic skeleton
     {{"armstretch", "forearmstretch", "hand"}},  // Auto-Rig Pro
@@ -35,8 +35,8 @@ constexpr LimbNames kArmSchemes[] = {
     {{"shldrbend", "forearmbend", "hand"}},      // Daz Genesis
     {{"humerus", "radius", "wrist"}},            // Acclaim: CMU's originals
     {{"humerus", "elbow", "wrist"}},             // seen in hand-made rigs
-    {{"humerus", "forearm", "hand"}},            // likewise
-    {{"humerus", "radius", "hand"}},             // likewise
+    {{"humerus", "forearm", "hand"}},            // seen in hand-made rigs
+    {{"humerus", "radius", "hand"}},             // seen in hand-made rigs
     {{"humerus", "ulna", "hand"}},               // OpenSim's bodies, SKEL
     {{"acromial", "elbow", "radiushand"}},       // OpenSim's joints
     {{"armupper", "armlower", "handwrist"}},     // Meta Quest
@@ -55,11 +55,11 @@ constexpr LimbNames kArmSchemes[] = {
 };
 
 constexpr LimbNames kLegSchemes[] = {
-    {{"upleg", "leg", "foot"}},                // MotionBuilder and its kin
+    {{"upleg", "leg", "foot"}},                // MotionBuilder and similar schemes
     {{"thigh", "knee", "ankle"}},              // "Hip" is a helper above the thigh
-    {{"thigh", "knee", "foot"}},               // likewise
-    {{"upleg", "knee", "ankle"}},              // likewise
-    {{"upleg", "knee", "foot"}},               // likewise
+    {{"thigh", "knee", "foot"}},               // "Hip" is a helper above the thigh
+    {{"upleg", "knee", "ankle"}},              // "Hip" is a helper above the thigh
+    {{"upleg", "knee", "foot"}},               // "Hip" is a helper above the thigh
     {{"leg", "knee", "ankle"}},                // MikuMikuDance in English
     {{"hip", "knee", "ankle"}},                // Biovision and similar schemes
     {{"upleg", "lowleg", "foot"}},             // Biovision's own samples
@@ -67,15 +67,15 @@ constexpr LimbNames kLegSchemes[] = {
     {{"thigh", "calf", "foot"}},               // 3ds Max' biped, Unreal
     {{"thigh", "shin", "foot"}},               // Poser, Blender's rigs, Rokoko
     {{"thighbend", "shin", "foot"}},           // Daz Genesis
-    {{"hip", "knee", "foot"}},                 // mixed: seen in hand-made rigs
+    {{"hip", "knee", "foot"}},                 // seen in hand-made rigs
     {{"leg", "shin", "foot"}},                 // "leg" for the thigh: seen in hand-made rigs
-    {{"upleg", "leg", "ankle"}},               // mixed: seen in hand-made rigs
-    {{"upperleg", "lowerleg", "ankle"}},       // likewise
-    {{"upperleg", "shin", "foot"}},            // likewise
+    {{"upleg", "leg", "ankle"}},               // seen in hand-made rigs
+    {{"upperleg", "lowerleg", "ankle"}},       // seen in hand-made rigs
+    {{"upperleg", "shin", "foot"}},            // seen in hand-made rigs
     {{"thighstretch", "legstretch", "foot"}},  // Auto-Rig Pro
     {{"femur", "tibia", "foot"}},              // Acclaim
     {{"femur", "tibia", "ankle"}},             // seen in hand-made rigs
-    {{"femur", "knee", "ankle"}},              // likewise
+    {{"femur", "knee", "ankle"}},              // seen in hand-made rigs
     {{"femur", "tibia", "talus"}},             // OpenSim's bodies, SKEL
     {{"femur", "tibia", "calcn"}},             // OpenSim's bodies without a subtalar joint
     {{"hip", "walkerknee", "ankle"}},          // OpenSim's joints
@@ -95,7 +95,7 @@ constexpr LimbNames kLegSchemes[] = {
     {{"hanche", "genou", "pied"}, kFrench},
 };
 
-// In Kinect's and our own scheme, the name of this role means the middle of the shoulders.
+// In Kinect's scheme and in ours, "shoulder centre" is the base of the neck, midway between the shoulders.
 constexpr std::string_view kNeckNames[] = {"shouldercentre",
                                            "shouldercenter",
                                            "spineshoulder",

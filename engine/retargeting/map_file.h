@@ -14,7 +14,7 @@ namespace etude {
 
 /// A joint as a joint-map file names it.
 struct JointOverride {
-  std::string name;  ///< as in the clip; "LeftHand_End" for BVH's End Sites
+  std::string name;  ///< the joint's name in the clip; "LeftHand_End" for BVH's End Sites
   Place place;       ///< position in the file, for error messages
 };
 
@@ -24,8 +24,8 @@ struct JointMapOverrides {
   std::map<Role, JointOverride> joints;
   std::optional<double> metres_per_unit = {};
   std::optional<UpAxis> up = {};
-  std::optional<double> rate_hz = {};  ///< replaces the file's own
-  bool keep_floor = false;             ///< do not move the file's floor to 0
+  std::optional<double> rate_hz = {};  ///< replaces the file's own rate
+  bool keep_floor = false;             ///< true: the file's floor is not moved to 0
   std::string marker_set = "";         ///< the key in MarkerSets of a marker file's set
 };
 

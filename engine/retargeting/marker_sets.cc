@@ -69,8 +69,8 @@ std::vector<MarkerSet> MakeSets() {
                           {Role::kLeftKnee, {"?leg"}},
                           {Role::kLeftAnkle, {"?foot"}},
                           {Role::kLeftFoot, {"?toebase"}}},
-                         // Markers on the skin.
                          "left", "right"));
+  // Markers on the skin.
   MarkerSet augmented = MakeSet("OpenCap's augmented markers", "opencap", {},
                                 {{Role::kLeftShoulder, {"?_shoulder_study"}},
                                  {Role::kLeftElbow, {"?_lelbow_study", "?_melbow_study"}},

@@ -26,8 +26,8 @@ struct MarkerSet {
   std::array<std::string, 4> pelvis = {};  ///< markers of the pelvis: left and right front, left and right back; the
                                            ///< hips follow from them
   std::string sacrum = "";                 ///< the marker that may replace the two markers on the back of the pelvis
-  /// Knees, ankles and elbows have one marker each, on the skin; further markers on thighs and shanks (wands) show the
-  /// planes in which the limbs bend.
+  /// True if knees, ankles and elbows have one marker each, on the skin. Further markers on thighs and shanks (wands)
+  /// then show the planes in which the limbs bend.
   bool has_skin_limbs = false;
   bool has_skin_shoulders = false;  ///< true if shoulders have one marker each, on top
   int rank = 0;                     ///< of several sets in a file, the one with the highest rank is used

@@ -38,7 +38,8 @@ std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
     const std::string& name = markers.names[i];
     const std::size_t colon = name.rfind(':');
     const std::string prefix = colon == std::string::npos ? "" : name.substr(0, colon);
-    people[prefix].emplace(LowerCase(name.substr(colon == std::string::npos ? 0 : colon + 1)), i);  // keeps the first
+    // Of several markers with one name, the first is kept.
+    people[prefix].emplace(LowerCase(name.substr(colon == std::string::npos ? 0 : colon + 1)), i);
   }
   return people;
 }
@@ -110,7 +111,7 @@ JointPositions PositionsOf(const MarkerSet& set, const MarkerColumns& columns, c
   return places;
 }
 
-/// Returns the names in the file of the markers that determine a joint, or the joint's name if no markers do.
+/// Returns the file's names of the markers that determine a joint, or the joint's name if no markers do.
 std::string NamesOf(Role role, const MarkerSet& set, const MarkerColumns& columns, const MarkerMotion& markers) {
   for (const MarkerRule& rule : set.rules) {
     if (rule.role != role || !HasAll(columns, rule.markers)) continue;

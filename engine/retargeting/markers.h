@@ -15,10 +15,10 @@ namespace etude {
 /// Properties of a marker file that the user or the file states.
 struct MarkerOptions {
   UpRule up = {};
-  bool keep_floor = false;                                ///< do not move the file's floor to 0
+  bool keep_floor = false;                                ///< true: the file's floor is not moved to 0
   std::optional<double> metres_per_unit = std::nullopt;  ///< given by the user; replaces the file's unit
   std::string set = "";                                  ///< a key of MarkerSets; "" = chosen by rank
-  bool keeps_shown = false;                              ///< also make MarkerBody::shown
+  bool keeps_shown = false;                              ///< true: MarkerBody::shown is filled
 };
 
 /// A body found in the trajectories of markers.

@@ -40,7 +40,7 @@ struct PartAngle {
 /// The part that ends at `end`. Only right parts and parts of the middle are listed; left parts mirror the right ones.
 struct Part {
   Role end;
-  std::array<PartAngle, 3> angles;  ///< about Z, X and Y
+  std::array<PartAngle, 3> angles;  ///< the angles about Z, X and Y
   double z_sign = 1;                ///< −1 for knees, which bend backwards
 };
 
@@ -80,7 +80,7 @@ struct WrittenPart {
   Role end;
   std::array<std::string, 3> names;
   std::array<std::optional<AngleRange>, 3> limits;  ///< radians
-  glm::dvec3 signs{1};                              ///< of the rotations about Z, X and Y
+  glm::dvec3 signs{1};                              ///< signs of the rotations about Z, X and Y
 };
 
 std::optional<AngleRange> RangeOf(const PartAngle& angle, const KinematicTree& tree) {
@@ -188,7 +188,7 @@ std::string HeaderOf(const BodyMotion& motion, const std::vector<WrittenPart>& p
 /// A part as read from the file, with the columns of its angles.
 struct ReadPart {
   Role end;
-  std::optional<Role> after;  ///< nullopt: the ground
+  std::optional<Role> after;  ///< the parent part's end; nullopt: the ground
   glm::dvec3 bone;            ///< vector from the part's beginning to its end, in OpenSim's axes, metres
   std::array<std::string, 3> names;
   std::array<glm::dvec3, 3> axes;  ///< the signed axes of the three rotations
@@ -293,7 +293,7 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
     if (row.size() != columns) return Fail(scanner.At(begin), "{} numbers under {} names", row.size(), columns);
   }
   if (table.rows.empty()) return Fail({file}, "no rows of angles");
-  // Larger angles than two turns must be degrees, not radians.
+  // Angles larger than two turns must be degrees, not radians.
   constexpr double kMaxRadians = 4 * kPi;
   for (const ReadPart& part : table.parts) {
     for (std::size_t i = 0; i < 3 && table.radians == 1; ++i) {

@@ -97,7 +97,7 @@ Sides MeasureSides(std::span<const BodyPose> poses) {
     }
     for (const auto& [shoulder, elbow, wrist] :
          {std::tuple(kLeftShoulder, kLeftElbow, kLeftWrist), std::tuple(kRightShoulder, kRightElbow, kRightWrist)}) {
-      // Hands are usually in front of the body, and elbows bend accordingly.
+      // Hands are usually in front of the body, and elbows behind the line from shoulder to wrist.
       sides.arms += glm::dot(forward, Reach(pose, shoulder, elbow, wrist) - BendOffset(pose, shoulder, elbow, wrist));
     }
   }

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Smaller sines are rounding errors.
+/// Sines below this are rounding errors.
 constexpr double kDegenerate = 1e-9;
 
 }  // namespace

@@ -68,11 +68,11 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
   return marker - depth * share * limb / length + depth * std::sqrt(1 - share * share) * aside;
 }
 
-/// Returns the inward direction: blends from `rough`, which is always known, to the normal of the bend, which is the
-/// more reliable the stronger the bend is. A marker that is `depth` beside a straight limb makes it seem bent; this
+/// Returns the inward direction. Blends from `rough`, which is always known, to the normal of the bend, which is more
+/// reliable for a stronger bend. A marker that is `depth` beside a straight limb makes the limb seem bent; this
 /// apparent bend is subtracted.
 glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
-  constexpr double kCertain = 1.2, kRange = 0.25;  // a multiple of the apparent bend; a difference of sines
+  constexpr double kCertain = 1.2, kRange = 0.25;  // kCertain multiplies the apparent bend; kRange is a sine
   const double a = std::max(glm::length(upper), 1e-9), b = std::max(glm::length(lower), 1e-9);
   const glm::dvec3 normal = sign * glm::cross(upper, lower);
   const double seeming = kCertain * depth * (1 / a + 1 / b);

@@ -48,7 +48,7 @@ Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
 
 /// Returns the farthest joint among `top` and its descendants that is at a plausible distance (computed by `distance`)
 /// and for which `may_be` is true. Of equally far joints, returns the one with the most suitable finger name, then the
-/// first in the skeleton. Otherwise, rounding could choose different fingers on the left and on the right.
+/// first in the skeleton. Without this rule, rounding could choose different fingers on the left and on the right.
 template <typename Distance, typename MayBe>
 std::optional<int> FarthestTip(const SkeletonTree& tree, int top, double proportion, const TipLength& plausible,
                                Distance distance_of, MayBe may_be) {

@@ -121,7 +121,7 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   if (seconds * rate_hz > kMaxPoses) {
     return Fail({file}, "{:.0f} s at {:g} Hz are over {:.0f} poses", seconds, rate_hz, kMaxPoses);
   }
-  constexpr double kRounding = 1e-6;  // of a frame; keeps the last frame if the rates divide evenly
+  constexpr double kRounding = 1e-6;  // share of a frame; keeps the last frame if the rates divide evenly
   const auto count = static_cast<std::size_t>(seconds * rate_hz + kRounding) + 1;
   std::vector<BodyPose> poses;
   poses.reserve(count);

@@ -22,10 +22,10 @@ struct BodyOptions {
   std::optional<UpAxis> up = std::nullopt;           ///< given by the user; overrules everything else
   std::optional<UpRule> up_rule = std::nullopt;      ///< rule of the file or its format
   std::optional<UpFinding> found_up = std::nullopt;  ///< the result of FindGround, if the file has several clips
-  bool keep_floor = false;                           ///< do not move the file's floor to 0
+  bool keep_floor = false;                           ///< true: the file's floor is not moved to 0
   std::optional<double> floor = std::nullopt;    ///< the floor's height along the up axis, in the file's unit
-  std::optional<double> stature = std::nullopt;  ///< of the moving body, in the file's unit: Ground::stature
-  bool drop_t_pose = true;                       ///< drop a leading T-pose from which the motion jumps
+  std::optional<double> stature = std::nullopt;  ///< stature in motion, in the file's unit (Ground::stature)
+  bool drop_t_pose = true;                       ///< true: a leading T-pose from which the motion jumps is dropped
 };
 
 /// A clip converted to the twenty joints: metres, Y up, feet on the floor.

@@ -157,7 +157,7 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   // Accept the opposite axis, because nobody stands on the head without the hands. (If the usual axis is only a guess,
   // the body may instead lie along it.)
   if (is_opposite && other.on_hands <= 0.5 && rule.evidence != UpEvidence::kPosture) return true;
-  // Accept `other` if the body walks across it.
+  // Accept `other` if the body walks perpendicular to it.
   if (other.way > 0.5 && other.steps > 0.4) return true;
   if (rule.is_of_rest) return false;
   // Accept `other` if the body stands on its feet, and either moves over a constant floor or stands quite still.

@@ -17,7 +17,7 @@ std::string_view UpEvidenceName(UpEvidence evidence);
 
 /// Knowledge about a file's up axis that does not come from its motion.
 struct UpRule {
-  glm::dvec3 axis{0, 1, 0};  ///< with kPosture only the usual axis, which the posture may overrule
+  glm::dvec3 axis{0, 1, 0};  ///< the axis that points up; with kPosture the usual one, which the posture may overrule
   UpEvidence evidence = UpEvidence::kPosture;
   /// A text that names the source of the axis: "the usual axis of TRC files", "the rule of AMASS".
   std::string source = "the usual axis";
@@ -40,7 +40,7 @@ struct UpFinding {
 /// along the usual axis, and
 /// - the lowest joint stays at one height along this axis, but not along the usual axis (this also holds for users who
 ///   lie, crawl or stand on their hands), or
-/// - the body walks: it travels across this axis while one foot stands, or
+/// - the body walks: it travels perpendicular to this axis while one foot stands, or
 /// - the file or its format states the usual axis, and along the usual axis the body stands on its head, but not on its
 ///   hands, or
 /// - the body's weight is always over its feet along this axis (this is not so for a person who lies), and the body

@@ -60,7 +60,7 @@ class Linearisation {
       gradients[residual.capsule] += weight * residual.value * slopes;
       hessians[residual.capsule] += weight * slopes * slopes.transpose();
     }
-    // Transform them to the coordinates that move the capsule (chain rule).
+    // Transform these gradients and Hessians to the coordinates that move the capsules (chain rule).
     const PixelScale camera(matrix);
     for (std::size_t i = 0; i < body_.flesh.size(); ++i) {
       if (hessians[i].isZero(0)) continue;
@@ -186,7 +186,7 @@ void See(const SilhouetteBody& body, std::span<const SilhouetteView> views, cons
   }
 }
 
-// Linearises at `state`, whose flesh is `workspace.kept`.
+// Linearises the residuals at `state`; `workspace.kept` must hold the flesh of this pose.
 Linearisation LineariseAt(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
                           const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace) {
   Linearisation linear(body, kRootDofs + body.tree.dof_count());

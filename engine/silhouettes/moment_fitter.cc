@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-constexpr double kSpreadOfPeople = 0.15;  // standard deviation of people's thickness about the average
-constexpr double kMaxChange = 0.15;       // largest relative change of a part in one pass
+constexpr double kSpreadOfPeople = 0.15;  // standard deviation of people's thickness, as a share of the average
+constexpr double kMaxChange = 0.15;       // largest relative change of a part's thickness in one pass
 
 }  // namespace
 
@@ -100,8 +100,8 @@ SilhouetteFit MomentFitter::Follow(const MomentViews& views, const TreeState& be
   return Fit(views, still ? last : foretold, &prior, true);
 }
 
-// Fits the body from every heading and posture, at the point that the silhouettes' centres triangulate; returns the
-// fits by ascending cost.
+// Fits the body from every heading and posture, starting at the point triangulated from the silhouettes' centres.
+// Returns the fits by ascending cost.
 std::vector<SilhouetteFit> MomentFitter::Guesses(const MomentViews& views) {
   constexpr int kHeadings = 8;
   std::vector<SilhouetteFit> fits;

@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/silhouettes/nearest_cones.cc"
-#include "hwy/foreach_target.h"  // before highway.h
+#include "hwy/foreach_target.h"  // must come before highway.h
 
 // This header must be included after foreach_target.h.
 #include "hwy/highway.h"

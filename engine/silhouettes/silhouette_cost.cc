@@ -14,8 +14,8 @@ namespace {
 constexpr double kNearest = 0.05;  // metres in front of the camera; a capsule with a nearer end is not projected
 
 struct ConePoint {
-  double along = 0;     // 0 at a, 1 at b
-  double distance = 0;  // from the pixel to this point of the axis
+  double along = 0;     // position on the axis: 0 at a, 1 at b
+  double distance = 0;  // distance from the pixel to this point of the axis, pixels
   double signed_distance = 0;
 };
 
@@ -163,7 +163,7 @@ void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
                double& sum) {
   if (silhouette.area == 0) return;
-  double outline = sum;  // a local copy shows the compiler that writes to the sum change no option
+  double outline = sum;  // a local sum, so that the compiler knows that writes to it change no option
   for (const int place : silhouette.columns.places) {
     const auto at = static_cast<std::size_t>(place);
     if (flesh.owners[at] >= 0) outline += LossOf({.value = flesh.distances[at]}, options).loss;

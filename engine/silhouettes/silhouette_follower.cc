@@ -7,9 +7,9 @@
 namespace etude {
 namespace {
 
-constexpr int kSearchEvery = 5;           // moments between searches, which cost as much as dozens of moments
-constexpr std::size_t kRemembered = 100;  // moments from which the usual cost is estimated
-constexpr int kThicknessMoments = 20;     // moments for one thickness estimate
+constexpr int kSearchEvery = 5;           // moments between searches; a search costs as much as dozens of moments
+constexpr std::size_t kRemembered = 100;  // number of moments from which the usual cost is estimated
+constexpr int kThicknessMoments = 20;     // number of moments for one thickness estimate
 
 }  // namespace
 
@@ -28,8 +28,8 @@ void SilhouetteFollower::Begin(const MomentViews& views) {
   for (const SilhouetteFit& fit : fitter_.Find(views)) paths_.push_back({fit, fit.state, fit.picture_cost});
 }
 
-// Returns true if the cost of `fit` far exceeds the usual cost without a lost limb: the 20th percentile of the last
-// moments.
+// Returns true if the cost of `fit` far exceeds the usual cost of a body without a lost limb: the 20th percentile over
+// the last moments.
 bool SilhouetteFollower::IsLost(const SilhouetteFit& fit) const {
   constexpr std::size_t kEnough = 10;
   if (costs_.size() < kEnough) return false;

@@ -13,12 +13,10 @@ namespace etude {
 namespace {
 
 using Fits = std::vector<std::optional<SilhouetteFit>>;
-// Three constants: the number of start poses that are followed through the take; the number of frames in which the
-// reversed body is searched for; and the ratio of costs below which the reversed body is taken.
 
-constexpr std::size_t kFollowedAnchors = 2;
-constexpr int kTurnedMoments = 5;
-constexpr double kClearlyBetter = 0.95;
+constexpr std::size_t kFollowedAnchors = 2;  // maximum number of start poses that are followed through the take
+constexpr int kTurnedMoments = 5;            // number of frames in which the reversed body is searched for
+constexpr double kClearlyBetter = 0.95;      // ratio of costs below which the reversed body is taken
 
 double Squared(double x) { return x * x; }
 
@@ -187,7 +185,7 @@ class Tracker {
       least = cost;
     }
     if (!likeliest) return fits;
-    // Follow it through the take and compare the costs.
+    // Follow the reversed body through the take, and compare the costs.
     const Fits followed = FollowBothWays(*likeliest);
     const Fits turned = Better(followed, Retraced(followed));
     return OwnCost(turned) < kClearlyBetter * OwnCost(fits) ? Better(fits, turned) : fits;

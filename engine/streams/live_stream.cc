@@ -10,15 +10,15 @@
 namespace etude {
 namespace {
 
-constexpr int kMaxWaitRows = 18000;  // rows: ten minutes at 30 Hz
+constexpr int kMaxWaitRows = 18000;  // maximum number of rows without a body: ten minutes at 30 Hz
 constexpr std::size_t kMaxLineBytes = 1 << 16;
 
 bool IsEmptyOrComment(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos || line.starts_with('#') || line.starts_with("//");
 }
 
-/// Returns true if more rows may show that the clock of a CSV counts milliseconds or less: FindTimeScale judges five
-/// steps of more than a second.
+/// Returns true if the clock of a CSV may count milliseconds or a smaller unit, but fewer than six rows are known: the
+/// rows are more than a second apart, and FindTimeScale needs five such steps.
 bool MayCountLessThanSeconds(const StreamRecording& recording) {
   constexpr std::size_t kRows = 6;
   const std::size_t rows = recording.frames.size();

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// Reads skeletons line by line as a device sends them: Etude's CSV, and the rows of both Kinects. The format is
+/// Reads skeletons line by line as a device sends them: Etude's CSV, and rows of Kinect v1 and v2. The format is
 /// recognised from the first lines. Some properties are usually estimated from a whole file (unit, clock, gravity and
 /// floor; for CSV only the clock). Here they are estimated from the first second in which a body is visible. The frames
 /// of that second are returned together; afterwards each line returns its frames at once.

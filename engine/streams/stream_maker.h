@@ -44,7 +44,7 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
 std::string Describe(const StreamLevel& level);
 
 struct StreamOptions {
-  bool levels = true;     ///< estimate gravity and floor if the file does not define them; otherwise use the file's
+  bool levels = true;     ///< true: estimate gravity and floor if the file does not define them; false: keep its own
   bool reflects = false;  ///< negate X, for files whose X axis points the other way, which mirrors bodies
   double rate_hz = kJudgedRateHz;
 };

@@ -45,8 +45,8 @@ struct LabelledPart {
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 
-/// Treats each stream, without labels, as one right performance. The move has the file's name; for NTU's files it is
-/// the action ("A013").
+/// Returns one right performance for each stream, for streams without labels: the whole stream. The move has the file's
+/// name; for NTU's files it is the action ("A013").
 std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams);
 
 /// Returns only the frames [begin, end).
@@ -60,7 +60,7 @@ struct RecordedPerson {
 
 /// Recordings, the people in them, and the moves performed.
 struct LabelledStreams {
-  std::string file;  ///< the labels' file, for error messages; the first recording's without labels
+  std::string file;  ///< the labels' file, for error messages; without labels, the first recording's file
   std::vector<NamedStream> streams;
   std::vector<LabelledPart> parts;     ///< sorted by stream, then by time
   std::vector<RecordedPerson> people;  ///< sorted by name

@@ -34,7 +34,7 @@ void WriteStream(const SkeletonStream& stream, std::string& text) {
     for (const Role role : AllRoles()) text += LetterOf(frame, role);
     for (const SensedJoint& joint : frame.joints) {
       for (int axis = 0; axis < 3; ++axis) {
-        // Round to whole tenths: the shortest digits of a tenth are read back exactly. Zero has no minus sign.
+        // Round to tenths of a millimetre, whose shortest digits are read back exactly. Zero has no minus sign.
         const double tenths = std::round(10 * kMillimetres * joint.position[axis]);
         text += fmt::format(" {}", tenths == 0 ? 0.0 : tenths / 10);
       }

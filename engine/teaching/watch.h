@@ -44,12 +44,13 @@ class StreamWatcher {
 std::vector<Spotting> Watch(const SkeletonStream& stream, const Recogniser& recogniser, std::size_t moves,
                             const WatchOptions& options);
 
-/// Returns the move that the frames [begin, end) most likely show: the move whose evidence becomes highest in these
-/// frames. Other frames do not count. Returns nullopt if no move has evidence.
+/// Returns the move that the frames [begin, end) most likely show: MoveFollower::Whole of these frames or, without it,
+/// the move whose evidence becomes highest in them. Other frames do not count. Returns nullopt if no move has evidence.
 std::optional<std::size_t> Classify(const SeenStream& seen, int begin, int end, const Recogniser& recogniser,
                                     std::size_t moves);
 
-/// Judges the move as if it was asked for in the frames [begin, end). Returns how right it looks, in [0, 1].
+/// Judges the frames [begin, end) as a performance of `move`, which is asked for in frame `begin`. Returns the evidence
+/// that the performance is right, in [0, 1] (Evidence::asked).
 double JudgeAsked(const SeenStream& seen, int begin, int end, const Recogniser& recogniser, std::size_t move);
 
 }  // namespace etude

@@ -83,8 +83,8 @@ std::string_view OutcomeName(CandidateOutcome outcome);
 
 /// A pair of frames that a choice considered.
 struct Candidate {
-  int from_frame = 0;  ///< in the clip that is left, or in the in-between
-  int to_frame = 0;    ///< in the clip that is entered, or in the in-between
+  int from_frame = 0;  ///< index in the clip that is left, or in the in-between
+  int to_frame = 0;    ///< index in the clip that is entered, or in the in-between
   FuzzyDistance distance;
   std::optional<double> cost;  ///< the cost by which the choice ranks pairs; nullopt if it ranks them by `distance`
   CandidateOutcome outcome = CandidateOutcome::kTooFar;

@@ -71,8 +71,8 @@ struct UnmarkedOptions {
                           .min_piece_px = 60,
                           .piece_reach = 30};
   TrackOptions track;
-  /// The number of times that rooms are estimated. Each time after the first, pixels near the body tracked in front of
-  /// the previous estimate are avoided. In the one film that was tried, a fourth round still improved the rooms
+  /// The number of times that rooms are estimated. Each estimate after the first avoids pixels near the body, which is
+  /// tracked in front of the previous estimate. In the one film that was tried, a fourth round still improved the rooms
   /// slightly.
   int rounds = 4;
   /// The number of pictures of a camera, evenly spaced over the film, in which the body is tracked and from which rooms

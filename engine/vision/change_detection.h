@@ -71,11 +71,12 @@ struct ChangeOptions {
   /// A larger difference between hues is a change, radians. Pixel noise of 2 levels rotates the hue of a moderately
   /// coloured wall (30 levels of chroma) by 4° rms, so this is about four standard deviations.
   double hue_threshold = Radians(16);
-  /// hue-gated: a hue counts only if both pixels are more saturated than this …
+  /// hue-gated: hues are compared only if both pixels are more saturated than this.
   double min_saturation = 0.10;
-  /// … and at least this far from grey, in levels: in the dark, saturation is noise.
+  /// hue-gated: hues are compared only if both pixels are at least this far from grey, levels. In the dark, saturation
+  /// is noise.
   double min_chroma = 14;
-  /// hue-gated: if a pixel has no hue that counts, a larger difference between saturations is a change.
+  /// hue-gated: if hues are not compared, a larger difference between saturations is a change.
   double saturation_threshold = 0.18;
   /// hue-gated and ratio: the range of the pixel's intensity, as shares of the background's. Within the range, a shadow
   /// or drift of the lamp may be the cause; outside, the pixel has changed.
@@ -89,10 +90,9 @@ struct ChangeOptions {
   /// running: the learning rate of mean and variance for background pixels, per frame. Foreground pixels use a tenth of
   /// it.
   double learning_rate = 0.05;
-  /// running: a pixel has changed if it differs from its mean by more than this number of standard deviations. The next
-  /// value is the minimum standard deviation of a channel, levels.
+  /// running: a pixel has changed if it differs from its mean by more than this number of standard deviations.
   double running_deviations = 4;
-  double min_deviation = 4;
+  double min_deviation = 4;  ///< running: the minimum standard deviation of a channel, levels
 };
 
 /// Finds the pixels in which `picture` differs from `background`, which must have the same size. For `kHue`, a grey
@@ -102,7 +102,7 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
 
 /// The rule that selects the changed components that belong to the person.
 enum class PersonPieces {
-  kLargest,  ///< only the largest one (paper B)
+  kLargest,  ///< only the largest component (paper B)
   /// *Ours*: the largest component, and all components near it above a minimum size. Forearms and feet are separate
   /// components where a sleeve ends or skin has the wall's hue; kLargest would lose them. On the other hand, a shadow
   /// may be included.

@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/vision/hue_block.cc"
-#include "hwy/foreach_target.h"  // before highway.h
+#include "hwy/foreach_target.h"  // must come before highway.h
 
 // This header must be included after foreach_target.h.
 #include "hwy/highway.h"
@@ -14,16 +14,16 @@ namespace etude::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Wide = hn::ScalableTag<std::int16_t>;    ///< one vector of pixels
-using Half = hn::Half<Wide>;                   ///< half of them, …
-using Whole = hn::Rebind<std::int32_t, Half>;  ///< … widened to a full vector
+using Wide = hn::ScalableTag<std::int16_t>;    ///< a vector of pixels
+using Half = hn::Half<Wide>;                   ///< half of a vector's pixels
+using Whole = hn::Rebind<std::int32_t, Half>;  ///< the pixels of a Half as 32-bit integers: a full vector
 using Real = hn::Rebind<float, Half>;
 using Byte = hn::Rebind<std::uint8_t, Wide>;
 
 HWY_INLINE hn::Vec<Real> ToReal(hn::Vec<Half> v) { return hn::ConvertTo(Real(), hn::PromoteTo(Whole(), v)); }
 
-/// Returns 1 in each lane (half a vector) in which the hues differ. Sets the lanes of `close` in which rounding may
-/// have decided.
+/// Compares the hues of half a vector of pixels; returns 1 in each lane in which they differ. Sets the lanes of `close`
+/// in which rounding may have decided.
 HWY_INLINE hn::Vec<Half> Compare(hn::Vec<Half> x16, hn::Vec<Half> y16, hn::Vec<Half> bx16, hn::Vec<Half> by16,
                                  float cosine2, hn::Vec<Real>& close) {
   const Real real;

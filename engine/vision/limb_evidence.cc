@@ -243,7 +243,7 @@ class EvidenceFinder {
   std::optional<glm::dvec2> CapsuleJoint(std::size_t i, const Limb& limb) const {
     const Border& border = *limb.inner;
     const double beyond = body_[i].joint * limb.line.half_width;
-    if (border.limb_covers && !limb.line.IsLong()) return MiddleOf(limb.line);  // seen end-on
+    if (border.limb_covers && !limb.line.IsLong()) return MiddleOf(limb.line);  // the limb is seen end-on
     if (IsAttachedToTrunk(i)) {
       if (RunsAlong(limb)) return limb.line.At(limb.line.low + beyond);
       const glm::dvec2 outwards = limb.line.IsLong() ? limb.line.along : Unit(limb.region->middle - border.middle);

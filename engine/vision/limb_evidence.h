@@ -55,9 +55,9 @@ struct FigureLook {
 ///   crown.
 /// All these shares are *ours*, measured from the side on each kind of figure at rest. If another limb or the picture's
 /// edge cuts off a limb, the limb's line ends there. A limb with a hidden end is left out unless its visible piece is
-/// clearly long and at least a quarter of it. A limb that touches no known part is also left out, because its ends
-/// cannot be distinguished. docs/annotator.md states, for each joint, the error that these rules cause in exact joint
-/// centres.
+/// clearly longer than wide and at least a quarter of the limb. A limb that touches no known part is also left out,
+/// because its ends cannot be distinguished. docs/annotator.md states, for each joint, the error of the joint centres
+/// that these rules give.
 PictureEvidence FindLimbEvidence(const LimbRegions& regions, const FigureLook& look = {});
 
 }  // namespace etude

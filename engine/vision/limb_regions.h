@@ -60,7 +60,7 @@ struct MiddleLine {
   glm::dvec2 along{1, 0};    ///< unit; its sign is arbitrary
   double low = 0, high = 0;  ///< positions on the line at which the region begins and ends, pixels from the origin
   double half_width = 0;     ///< 90th percentile of half the width of its cross sections, pixels
-  bool IsLong() const;       ///< true if clearly longer than wide, which defines its direction
+  bool IsLong() const;       ///< true if the region is clearly longer than wide, so that its direction is known
   /// Returns the point of the line at the position `s`.
   glm::dvec2 At(double s) const { return origin + s * along; }
   /// Returns the position on the line of the point nearest to `p`, pixels from the origin.

@@ -32,7 +32,7 @@ class ColourLikelihood {
 
   const ColourImage background_;
   ColourImage room_;         ///< the background in the light of the last picture
-  Mask strange_;             ///< pixels of the last picture that the room in no light explains
+  Mask strange_;             ///< pixels of the last picture that the room does not explain in any light
   std::vector<float> worn_;  ///< count of each colour cell on the person
   double worn_sum_ = 0;
   std::vector<float> likelihoods_;  ///< log-likelihood of each cell, given the person

@@ -308,7 +308,7 @@ class Accelerated {
 constexpr double kNewPart = 1e-10;
 
 double Dot(std::span<const double> a, std::span<const double> b) {
-  double sums[4] = {};  // independent sums, so that additions overlap
+  double sums[4] = {};  // four independent sums, whose additions a CPU can overlap
   std::size_t i = 0;
   for (; i + 4 <= a.size(); i += 4) {
     for (int k = 0; k < 4; ++k) sums[k] += a[i + k] * b[i + k];

@@ -17,10 +17,11 @@ IkSolution SolveCcd(const KinematicTree& tree, const IkProblem& problem, const I
 /// Solves like `SolveCcd`, but treats a joint of two or three degrees of freedom as a sequence of hinges. *Ours.*
 IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
-/// The gain of a hinge: how well the end effectors beyond it match their targets after it turns by φ (paper B,
-/// equations 3.10–3.13), g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ, which is maximised. Summing over several effectors
-/// is ours. For axes, the paper starts from minimising Σ (u_d · u_c − 1)² but then maximises Σ u_d · u_c, which is
-/// another criterion for three axes. This struct maximises Σ u_d · u_c, which minimises Σ |u_d − u_c|².
+/// The gain g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ of a hinge that turns by φ (paper B, equations 3.10–3.13). It
+/// measures how well the end effectors beyond the hinge then match their targets; the best turn maximises it. Summing
+/// over several effectors is ours. For axes, the paper starts from minimising Σ (u_d · u_c − 1)² but then maximises
+/// Σ u_d · u_c, which is another criterion for three axes. This struct maximises Σ u_d · u_c, which minimises
+/// Σ |u_d − u_c|².
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 
@@ -75,7 +76,7 @@ class CcdSweep {
   void SetAngles(std::span<const double> angles);
 
   std::span<const double> angles() const { return state_.angles; }
-  /// The errors at the pose measured last.
+  /// Returns the errors at the pose measured last.
   std::span<const EffectorError> errors() const { return errors_; }
 
  private:

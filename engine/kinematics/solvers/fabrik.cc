@@ -25,7 +25,7 @@ class Follower {
     for (std::vector<int>& limbs : led_) std::ranges::reverse(limbs);
   }
 
-  // Changes `angles` so that they follow the passes. `frames` are the frames at `angles`.
+  // Changes `angles` so that the limbs follow the result of the passes. `frames` are the frames at `angles`.
   void Follow(const TreeFrames& frames, std::vector<double>& angles) {
     limbs_ = frames.joints;
     // In the first round, each joint fits the tips of its own limb. In the second round, it fits all tips beyond it.

@@ -63,7 +63,7 @@ class ScalarHelp final : public GaussNewtonHelp {
     }
   }
 
-  /// Makes `run` record the start and whatever comes after it; only for one problem. `run` must outlive this.
+  /// Makes `run` record the start pose and every later pose; only for one problem. `run` must outlive this object.
   void RecordIn(IkRun& run) {
     run_ = &run;
     Record(run.start_angles());

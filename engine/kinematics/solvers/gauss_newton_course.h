@@ -122,9 +122,10 @@ class GaussNewtonCourse {
   // The damping is this share of |e|², times a factor that follows the success of the steps.
   static constexpr double kDamping = 0.1;
   static constexpr double kMaxDamping = 10;
-  static constexpr double kDampingUp = 10;   // multiplies the factor after a step that raised the residual
-  static constexpr double kDampingDown = 3;  // divides the factor after other steps
-  // Minimum factor in the last phase, where the residual and thus the damping stay large; elsewhere it is 1.
+  static constexpr double kDampingUp = 10;   // the factor is multiplied by this after a step that raised the residual
+  static constexpr double kDampingDown = 3;  // the factor is divided by this after any other step
+  // Minimum of this factor in the last phase, where the residual and thus the damping stay large. In other phases the
+  // minimum is 1.
   static constexpr double kDampingFloor = 1e-3;
 
   // Below this damping a step gets extra active-set passes.

@@ -1,7 +1,7 @@
 // The parts of a Gauss–Newton step (gauss_newton.h) and of its forward kinematics, for a value type V: a `Lanes`
 // contains one number of each of many problems, a `Four` one number of each of four limbs. All operations are those of
-// `ComputeFrames` and of the tests' `GaussNewtonStep` in the same order, so a problem in double gets the same bits in every lane on
-// every CPU. This file is included once per instruction set, which explains the include guard.
+// `ComputeFrames` and of the tests' `GaussNewtonStep` in the same order, so a problem in double gets the same bits in
+// every lane on every CPU. This file is included once per instruction set, which explains the include guard.
 #if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
 #undef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
@@ -98,7 +98,7 @@ struct FrameLanes {
   V position[3];
 };
 
-/// Sets `out` to `axes` times the vector `by`: from the frame's coordinates to the world's.
+/// Sets `out` to `axes` times the vector `by`, which converts `by` from the frame's coordinates to the world's.
 template <class V>
 HWY_INLINE void Mix(const V (&axes)[3][3], const V (&by)[3], V (&out)[3]) {
   for (int k = 0; k < 3; ++k) out[k] = axes[0][k] * by[0] + axes[1][k] * by[1] + axes[2][k] * by[2];
@@ -115,8 +115,8 @@ HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   }
 }
 
-/// Sets `screw` for a hinge at J: first its unit axis, then the translation per radian of that point of the limb which
-/// is at the root R.
+/// Sets `screw` for a hinge at J: first its unit axis, then the translation, per radian, of the limb's point that
+/// coincides with the root R.
 template <class V>
 HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
   V shift[3];
@@ -274,8 +274,8 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   };
   for (int i = 0; i < 6; ++i)
     y[i] = (times(0, i) + times(1, i)) + (times(2, i) + times(3, i)) + (times(4, i) + times(5, i));
-  // Compute the best change if the limb before does not move. If the hinge is fixed, its change leads to the end of its
-  // range.
+  // Compute the change that is best if the limb before the hinge does not move. If the hinge is fixed, its change leads
+  // to the end of its range.
   const V nothing(0.0);
   const V scale = V(1.0) / (damping + Larger(nothing, Dot6(y, s)));
   const V best = scale * (damping * pull + Dot6(limb.vector, s));

@@ -8,7 +8,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/kinematics/solvers/gauss_newton_lanes.cc"
-#include "hwy/foreach_target.h"  // before highway.h
+#include "hwy/foreach_target.h"  // must come before highway.h
 
 // These headers are included once per instruction set, so their order matters.
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"

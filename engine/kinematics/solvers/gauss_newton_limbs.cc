@@ -1,6 +1,7 @@
-// Solves problems one after the other, with four limbs side by side in the lanes of a vector; the trunk's joints come
-// one by one, with a matrix row per vector. This file is compiled once per instruction set; the best one is selected at
-// run time (README.md). Whatever the width of the vectors, numbers are added in the order of the tests' plain_gauss_newton.cc.
+// Solves problems one after the other, with four limbs side by side in the lanes of a vector. The trunk's joints are
+// computed one by one, with a matrix row per vector. This file is compiled once per instruction set; the best one is
+// selected at run time (README.md). With vectors of any width, numbers are added in the order of the tests'
+// plain_gauss_newton.cc.
 #include <algorithm>
 #include <limits>
 
@@ -8,7 +9,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/kinematics/solvers/gauss_newton_limbs.cc"
-#include "hwy/foreach_target.h"  // before highway.h
+#include "hwy/foreach_target.h"  // must come before highway.h
 
 // These headers are included once per instruction set, so their order matters.
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"

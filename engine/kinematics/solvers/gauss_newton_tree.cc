@@ -31,11 +31,11 @@ constexpr int kMaxLanes = 8;  // maximum number of doubles in a vector of any CP
 // An unbranched chain of joints, possibly empty, beyond the joint `parent` of the tree.
 struct Limb {
   int parent = 0, first_joint = -1, joint_count = 0;
-  int effector = -1;  // the effector at its end
+  int effector = -1;  // index of the effector at the limb's end; −1 if there is none
   LimbPacks::Branch branch = {};
 };
 
-// Builds `LimbPacks`: finds the trunk, then the limbs, then packs the limbs by fours.
+// Builds `LimbPacks`: finds the trunk, then the limbs, then groups the limbs into packs of four.
 class LimbPacker {
  public:
   LimbPacker(const KinematicTree& tree, LimbPacks& made)

@@ -27,8 +27,8 @@ Own OwnOptions(const SolverSettings& settings, auto SolverSettings::*told, auto 
   return own;
 }
 
-/// Adapts a solver that has options of its own: a given setting sets `member` of these options, whose default becomes
-/// `number.fallback`.
+/// Adapts a solver that has options of its own. The setting `told`, if it is given, sets `member` of these options. The
+/// default of `member` becomes `number.fallback`.
 template <typename Own, typename Number>
 IkSolver WithSetting(IkSolver solver, SolveWithOwn<Own> solve, std::optional<Number> SolverSettings::*told,
                      Number Own::*member, NumberSetting number) {

@@ -113,7 +113,7 @@ double DampedInverse::Gain(std::span<const double> step) const {
 
 namespace {
 
-// Computes α JᵀdX at `angles`; zeros if no angle has a torque within its range.
+// Computes α JᵀdX at `angles`. Every angle at an end of its range whose torque points out of the range gets 0.
 void ComputeStep(const LinearTargets& linear, std::span<const double> angles, std::span<const AngleRange> ranges,
                  double gain, Eigen::VectorXd& step) {
   const Eigen::Map<const Eigen::MatrixXd> jacobian(linear.jacobian().data(), linear.rows(), linear.columns());
@@ -133,8 +133,8 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
 constexpr double kMinDamping = 1e-9;
 constexpr double kMaxDamping = 1e6;
 constexpr double kDampingStep = 5;
-// The solver stalls if a step lowers the sum by less than this share: only about a million such steps would change the
-// sum noticeably.
+// The solver stalls if a step lowers the sum by less than this share: about a million such steps would be needed to
+// change the sum noticeably.
 constexpr double kMinGain = 1e-6;
 
 }  // namespace
@@ -351,7 +351,7 @@ class Minimiser {
   TreeState trial_;
   TreeFrames trial_frames_;
   std::vector<double> step_;
-  const std::vector<double> no_preference_;  // zeros: the preferred change of each step is none
+  const std::vector<double> no_preference_;  // zeros: no step has a preferred change
   double best_cost_ = std::numeric_limits<double>::infinity();
   std::vector<double> best_angles_;
 };

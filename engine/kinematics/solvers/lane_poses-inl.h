@@ -94,7 +94,7 @@ class LanePoses {
       } else {
         for (int c = 0; c < 3; ++c) MixNumbers(parent.axes, joint.R_PJ[c], axes[c]);
       }
-      // Rotate about those of the axes X, Y and Z about which the joint can turn.
+      // Apply the joint's rotations, in the order X, Y, Z.
       if (joint.dof_count > 0) TurnHinge<0>(joint, angles, p_RJ_W, axes);
       if (joint.dof_count > 1) TurnHinge<1>(joint, angles, p_RJ_W, axes);
       if (joint.dof_count > 2) TurnHinge<2>(joint, angles, p_RJ_W, axes);

@@ -44,9 +44,9 @@ class LinearTargets {
 
   int rows() const { return static_cast<int>(residuals_.size()); }
   int columns() const { return tree_.dof_count(); }
-  /// J, column by column: rows() numbers for each degree of freedom.
+  /// Returns J, column by column: rows() numbers for each degree of freedom.
   std::span<const double> jacobian() const { return jacobian_; }
-  /// The residuals e, rows() numbers.
+  /// Returns the residuals e, rows() numbers.
   std::span<const double> residuals() const { return residuals_; }
 
   /// Returns the sum that |e|² approximates (see the description of this class), computed exactly at `frames`.

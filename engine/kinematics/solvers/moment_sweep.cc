@@ -10,7 +10,7 @@
 // where M_i is a row and ê = (e_W, −p_WJ·e_W) an axis of the frame before the hinge turns: M_i·ê_j sums the current
 // components along i times the desired ones along j, both relative to the joint J. So the best angle has the direction
 // (x, y) (paper B's equations 3.10–3.13 for several effectors). Turning by it mixes rows i and j. A step to the
-// parent's joint, at the distance p_PJ, adds p_PJ[r] times the last row to row r. Columns never change. The vectors ê
+// parent's joint, at the offset p_PJ, adds p_PJ[r] times the last row to row r. Columns never change. The vectors ê
 // are also enough for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts p_PJ[k] from the last
 // component of ê_k.
 #include "engine/kinematics/solvers/moment_sweep.h"
@@ -48,7 +48,7 @@ struct GoalState {
   double position_pull, axis_pulls[3];
 };
 
-// Returns the angle from which an angle is counted: the middle of its range, or its start if the angle is free.
+// Returns the zero point from which an angle is counted: the middle of its range, or its start if the angle is free.
 double MiddleOf(const AngleRange& range, double start) {
   const bool is_free = start - kPi > range.lower && start + kPi < range.upper;
   return is_free ? start : 0.5 * (range.lower + range.upper);
@@ -194,7 +194,7 @@ struct MomentSweep::State {
   const double squared_position_goal, squared_axis_goal;
   const SweepTree tree;
   const std::vector<AngleRange> ranges;
-  std::vector<double> middles;  // the angles from which angles are counted (`MiddleOf`)
+  std::vector<double> middles;  // the zero point of each angle (`MiddleOf`), radians
   std::vector<HingeState> hinges;
   std::vector<GoalState> goals;
   std::vector<Quad> axes;  // ê of limbs, before and after each turn
@@ -267,7 +267,7 @@ void MomentSweep::State::PlaceLimbs() {
   MeasureGoals();
 }
 
-// Computes the distance and the chords of every effector to its goal.
+// Computes the squared distance of every effector from its goal, and the squared chord of each of its axes.
 void MomentSweep::State::MeasureGoals() {
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     const SweepTree::Effector& effector = tree.effectors[e];

@@ -91,7 +91,7 @@ void SweepTree::NameAxes(const KinematicTree& tree) {
     if (step.hinge < 0 || !joints[step.joint].is_aligned) continue;
     const NamedAxis i = NameOf(glm::transpose(R_LS[step.joint])[step.i]);
     const NamedAxis j = NameOf(glm::transpose(R_LS[step.joint])[step.j]);
-    step.i = i.sign * j.sign > 0 ? i.name : j.name;  // exchanging the axes reverses the turn if the signs differ
+    step.i = i.sign * j.sign > 0 ? i.name : j.name;  // different signs reverse the turn, so exchange the two axes
     step.j = i.sign * j.sign > 0 ? j.name : i.name;
   }
   // Express effectors in the new frames.

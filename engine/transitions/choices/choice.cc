@@ -63,8 +63,8 @@ std::string WhyNone(const MotionLibrary& library, const TransitionRequest& reque
   return DescribeNoMatch(survey.nearest, survey.allowed.Pairs(), "bridge frames", rules);
 }
 
-/// Plans paper A's transition (section 3.5). Compares each bridge frame of the playing clip within the budget with
-/// those of the wanted clip, the front half before the rear half, and takes the first pair that matches. With
+/// Plans paper A's transition (section 3.5). Compares each bridge frame of the playing clip within the budget with the
+/// bridge frames of the wanted clip's front half, then of its rear half, and takes the first pair that matches. With
 /// Pick::kSmallest it takes the nearest matching pair of the front half, or of the rear half if no pair of the front
 /// half matches. If no pair matches at all, the transition goes through an in-between.
 TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionRequest& request,
@@ -138,7 +138,7 @@ TransitionRecord PlanThroughStanding(const MotionLibrary& library, const Transit
   const TweenRules& tween = library.in_betweens.tween;
   const BodyPose& leaving = library.motions[request.from].poses[request.request_frame];
   const BodyPose& entered = library.motions[request.to].poses.front();
-  // Compute the frames of both tweens: into the standing pose, and on into the wanted clip.
+  // Compute the frames of both tweens: into the standing pose, and from there into the wanted clip.
   std::vector<BodyPose> own = SampleTween(Tween(leaving, StandingPose(library.proportions)), playing.rate_hz, tween);
   const int standing = static_cast<int>(own.size()) - 1;
   AppendTween(entered, playing.rate_hz, tween, own);

@@ -14,11 +14,11 @@
 namespace etude {
 
 /// A rule that decides at which frame one clip is left and at which frame the other is entered. Scenario files use its
-/// name. `values` has one value per setting, in order; if empty, the defaults apply.
+/// name. The argument `values` has one value per setting, in order; if empty, the defaults apply.
 struct Choice {
   std::string name;
   std::string description;                   ///< one line for users
-  bool matches_poses = false;                ///< true if it seeks similar frames; only then `false_smooth` is measured
+  bool matches_poses = false;                ///< true if it seeks similar frames; only then is `false_smooth` measured
   bool uses_fuzzy = false;                   ///< true if the rules' weights and threshold apply
   std::vector<NumberSetting> settings = {};  ///< settings of this choice, in addition to the rules of all fuzzy choices
   /// Returns the frames that the choice may take; null for choices that do not compare poses.
@@ -41,15 +41,14 @@ struct TransitionWay {
   const Choice* choice = nullptr;
   const JoinKind* join = nullptr;
   MatchRules rules = {};
-  std::vector<double> choice_settings = {},
-                      /// One value per setting of the choice and of the join; if empty, the defaults apply.
-      join_settings = {};
+  /// One value per setting of the choice, and one per setting of the join; if empty, the defaults apply.
+  std::vector<double> choice_settings = {}, join_settings = {};
 };
 
 /// The transition that a method made for a request.
 struct Transition {
   TransitionRecord record;
-  Splice splice;  ///< without frames if the record has no segments
+  Splice splice;  ///< has no frames if the record has no segments
 };
 
 /// Makes a transition from a frame of one clip into another clip, within a time budget. The request's clips and frame

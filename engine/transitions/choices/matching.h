@@ -19,9 +19,8 @@ struct PointCloudOptions {
 };
 const SettingTable<PointCloudOptions>& PointCloudSettings();
 
-/// Plans with the fuzzy gate, which may pass any frame, not only bridge frames. Ranks the passing pairs by the
-/// point-cloud distance (PointCloudRows). This refines paper A's measure. If no pair passes, the plan goes through an
-/// in-between.
+/// Takes the matching pair of frames (FuzzyGate) with the smallest point-cloud distance (PointCloudRows), which refines
+/// paper A's measure. Frames need not be bridge frames. If no pair matches, the plan goes through an in-between.
 TransitionRecord PlanFuzzyKovar(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                                 const PointCloudOptions& options = {});
 
@@ -47,9 +46,9 @@ struct FuzzyWindowOptions {
 };
 const SettingTable<FuzzyWindowOptions>& FuzzyWindowSettings();
 
-/// Plans by a fuzzy similarity between motions, which paper A leaves as future work. The fuzzy gate may pass any frame.
-/// The passing pairs are ranked by the mean fuzzy distance over the frames up to `reach_s` before and after the pair.
-/// If no pair passes, the plan goes through an in-between.
+/// Plans by a fuzzy similarity between motions, which paper A leaves as future work. Takes the matching pair of frames
+/// (FuzzyGate) with the smallest mean fuzzy distance over the frames up to `reach_s` before and after the pair. Frames
+/// need not be bridge frames. If no pair matches, the plan goes through an in-between.
 TransitionRecord PlanFuzzyWindow(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules, const FuzzyWindowOptions& options = {});
 

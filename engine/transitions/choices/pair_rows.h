@@ -23,9 +23,9 @@ class PairRows {
   virtual void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) = 0;
 };
 
-/// Keeps running sums along the diagonals of a table whose rows are frames of one clip and whose columns are frames of
-/// another. A diagonal pairs the frames of two clips that play at the same time. The sum over any stretch of a diagonal
-/// takes two look-ups. Rows are added one by one. `Value` is a number or a vector of numbers.
+/// Keeps running sums along the diagonals of a table. Its rows are frames of one clip, its columns are frames of
+/// another; along a diagonal, both clips advance by one frame per cell. The sum over any stretch of a diagonal takes
+/// two look-ups. Rows are added one by one. `Value` is a number or a vector of numbers.
 template <class Value>
 class DiagonalSums {
  public:
@@ -81,7 +81,8 @@ inline Reach ReachAround(int frame_a, int frames_a, int frame_b, int frames_b, i
           .after = std::min({half, frames_a - 1 - frame_a, frames_b - 1 - frame_b})};
 }
 
-/// Computes equation 1 from one frame to many frames with SIMD; bit-identical to ComputeDistance.
+/// Computes the fuzzy distance (equation 1) from one frame to many frames with SIMD instructions. The values are
+/// bit-identical to those of ComputeDistance.
 class FuzzyRows {
  public:
   FuzzyRows(std::span<const Grades> frames, const FeatureWeights& weights);
@@ -94,8 +95,8 @@ class FuzzyRows {
   std::vector<FrameBlock> blocks_;
 };
 
-/// Computes, for each pair of a row, the mean of equation 1's distance over the frames around the pair, up to `reach`
-/// frames to each side, as far as both motions exist. Overlapping windows share the comparisons of frames.
+/// Computes, for each pair of a row, the mean fuzzy distance (equation 1) over the frames up to `reach` before and
+/// after the pair, as far as both clips have such frames. Overlapping windows share the comparisons of frames.
 class FuzzyWindowRows : public PairRows {
  public:
   /// Rows begin at `first_leave_frame`. The playing clip's grades must outlive this object.
@@ -113,10 +114,10 @@ class FuzzyWindowRows : public PairRows {
 /// Computes the distance of two frames by Kovar, Gleicher and Pighin ("Motion graphs", 2002, section 3.1). The twenty
 /// joints of all frames in a window form a point cloud. One cloud is rotated about the vertical and shifted on the
 /// floor to fit the other best (in closed form). All points have the same weight, and the cost is the root mean square
-/// of their distances in centimetres. A cloud that a clip's end cuts short is therefore comparable with others.
+/// of their distances in centimetres. Windows that a clip's end shortens are therefore comparable with whole windows.
 ///
-/// In the paper one cloud begins at its frame and the other ends there, because the clips are crossfaded. Here both
-/// clouds are centred on their frames, because the clips are cut there.
+/// In the paper one cloud begins at its frame and the other ends at its frame, because the clips are crossfaded. Here
+/// both clouds are centred on their frames, because the clips are cut there.
 class PointCloudRows : public PairRows {
  public:
   /// Rows begin at `first_leave_frame`. `playing` must outlive this object.
@@ -124,7 +125,7 @@ class PointCloudRows : public PairRows {
   void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
 
  private:
-  /// The sum of all point coordinates in the frames before a given frame.
+  /// Sums over all points in the frames before a given frame: of x, of z, and of the squared distance from the origin.
   struct CloudSum {
     double x = 0, z = 0, square = 0;
   };

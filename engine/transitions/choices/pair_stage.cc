@@ -83,7 +83,7 @@ constexpr int kAround = 30;
 
 double FloorLength(const glm::dvec3& v) { return std::hypot(v.x, v.z); }
 
-/// Returns the largest value of a clip within two frames of `frame`; 0 outside of the clip.
+/// Returns the largest of a clip's `values` (one per frame) within two frames of `frame`; 0 outside of the clip.
 double LargestNear(std::span<const double> values, int frame) {
   constexpr int kReach = 2;
   double largest = 0;
@@ -216,14 +216,15 @@ Burden PairStage::Rate(std::span<const BodyPose> played, const glm::dvec3& shift
   return burden;
 }
 
-/// Returns the distance of the zero-moment point from the supports in a frame of the join: the larger one of both
-/// clips.
+/// Returns how far the zero-moment point is from the supports in the clips themselves near a frame of the join, metres:
+/// the larger distance of both clips.
 double PairStage::OwnBeside(int frame) const {
   return std::max(LargestNear(playing_beside_, pair_.leave + frame), LargestNear(wanted_beside_, pair_.enter + frame));
 }
 
 /// Returns how far the slowest of `supports` moves from the frame before `frame` to `frame`, metres: over the floor or
-/// relative to the same joint of a clip, whichever is less. Without supports, uses the slowest joint of the feet.
+/// relative to the same joint of a clip, whichever is less. If `supports` is empty, the slowest joint of the feet is
+/// used.
 double PairStage::GlideAt(std::span<const BodyPose> shown, int frame, JointSet supports) const {
   if (supports.none()) {
     for (const LegRoles& leg : kLegs) supports.set(Index(leg.ankle)).set(Index(leg.foot));

@@ -47,11 +47,11 @@ class CostMeter {
 /// and is 0 from 2.5 cm on (Zhang, Starke, Komura and Saito 2018).
 double SlideOf(std::span<const BodyPose> played);
 
-/// The penalties for what the ground cannot support in a join.
+/// How much of a join the ground cannot support.
 struct Burden {
-  int unsupported = 0;  ///< the longest run of frames in which FindSupport finds no support
-  double beside = 0;    ///< zero-moment point's distance beyond 10 cm and beyond the clips' own, integrated, m·s
-  double glide = 0;     ///< how far the slowest support glides, beyond the same joint of a clip, metres
+  int unsupported = 0;  ///< length in frames of the longest run in which FindSupport finds no support
+  double beside = 0;    ///< zero-moment point's distance above 10 cm and above the clips' distances, integrated, m·s
+  double glide = 0;     ///< distance by which the slowest support glides farther than the same joint of a clip, metres
 };
 
 /// The data that all joins at one pair of frames have in common.
@@ -70,10 +70,10 @@ class PairStage {
   /// Returns one frame of a join of length kLengths_s[length] (`frames` frames), without planted feet and without
   /// shift.
   const BodyPose& LimbsAt(std::size_t length, int frames, JoinStyle way, int frame);
-  /// Returns PlanSteps of a window that WindowFor returned for kLengths_s[length], with CarriedShift or without. Both
-  /// ways have the same steps, so they are planned once.
+  /// Returns PlanSteps of a window that WindowFor returned for kLengths_s[length], with CarriedShift or without. All
+  /// of kWays have the same steps, so they are planned once.
   const FootPlan& StepsIn(const JoinWindow& window, std::size_t length, bool carried);
-  /// Returns what the ground must do if the join shows `played`, then the wanted clip moved by `shift`.
+  /// Rates a motion: the frames `played` of a join, and after them the wanted clip, moved by `shift`.
   Burden Rate(std::span<const BodyPose> played, const glm::dvec3& shift) const;
 
   const OwnAccelerations& own() const { return own_; }
@@ -89,11 +89,11 @@ class PairStage {
   double OwnBeside(int frame) const;
   double GlideAt(std::span<const BodyPose> shown, int frame, JointSet supports) const;
 
-  const JoinWindow window_;  // of the longest join
+  const JoinWindow window_;  // window of the longest join
   const OwnAccelerations own_;
   WindowTurns turns_;
   std::array<std::array<Limbs, kWays.size()>, kLengths_s.size()> limbs_;
-  std::array<std::array<std::optional<FootPlan>, 2>, kLengths_s.size()> steps_;  // by length, and carried or not
+  std::array<std::array<std::optional<FootPlan>, 2>, kLengths_s.size()> steps_;  // [length][1 if carried]
   const FramePair pair_;
   std::span<const double> playing_beside_, wanted_beside_;  // MotionLibrary::beside_feet of both clips
   const int before_;                                        // number of frames of `playing_` before the pair's frame

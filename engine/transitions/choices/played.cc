@@ -28,7 +28,8 @@ constexpr double kRunUp_s = 2.5;     // a clip may be entered at most this long 
 constexpr double kRunOut_s = 2.5;    // a clip may be left at most this long after it has changed its stance
 constexpr double kMinShown_s = 0.3;  // minimum time that a clip is shown: the shortest join
 
-/// Finds the frames of a library clip that can be joined to the allowed frames of a request, before or after the clip.
+/// Finds the frames of a library clip that may be entered from the allowed frames of the playing clip, and those from
+/// which the allowed frames of the wanted clip may be entered.
 class Ends {
  public:
   Ends(const MotionLibrary& library, const TransitionRequest& request, const AllowedFrames& allowed)
@@ -93,7 +94,7 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
   std::optional<ThroughClip> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (int clip = 0; clip < static_cast<int>(library.motions.size()); ++clip) {
-    int before = -1;  // the last frame that may be entered; −1 if it has been paired with a frame that may be left
+    int before = -1;  // the last frame that may be entered; −1 if there is none, or if WayAround has used this frame
     for (int f = 0; f < library.tagged[clip].FrameCount(); ++f) {
       if (before >= 0 && ends.MayLeave(clip, f)) {
         ThroughClip way = WayAround(library, ends, clip, std::exchange(before, -1), f, most_s);
@@ -109,7 +110,7 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
   return nearest;
 }
 
-constexpr int kPairs = 16;          // per round, one pair for each part of the wait
+constexpr int kPairs = 16;          // number of pairs per round: one for each part of the wait
 constexpr int kRounds = 4;          // maximum number of rounds; another round follows while the best join floats
 constexpr int kFloatingFrames = 4;  // a join with this many consecutive unsupported frames floats
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part

@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², about free fall
-constexpr double kLimbShare = 0.6;     // this part of the limbs' cost counts before feet are planted
+constexpr double kAlwaysUsual = 0.01;  // lowest usual acceleration, metres per frame²: 9 m/s², about free fall
+constexpr double kLimbShare = 0.6;     // share of the limbs' cost that counts before the feet are planted
 constexpr double kUnplanted_s = 0.1;   // cost of a frame in which no foot carries weight (FootPlan)
 constexpr double kFloating_s = 6;      // cost of each frame beyond kHop in the longest run without support
 constexpr int kHop = 2;
@@ -39,7 +39,7 @@ struct OpenWay {
       shown.reserve(window.next.size());
     }
 
-    const glm::dvec3 shift;  // moves the wanted clip
+    const glm::dvec3 shift;  // shift of the wanted clip, metres
     const JoinWindow window;
     CostMeter meter;
     std::vector<BodyPose> shown = {};
@@ -47,7 +47,7 @@ struct OpenWay {
 
   bool HasLimbs() const { return limbs && static_cast<int>(limbs->shown.size()) > way.frames; }
 
-  PlayedJoin way;  // with the cost of the frames played so far
+  PlayedJoin way;  // the join, with the cost of the frames played so far
   std::unique_ptr<Limbs> limbs = {};
   bool has_feet = false;
 };
@@ -66,7 +66,7 @@ class Rehearsal {
         usual_(std::max(std::min(library.usual_accelerations[request.from], library.usual_accelerations[request.to]),
                         kAlwaysUsual)),
         stages_(pairs.size()) {
-    // List all joins of all pairs. Their time is a lower bound of their cost.
+    // List all joins of all pairs. The wait plus the join's length is a lower bound of a join's cost.
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       for (std::size_t length = 0; length < kLengths_s.size(); ++length) {
         const int frames = FramesOf(kLengths_s[length]);
@@ -134,8 +134,8 @@ class Rehearsal {
     }
   }
 
-  /// Plays a join with planted feet and adds it to `ways`, unless its cost without support already reaches the best
-  /// join's cost.
+  /// Plays a join with planted feet and adds it to `ways`, unless its cost reaches the best join's cost even before the
+  /// cost of missing support is added.
   void PlayFeet(OpenWay& open, std::vector<PlayedJoin>& ways) {
     PlayedJoin& way = open.way;
     PairStage& stage = StageOf(way);

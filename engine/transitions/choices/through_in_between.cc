@@ -100,8 +100,8 @@ class KeySearch {
   TransitionRecord& record_;
 };
 
-/// Returns the frames from one key to another. If a limb would have to rotate too far, they go through the hub, the
-/// first key.
+/// Returns the frames of a motion from one key pose to another. If a limb would rotate too far, the motion goes through
+/// the hub (the first key).
 std::vector<BodyPose> MakeInBetween(const MotionLibrary& library, int from, int to, double rate_hz) {
   const InBetweenNet& net = library.in_betweens;
   const auto pose = [&](int key) { return library.motions[net.keys[key].clip].poses[net.keys[key].frame]; };

@@ -84,8 +84,8 @@ std::vector<TreePose> FillByHalfLife(const Gap& gap, std::span<const double> val
 
 constexpr double kSpring_s = SpringOptions().half_life_s, kDead_s = DeadOptions().half_life_s;
 
-/// Fills by dead blending. Velocities along the floor halve in 0.2 s, those of heights and joints sooner, because
-/// heights and joints swing.
+/// Fills by dead blending. The root's horizontal velocity halves in 0.2 s. Its vertical velocity and the joints'
+/// angular velocities halve in 0.06 s, because these movements soon reverse.
 std::vector<TreePose> DeadBlend(const Gap& gap) {
   constexpr double kSwinging_s = 0.06;
   const auto swinging = [](const Ends& ends, double t) { return DeadBlendedAt(ends, t, kSwinging_s); };

@@ -11,7 +11,7 @@ constexpr double kVelocity_s = 0.1;  // a velocity is weighted as the distance c
 constexpr double kReach_m = 0.3;     // a rotation is weighted as the path of a point this far from the axis
 
 /// Appends the features of a pose in the root's frame: the joints' positions, the vertical direction, and the root's
-/// height. The vertical direction and the height together weigh as much as one position of every joint.
+/// height. The vertical direction weighs as much as all positions together, and so does the height.
 void AppendSeen(const JointTree& tree, const TreePose& pose, std::vector<double>& seen) {
   std::vector<glm::dvec3> points;
   std::vector<glm::dquat> turns;

@@ -25,10 +25,10 @@ class GapLibrary {
   /// joint are corrected. On a tie, the gap that was added first is taken. Returns no frames if no gap can be compared.
   std::vector<TreePose> FillLikeNearest(const Gap& gap, Fill fill) const;
 
-  /// Fills a gap with `fill` and corrects the result by a weighted mean of errors (truth minus filled): those that
-  /// `fill` makes in the gaps of the library at most 0.36 m away. The weight is exp(−d²/2h²), h = 0.12 m. An error of
-  /// zero with weight 2 is averaged in, which shrinks the correction (kernel regression). Of gaps that overlap by more
-  /// than half, only the nearest counts.
+  /// Fills a gap with `fill` and corrects the result by a weighted mean of the errors (truth minus filled) that `fill`
+  /// makes in those gaps of the library whose distance d is at most 0.36 m (kernel regression). The weight is
+  /// exp(−d²/2h²), h = 0.12 m. The mean includes an error of zero with weight 2, which shrinks the correction. Of gaps
+  /// that overlap by more than half, only the nearest counts.
   std::vector<TreePose> FillLikeNear(const Gap& gap, Fill fill) const;
 
  private:

@@ -49,7 +49,7 @@ struct Footfalls {
   Frames stands;
 };
 
-/// One foot: the data from which its steps are planned.
+/// The data from which the steps of one foot are planned.
 struct FootView {
   const glm::dvec3& End(std::size_t end) const { return end == 0 ? path.front() : path.back(); }
   /// Returns the tip's position at an end of the gap, lowered to the surface on which the foot stands.
@@ -59,7 +59,7 @@ struct FootView {
   std::vector<glm::dvec3> path;    ///< the tip's filled positions, from the frame before the gap to the frame after it
   std::vector<glm::dvec3> hips;    ///< the hip joint's positions in the same frames
   glm::dvec3 velocity{0};          ///< the tip's velocity before the gap, metres per second
-  std::array<bool, 2> stands{};    ///< true if the foot stands before the gap, after the gap
+  std::array<bool, 2> stands{};    ///< true if the foot stands before the gap (0), after the gap (1)
   double length = 0;               ///< length of the stretched leg from hip to tip, metres
   std::array<double, 2> raised{};  ///< height of a standing tip above the lowest tip around the gap, metres
 };
@@ -301,7 +301,7 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
     const int frames = stance.from - before.to;
     const glm::dvec3 way = stance.tip - before.tip;
     Ends ends{.start = before.tip, .end = stance.tip, .seconds = frames / rate_hz};
-    if (!before.bears) ends.start_velocity = foot.velocity * glm::dvec3(1, 0.5, 1);  // the swing soon stops rising
+    if (!before.bears) ends.start_velocity = foot.velocity * glm::dvec3(1, 0.5, 1);  // swinging feet soon stop rising
     if (stance.bears) ends.end_velocity = glm::dvec3(0);
     const double share = before.bears ? 1 : stance.bears ? 0.5 : 0;  // a foot in the air is already partly lifted
     const double lift = share * LiftFor(std::hypot(way.x, way.z));
@@ -313,7 +313,8 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
       pose.turn = glm::slerp(turn_of(before), turn_of(stance), Smootherstep(s));
     }
   }
-  // A foot that never steps moves evenly between its places at both ends. A raised foot is lowered within kLower_s.
+  // A foot that never steps moves linearly from its position before the gap to its position after it. A raised foot is
+  // lowered within kLower_s.
   constexpr double kLower_s = 0.2;
   for (std::size_t f = 0; f < count; ++f) {
     const double s = static_cast<double>(f) / last;
@@ -328,7 +329,7 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
   return poses;
 }
 
-/// Returns the ankle's rotation with the heel raised about the tip, as far as the leg needs it to reach the foot.
+/// Returns the ankle's rotation with the heel raised about the tip: just enough for the leg to reach the foot.
 glm::dquat RaisedHeel(const FootPose& foot, const glm::dvec3& hip, const glm::dvec3& limb, double reach) {
   const glm::dvec3 heel = -(foot.turn * limb), to_hip = hip - foot.tip;
   const double length = glm::length(heel), far = glm::length(to_hip);
@@ -336,7 +337,7 @@ glm::dquat RaisedHeel(const FootPose& foot, const glm::dvec3& hip, const glm::dv
   const double cosine = (length * length + far * far - reach * reach) / (2 * length * far);
   const glm::dvec3 whole = TurnBetween(heel, to_hip);
   const double angle = glm::length(whole), wanted = std::acos(std::clamp(cosine, -1.0, 1.0));
-  constexpr double kMost = 1.0;  // radians
+  constexpr double kMost = 1.0;  // largest rotation, radians
   const double turn = std::clamp(angle - wanted, 0.0, kMost);
   return angle > 0 ? TurnOf(whole * (turn / angle)) * foot.turn : foot.turn;
 }
@@ -349,7 +350,7 @@ void SetLeg(const JointTree& tree, const TreeLeg& leg, const FootPose& foot, dou
   const glm::dvec3 limb = glm::conjugate(world.turns[at(leg.ankle)]) * (world[leg.tip] - ankle);
   const glm::dquat turn = RaisedHeel(foot, hip, limb, reach);
   const glm::dvec3 target = foot.tip - turn * limb;
-  constexpr double kForwards = 1e-3;  // bends the knee of a straight leg, which has no direction, forwards
+  constexpr double kForwards = 1e-3;  // metres along the foot, so that the knee of a straight leg bends forwards
   const glm::dvec3 pole = CarriedOffset(KneeOffset(hip, knee, ankle), ankle - hip, target - hip) +
                           kForwards * UnitOr(turn * limb, glm::dvec3(0));
   const Leg solved = SolveLeg(hip, target, glm::distance(hip, knee), glm::distance(knee, ankle), pole);

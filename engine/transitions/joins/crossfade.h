@@ -13,13 +13,13 @@ using LimbTurns = std::array<LimbTurn, kRoleCount>;
 LimbTurns TurnsBack(const BodyPose& from, const BodyPose& to);
 
 /// Interpolates limb by limb between two poses; `share` is 0 at `from` and 1 at `to`. The limbs have the lengths of
-/// `to`. `back` is TurnsBack(from, to), which a caller with several shares computes only once.
+/// `to`. `back` is TurnsBack(from, to); a caller that needs several shares computes it once.
 BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, const LimbTurns& back, double share);
 BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share);
 
 struct CrossfadeOptions {
   /// The time until only the new motion is shown, in seconds (default ours). A longer time hides larger differences,
-  /// but shows poses that neither clip has for longer; 0 is a cut.
+  /// but shows poses that are in neither clip for a longer time; 0 is a cut.
   double blend_s = 0.33;
 };
 const SettingTable<CrossfadeOptions>& CrossfadeSettings();

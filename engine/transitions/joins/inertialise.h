@@ -53,7 +53,7 @@ const SettingTable<QuinticOptions>& QuinticSettings();
 
 /// Returns an offset that decays along Bollo's quintic (GDC 2018). The offset keeps its axis, and its length decays to
 /// zero within `blend_s`, or earlier if it shrinks so fast that it would overshoot. If the offset grows, its velocity
-/// is replaced by zero; a velocity across the axis is ignored.
+/// is replaced by zero; a velocity perpendicular to the axis is ignored.
 glm::dvec3 QuinticDecay(const Offset& offset, double seconds, const QuinticOptions& options = {});
 Blend InertialiseQuintic(const JoinInput& input, const QuinticOptions& options = {});
 

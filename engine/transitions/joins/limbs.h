@@ -16,8 +16,8 @@ LimbTurn TurnBetween(const glm::dvec3& from, const glm::dvec3& to);
 /// Returns `v` rotated by `turn`; its length is unchanged.
 glm::dvec3 Turned(const glm::dvec3& v, const LimbTurn& turn);
 
-/// Returns the vector from the hip–ankle line to the knee, perpendicular to that line, in metres. Its direction is
-/// where the knee points; its length grows as the leg bends.
+/// Returns the vector from the hip–ankle line to the knee, perpendicular to that line, in metres. The vector points in
+/// the knee's direction, and its length grows as the leg bends.
 glm::dvec3 KneeOffset(const glm::dvec3& hip, const glm::dvec3& knee, const glm::dvec3& ankle);
 
 /// Rotates `offset`, a KneeOffset of a leg along `from`, by the smallest rotation from `from` to `to`.

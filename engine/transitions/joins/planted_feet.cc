@@ -47,7 +47,7 @@ struct FootTracks {
   const LegRoles& leg;
   int frames = 0;  ///< number of frames in which steps are planned
   Frames old_stands = 0, next_stands = 0;
-  /// For each frame, how far the foot slid while it stood in the frames before, metres.
+  /// For each frame, how far the foot slid in those earlier frames in which it stood, metres.
   std::array<double, kMaxFrames + 2> old_slid{}, next_slid{};
 };
 
@@ -57,7 +57,7 @@ struct StepOption {
   Frames stands = 0;  // the frames in which the foot bears weight
 };
 
-/// Returns the minimum-jerk movement of a step: the toe's offset between the motions goes to zero.
+/// Returns the minimum-jerk movement of a step, in which the old toe's offset from the new one goes to zero.
 Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
   const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
   const auto change = [&](const BodyPose& before, const BodyPose& after) {
@@ -187,8 +187,9 @@ LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& st
   return {toe - limb, limb};
 }
 
-/// Returns how far a leg may reach: as far as the legs of both motions, slightly less in the middle of the join,
-/// because the knee of an almost straight leg moves abruptly.
+/// Returns how far a leg may reach from hip to ankle, metres: as far as in both motions (interpolated), but at least to
+/// 97 % of its length. In the middle of the join it is 1 cm less, because the knee of an almost straight leg moves
+/// abruptly.
 double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   const double s = static_cast<double>(frame) / window.Frames();
   const auto reach = [&](const BodyPose& pose) { return glm::distance(pose[leg.hip], pose[leg.ankle]); };
@@ -202,7 +203,7 @@ double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
 
 /// Rotates a leg's pole (see SolveLeg) about the leg until it points at most 60° to a side; `share` (0 to 1) is how
 /// much of this rotation is applied. A pole that points backwards turns outwards, which keeps the legs apart. (Depth
-/// sensors show straight legs as overextended; a leg that bends more must not bend that way.)
+/// sensors show straight legs as overextended; the join must not bend a knee further in that direction.)
 glm::dvec3 BentForwards(const glm::dvec3& pole, const glm::dvec3& line, const glm::dvec3& forwards, bool is_left,
                         double share) {
   constexpr double kSide = Radians(60), kInwards = Radians(-120);
@@ -288,7 +289,7 @@ void PlantFeet(const JoinWindow& window, const FootPlan& plan, std::vector<BodyP
     }
   }
   constexpr double kRounding = 1e-9;
-  if (farthest < kRounding) return;  // the join changes nothing
+  if (farthest < kRounding) return;  // the feet are already on their paths
   // Lower the body and solve each leg for its path.
   drop = SmoothlyAbove(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {

@@ -127,14 +127,14 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     next.blend = join.begin(input, join_settings);
     for (int frame = entered + 1; frame <= segments[i].last; ++frame) shown.push_back(next.Shown(frame));
     splice.points.push_back(point);
-    // Keep, for the measures, the clip's own frames of every segment between the first and the last.
+    // Keep the clip's own frames of every segment between the first and the last; the measures use them.
     if (i + 1 < segments.size()) {
       std::vector<BodyPose>& between = splice.between.emplace_back();
       if (!next.is_own) between = next.Own(entered - 1, frames.size());
     }
     old = std::move(next);
   }
-  // Keep, for the measures, the clip's own frames of the last segment.
+  // Keep the clip's own frames of the last segment; the measures use them.
   for (int frame = segments.back().first; frame <= segments.back().last; ++frame)
     splice.wanted.push_back(old.At(frame));
   return splice;

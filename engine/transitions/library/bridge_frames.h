@@ -42,9 +42,9 @@ struct TagRules {
   FeatureWeights weights = PaperWeights();  ///< weights of the distance by which frames differ
 };
 
-/// Selects the bridge frames of a library: frames whose ten tags occur together in enough clips and
-/// whose head is quiet, at most `most_per_class` per class. `standing_hip_height` belongs to the body that performs all
-/// clips, in metres.
+/// Selects the bridge frames of a library: frames whose ten tags occur together in at least `min_clips` clips and whose
+/// head is quiet, at most `most_per_class` per class (0: all). `standing_hip_height` is that of the body that performs
+/// all clips, in metres.
 std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height,
                                  const TagRules& rules = {});
 

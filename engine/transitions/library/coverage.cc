@@ -97,7 +97,8 @@ Coverage::Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, c
   for (std::size_t c = 0; c < clips.size(); ++c) {
     any_.push_back(CoverageOf(clips[c], of_all[c], of_bridges[c], options.budget_s));
   }
-  // If required, compare every pair of clips; else find only the clips without a way into each wanted clip.
+  // Compare every pair of clips if the options ask for it. Otherwise find only, for each wanted clip, the clips that
+  // have no matching bridge frame.
   if (options.with_pairs) {
     CoverageOptions of_pairs = options;
     of_pairs.on_progress = progress_of(2);

@@ -26,7 +26,7 @@ struct FrameWindow {
 
 /// Returns the frames within the budget: from `request` to `request` + `budget_s` seconds, limited to the clip.
 FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s);
-/// Returns the frames that may be entered: all except the last, after which the clip shows nothing.
+/// Returns the frames that may be entered: all except the last, because nothing of the clip would follow it.
 FrameWindow EntryWindow(const TaggedClip& next);
 
 /// Returns the frames of a window in ascending order.

@@ -93,7 +93,7 @@ class PairSearch {
   bool HasMatch(std::size_t asking) {
     for (std::size_t i = 0; i < near_.size(); ++i) {
       if (LeastDistance(near_[i]) >= rules_.threshold || !CompareBlock(asking, near_[i])) continue;
-      // Compare this block first for the next frame, which is similar.
+      // Move this block to the front: the next frame is similar, so it probably matches a frame of the same block.
       std::swap(near_[0], near_[i]);
       return true;
     }

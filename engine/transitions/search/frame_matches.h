@@ -32,7 +32,7 @@ class MatchClip {
   // near each other, so most blocks can be rejected by their box.
   int target_count_ = 0;
   std::vector<FrameBlock> targets_;
-  std::vector<BoxBlock> target_boxes_;  // target_boxes_[i] holds the boxes of targets_[16 i] …
+  std::vector<BoxBlock> target_boxes_;  // target_boxes_[i]: boxes of targets_[16 i] … targets_[16 i + 15]
 };
 
 /// Returns the frames of `from` that match (d < threshold) a frame of `to`, in ascending order. The last frame of `to`

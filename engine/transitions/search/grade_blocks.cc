@@ -9,7 +9,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/transitions/search/grade_blocks.cc"
-#include "hwy/foreach_target.h"  // before highway.h
+#include "hwy/foreach_target.h"  // must come before highway.h
 
 // This header must be included after foreach_target.h.
 #include "hwy/highway.h"
@@ -22,9 +22,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, kBlockLanes / 2>;
 using Vec = hn::Vec<Tag>;
 
-/// Sums up the weighted squares of the differences `gap(term, lane)` for the vector of lanes that begins at `lane`, in
-/// the order of `ComputeDistance`. MulAdd is not used: it rounds once, while CPUs without it round twice. The function
-/// stops when all lanes exceed the limit, because the sums never decrease.
+/// Sums up weighted squared differences in the order of `ComputeDistance`. `gap(term, lane)` returns the differences in
+/// a term for the vector of lanes that begins at `lane`. MulAdd is not used: it rounds once, while CPUs without it
+/// round twice. The function stops when all lanes exceed the limit, because the sums never decrease.
 template <class Gap>
 HWY_INLINE BlockResult SumSquares(const GradeMetric& metric, double limit, const Gap& gap) {
   const Tag tag;
@@ -43,7 +43,7 @@ HWY_INLINE BlockResult SumSquares(const GradeMetric& metric, double limit, const
         feature_a = hn::Add(feature_a, hn::Mul(gap_a, gap_a));
         feature_b = hn::Add(feature_b, hn::Mul(gap_b, gap_b));
       }
-      // Stop early if all lanes exceed the limit; check after every second feature.
+      // Add the weighted feature. After every second feature, check whether all lanes exceed the limit.
       const Vec weight = hn::Set(tag, metric.weights[k]);
       sum_a = hn::Add(sum_a, hn::Mul(weight, feature_a));
       sum_b = hn::Add(sum_b, hn::Mul(weight, feature_b));

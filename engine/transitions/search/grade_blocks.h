@@ -42,8 +42,7 @@ struct alignas(64) BoxBlock {
 
 /// Returns the number of blocks for `count` frames.
 constexpr int BlocksFor(std::size_t count) { return static_cast<int>((count + kBlockLanes - 1) / kBlockLanes); }
-/// Returns a bit mask of a block's used lanes. `count` is the number of frames from the block's first lane to the last
-/// frame of all.
+/// Returns a bit mask of a block's used lanes. `count` is the number of frames from the block's first lane on.
 constexpr std::uint32_t LanesOf(int count) { return count >= kBlockLanes ? 0xffff : (1u << count) - 1; }
 
 /// The constants of equation 1: the terms and the weight of each feature.

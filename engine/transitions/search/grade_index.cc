@@ -32,7 +32,7 @@ class Splitter {
     const std::size_t axis = WidestAxis(order);
     const std::span<Placed> placed(placed_.data(), order.size());
     for (std::size_t i = 0; i < order.size(); ++i) placed[i] = {frames_[order[i]][axis], order[i]};
-    // The left side gets a power of two of blocks. Each block, and each group of sixteen blocks, is then a subtree.
+    // The number of blocks on the left is a power of two, so each block and each group of sixteen blocks is a subtree.
     const std::size_t blocks = (order.size() + kBlockLanes - 1) / kBlockLanes;
     const std::size_t left = std::bit_ceil(blocks) / 2 * kBlockLanes;
     std::ranges::nth_element(placed, placed.begin() + static_cast<std::ptrdiff_t>(left), {},

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// Returns the only schema, docs/schemas/bridge-tags.xsd (embedded by the build).
+/// Returns one schema, docs/schemas/bridge-tags.xsd, which the build embeds in the program.
 std::span<const EmbeddedText> TagsFileSchemas();
 
 /// A bridge frame with its tags (paper A, section 3.4).
@@ -49,12 +49,12 @@ struct KeyTag {
 struct BridgeTags {
   std::string system;              ///< the fuzzy system's name
   std::string memberships_digest;  ///< digest of the membership functions: sixteen hexadecimal digits
-  FeatureWeights weights{};        ///< S of equation 1
+  FeatureWeights weights{};        ///< the weights S of equation 1
   double threshold = kPaperThreshold;
   bool within_class = false;
   int min_clips = 2, most_per_class = 0;                      ///< as in TagRules
   double max_neck_bend_deg = 0, max_neck_turn_deg_per_s = 0;  ///< as in HeadRule
-  double standing_hip_height_m = 0;                           ///< of the body that performs all clips
+  double standing_hip_height_m = 0;                           ///< of the body that performs all clips, metres
   std::vector<ClipTags> clips;                                ///< with unique names
   std::vector<KeyTag> keys;                                   ///< the first is the hub
 
@@ -76,10 +76,10 @@ constexpr std::size_t kMaxTagsFileBytes = 512'000'000;
 /// characters).
 Result<std::string> WriteTagsFile(const BridgeTags& tags);
 
-/// Reads the output of WriteTagsFile, bit for bit; error messages name it `file`. The text is validated against the
-/// schema and checked for consistency: frame numbers ascend and lie within their clips, times follow from frames, tags
-/// follow from grades, clip names are unique, keys are bridge frames. A document type declaration is an error, and no
-/// entity is loaded or expanded.
+/// Reads a text in the format of WriteTagsFile; numbers are read back bit for bit. Error messages name the text `file`.
+/// The text is validated against the schema and checked for consistency: frame numbers ascend and lie within their
+/// clips, times follow from frames, tags follow from grades, clip names are unique, keys are bridge frames. A document
+/// type declaration is an error, and no entity is loaded or expanded.
 Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file);
 
 /// The result of comparing two sets of tags.
