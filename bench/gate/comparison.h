@@ -13,7 +13,7 @@ namespace etude {
 /// has.
 struct SnapshotComparison {
   std::vector<MetricMove> moves;                     ///< one for every metric that both snapshots have, changed or not
-  std::vector<std::string> only_before, only_after;  ///< "ik-weights, joint_noise_deg=5, fixed, iterations"
+  std::vector<std::string> only_before, only_after;  ///< e.g. "ik-weights, joint_noise_deg=5, fixed, iterations"
   std::vector<std::string> settings_changed;         ///< methods with the same name but different settings
 };
 

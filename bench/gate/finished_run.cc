@@ -55,7 +55,7 @@ class ScenarioTaker {
   }
 
   void Take(const Row& row) {
-    // Computed once for each condition, whose rows are consecutive.
+    // The label is computed once per condition, because the rows of a condition are consecutive.
     if (row.condition != condition_ || label_.empty()) {
       condition_ = row.condition;
       label_ = CompactLabel(row.condition);

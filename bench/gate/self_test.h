@@ -31,7 +31,7 @@ struct SelfTestReport {
   Rate false_alarm_comparisons;       ///< single comparisons that report a regression in these gates
   std::vector<PowerResult> injected;  ///< random differences of known mean, added to one metric of one method
   std::vector<PowerResult> tails;     ///< the same metric, made far worse in a few worlds, or with values removed
-  std::vector<PowerResult> real;      ///< another method under the first method's name, one entry each
+  std::vector<PowerResult> real;      ///< another method instead of the first one; one entry for each
 
   /// Returns true if the gate works as specified: it never reports a regression between two runs of one seed, the
   /// interval of the false alarms does not lie above kFalseAlarmLimit, and the tail rule finds exactly the changes that

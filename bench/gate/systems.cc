@@ -30,7 +30,7 @@ struct MeasuredSystem {
 
 constexpr int kQuickCells = 2192;
 /// The differences between Debian sid and Debian 12. All concern task capture: Mesa 26.2 draws some pixels a few levels
-/// differently, and the last digits of a camera differ.
+/// differently, and the last digits of a camera's parameters differ.
 constexpr std::array<Difference, 13> kSidDiffers = {{
     {"auc_200mm", 3.2e-4},
     {"bone_length_error_cm", 4e-16},

@@ -92,7 +92,7 @@ PairFits::PairFits(const EvaluatedPair& pair) : pair_(pair) {
 FrameFits PairFits::Of(Alignment alignment) const {
   using enum Alignment;
   const std::size_t frames = moments_.size();
-  // Alignments with one fit for all frames, and alignments by the root.
+  // Handle alignments with one fit for all frames, and alignments by the root.
   const auto for_all = [&](std::optional<Similarity> fit) {
     return FrameFits{{std::move(fit)}, std::max<std::size_t>(frames, 1)};
   };

@@ -103,7 +103,7 @@ std::optional<double> MeanFScore(std::span<const Moment> points, std::span<const
       std::ranges::copy_if(moments, std::back_inserter(own), [&](const Moment& m) { return m.move == move; });
       return own;
     };
-    sum += *MatchMoments(of_move(points), of_move(detections), tolerance_s).FScore();  // not empty: the move occurs
+    sum += *MatchMoments(of_move(points), of_move(detections), tolerance_s).FScore();  // has a value: the move occurs
   }
   return sum / static_cast<double>(moves.size());
 }

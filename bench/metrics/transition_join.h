@@ -13,14 +13,14 @@ namespace etude {
 /// A join as it was shown, together with the two clips that it joins (docs/reference/metrics.md, Transitions). All
 /// motions have the rate at which joins are judged and are in metres.
 struct JoinView {
-  std::span<const BodyPose> shown;   ///< the spliced motion
-  std::span<const BodyPose> left;    ///< the old clip, continued: left[f] is its own frame at the time of shown[f],
-                                     ///< from 0 on
-  std::span<const BodyPose> wanted;  ///< the wanted clip, placed where it is shown: wanted[k] belongs to shown[last +
-                                     ///< k]
-  int request = 0;                   ///< the frame shown when the wanted clip was requested
-  int first = 0;                     ///< the frame of the first transition point
-  int last = 0;                      ///< the frame of the last transition point
+  std::span<const BodyPose> shown;  ///< the spliced motion
+  /// The old clip, continued. left[f] is its own frame at the time of shown[f]; the first index is 0.
+  std::span<const BodyPose> left;
+  /// The wanted clip, placed where it is shown. The frame wanted[k] belongs to shown[last + k].
+  std::span<const BodyPose> wanted;
+  int request = 0;  ///< the frame shown when the wanted clip was requested
+  int first = 0;    ///< the frame of the first transition point
+  int last = 0;     ///< the frame of the last transition point
   double rate_hz = kJudgedRateHz;
   std::vector<SupportingClip> between = {};  ///< the clips in between, placed where they are shown
 };

@@ -56,7 +56,7 @@ struct Series {
   std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into them
 };
 
-struct Track;  // Track is defined in bench/model/recording.h, which also includes motions.
+struct Track;  // Forward declaration: bench/model/recording.h defines Track and includes the headers of motions.
 
 /// The motions and other data from which a cell can be shown again, e.g. in a film, without running it.
 struct Recording {

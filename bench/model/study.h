@@ -32,9 +32,9 @@ struct TimeRatio {
   Place place;
 };
 
-/// The rule by which a few far worse worlds alone are a regression, even if the statistics over all worlds show no
-/// change. Both runs have the same worlds, so every difference comes from the code. docs/gate.md explains how the
-/// defaults were measured.
+/// The rule by which a few far worse worlds count as a regression, even if the statistics over all worlds show no
+/// change. Both compared runs have the same worlds, so every difference comes from the code. docs/gate.md explains how
+/// the defaults were measured.
 struct TailRule {
   double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
   /// A comparison with at least this many far worse worlds is a regression; 0 = never.
@@ -62,7 +62,7 @@ struct ComparedMethod {
   /// True: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
   bool has_oracle = false;
   std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces
-  std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method
+  std::string settings = {};     ///< the text of its other settings, in one form per value; "" = an outside method
   std::string description = {};  ///< a sentence about the method, or the method's settings
 };
 
@@ -78,7 +78,7 @@ struct Study {
   std::vector<ComparedMethod> methods;              ///< at least one
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
-  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
+  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
   /// The metric that says whether the task's goal was reached; answers compare it before the value metric. "" = the
   /// task has none.
   std::string success;

@@ -114,7 +114,7 @@ struct Comparison {
   std::optional<double> effect_size;
   Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
   std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
-  std::vector<std::string> notes;            ///< further warnings for readers of the numbers
+  std::vector<std::string> notes;            ///< warnings for readers of the numbers
   Beyond beyond;                             ///< the result generalised to sampling units that were not run
 };
 
@@ -132,7 +132,7 @@ struct Answer {
   std::string method;
   /// The method with which the method is compared: the scenario's baseline, or the strongest other method.
   std::string baseline = {};
-  std::string value_metric = {};             ///< ValueMetricOf; "" if the scenario has only its success
+  std::string value_metric = {};             ///< as ValueMetricOf returns it; "" if there is none
   Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
   AnswerStep decided_by = AnswerStep::kNone;
   /// The verdict of the deciding comparison, generalised to other sampling units; nullopt = too few units.
@@ -140,8 +140,8 @@ struct Answer {
   /// The comparison of the success metric (Study::success), in which failed cells count 0; nullopt if no cell has a
   /// value.
   std::optional<Comparison> success = {};
-  /// The comparison of the value metric in the worlds where both methods succeeded. nullopt if both succeeded in all
-  /// worlds or in none, or if success is not a yes or no.
+  /// The comparison of the value metric in the worlds where both methods succeeded. It is nullopt if both succeeded in
+  /// all worlds or in none, or if success is not a yes-or-no value.
   std::optional<Comparison> both_succeed = {};
   /// Compares the share of worlds in which the method is far better with the share in which it is far worse: the
   /// difference is the former minus the latter.
@@ -188,7 +188,7 @@ struct AcrossVerdict {
   std::string baseline;
   std::string method;
   struct Each {
-    std::string value;  ///< "learning=power"
+    std::string value;  ///< e.g. "learning=power"
     Verdict verdict = Verdict::kInconclusive;
     std::optional<double> difference;
   };
@@ -206,7 +206,7 @@ std::string_view ClaimOutcomeName(ClaimOutcome outcome);
 
 /// An expectation of a scenario and its result.
 struct ExpectationResult {
-  std::string text;  ///< "orientation_error_deg of adaptive below fixed"
+  std::string text;  ///< e.g. "orientation_error_deg of adaptive below fixed"
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
   std::string detail;  ///< the numbers that decided the outcome
 };

@@ -21,14 +21,14 @@ struct OutsideOptions {
   std::string options_json = {};     ///< an object sent in the handshake; "" = {}
   double time_s = 300;               ///< time limit per problem, or per step of a session
   double memory_mb = 4096;           ///< limit of resident memory, with all processes of the program
-  std::string error_file = {};       ///< file for its standard error, up to 1 MiB; "" = it shares ours
+  std::string error_file = {};       ///< file for its standard error, up to 1 MiB; "" = it shares Etude's
   /// The shortest time limit, in seconds, of the handshake and of each setting; `time_s` applies if it is longer.
   /// During these steps, programs load libraries and models.
   double start_s = 30;
   Fence fence = {};                     ///< the sandbox in which the program runs
   std::vector<std::string> files = {};  ///< files that the sandbox shows the program (ProgramView)
-  /// Keys the random ids that replace the names of settings and problems. With a secret seed the program is restarted
-  /// for every setting, so that its memory carries nothing from one condition to the next.
+  /// The seed of the random ids that replace the names of settings and problems. With a secret seed the program is
+  /// restarted for every setting, so that its memory carries nothing from one condition to the next.
   Seed seed = 1;
 };
 

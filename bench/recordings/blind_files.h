@@ -18,7 +18,7 @@ struct BlindKey {
     std::optional<double> left, right;
   };
   struct Pair {
-    std::string scenario, world;  ///< "trial 3"
+    std::string scenario, world;  ///< the world is e.g. "trial 3"
     std::string left, right;      ///< the methods shown on the left and on the right
     std::vector<Metric> metrics;
   };

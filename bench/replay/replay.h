@@ -42,7 +42,7 @@ struct ReplayOptions {
   /// The seed of the sample; nullopt = the seed of the suite. The maker of the run knows the suite's seed and thus its
   /// sample.
   std::optional<std::uint64_t> dice = {};
-  bool recorded_too = false;      ///< true: in addition to the sample, all cells with a recording
+  bool recorded_too = false;      ///< true: all cells with a recording are chosen in addition to the sample
   bool without_programs = false;  ///< true: cells that need outside programs are left out
   int jobs = 0;                   ///< worker processes; 0 = one per processor
   OutsideRules outside;

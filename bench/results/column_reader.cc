@@ -190,7 +190,7 @@ class ScenarioColumns {
     return {};
   }
 
-  /// Parses those texts that are lists of units.
+  /// Parses the texts that are lists of units.
   Result<void> ReadUnits(const FilePath& folder) {
     units_.resize(index_.texts.size());
     if (!texts_[kUnits]) return {};

@@ -26,10 +26,12 @@ namespace {
 
 constexpr int kPollMilliseconds = 20;  // pause between two measurements of workers' memory and time
 constexpr double kAheadS = 0.05;       // seconds of work that a worker gets at a time, estimated from earlier worlds
-// If a longer world is begun last, this costs more than preparing its condition on a second worker.
+// A world that takes longer than this counts as long, seconds. If a long world is begun last, the run loses more time
+// than a second worker needs to prepare the world's condition.
 constexpr double kLongWorldS = 1;
 constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if no worker is idle
-// Consecutive deaths of workers that end the run; a single one may be chance (a shortage of memory, a stray kill)
+// The number of consecutive deaths of workers that ends the run. A single death may be chance (a shortage of memory, a
+// stray kill).
 constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which it loads clips
 constexpr double kClockPerLimit = 20;   // maximum wall time, as a multiple of the scenario's limit on processor time
@@ -159,7 +161,7 @@ class Supervisor {
 
   static ProcessUsage Measure(Worker& worker) {
     worker.measured = Clock::now();
-    // Without the outside methods, which the worker itself measures.
+    // This leaves out the outside methods, because the worker itself measures them.
     const ProcessUsage usage = worker.process.MeasureAlone();
     worker.cpu_s = usage.own_cpu_s;
     return usage;
@@ -373,7 +375,7 @@ class Supervisor {
   std::string setup_line_;
   std::vector<Worker> workers_;
   std::vector<Pace> paces_;  ///< mean time of the worlds so far, one per scenario
-  int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished one
+  int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished its own
   std::size_t not_run_ = 0;  ///< number of cells that could not be run
   std::string why_not_run_;  ///< why the first such cell could not be run
 };

@@ -153,8 +153,8 @@ Json TaskSchema(const TaskKind& kind) {
 /// Returns the schema of the common keys and, once the task is known, of the task's keys.
 Json AnyScenarioSchema() {
   Json schema = MappingSchema(CommonScenarioKeys());
-  schema.erase("required");              // `defaults` may hold them
-  schema.erase("additionalProperties");  // each task has its own
+  schema.erase("required");              // `defaults` may hold the required keys
+  schema.erase("additionalProperties");  // each task adds keys
   std::vector<KeyInfo> of_any_task;
   Json branches = Json::array();
   for (const TaskKind& kind : AllTaskKinds()) {

@@ -157,7 +157,7 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
     fields.Complain(error.place, error.message);
     return std::vector<MethodEntry>{};
   };
-  // A list of at least one method.
+  // Require a list of at least one method.
   const Node* list = fields.Raw("methods");
   if (list == nullptr || list->kind != Node::Kind::kSequence || list->items.empty()) {
     return complain({list == nullptr ? fields.node().place : list->place,

@@ -75,7 +75,7 @@ struct MetricExample {
   std::string title;
   std::string cell_json;           ///< an object with `tracks` and `extras`, as the metric's program receives it
   std::optional<double> expected;  ///< nothing = the metric has no value
-  double tolerance = 1e-9;         ///< absolute
+  double tolerance = 1e-9;         ///< absolute, in the metric's unit
   Place place;
 };
 

@@ -23,7 +23,7 @@ struct CurveAgreement {
   int units = 0;  ///< number of people, or of pairs of curves
   AgreementFigure rmse, bias;
   AgreementFigure low, high;  ///< 95 % limits of agreement; at least two units are needed
-  AgreementFigure icc;        ///< ICC(A,1)
+  AgreementFigure icc;        ///< intraclass correlation ICC(A,1)
 };
 
 /// Measures the agreement over pairs of curves. `units` names the unit to which each pair belongs. RMSE, bias and

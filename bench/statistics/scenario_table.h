@@ -112,7 +112,7 @@ struct Rival {
   std::array<std::string, 2> of_half;  ///< the rival in worlds of even units, then the rival in worlds of odd units
 
   std::string Name() const;  ///< "a", or "a or b" if the two halves chose differently
-  std::string Note() const;  ///< says how they were chosen; "" if both are the same
+  std::string Note() const;  ///< says how the two rivals were chosen; "" if they are the same
 };
 
 /// Returns true if a method competes. Two kinds of methods do not compete: a method that takes part in no comparison

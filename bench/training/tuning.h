@@ -26,7 +26,7 @@ struct TunedSystem {
   int generations = 0;  ///< generations of the genetic algorithm, or Newton steps
 };
 
-/// Tunes a fuzzy system until "d < 0.4" separates the close pairs of these clips as well as possible (paper A leaves
+/// Tunes a fuzzy system so that "d < 0.4" separates the close pairs of these clips as well as possible (paper A leaves
 /// this to future work; the methods are Etude's). `genetic` has no effect on kAdaptive.
 TunedSystem TuneSystem(ClipFrames clips, Tuning tuning, const GeneticOptions& genetic = {});
 

@@ -22,7 +22,7 @@ struct Observation {
   PersonSource source;
   std::vector<std::vector<Marks>> marks;  ///< empty in frames that the annotator was not shown
   std::vector<std::vector<Mask>>
-      masks;        ///< by picture, half size; kept on request, and for silhouettes (`kMaxSilhouettePictures`)
+      masks;        ///< masks by picture, half size; kept on request, and for silhouettes (`kMaxSilhouettePictures`)
   MaskScore score;  ///< mean score over all pictures
   /// The agreement of two annotators over all pictures. Empty if there is one annotator.
   std::optional<double> annotator_distance_px, annotator_overlap;

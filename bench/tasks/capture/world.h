@@ -37,10 +37,10 @@ struct OwnFigure {
 /// The truth of one take: performer, motion, cameras and light.
 struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< at 30 Hz, around the floor's origin, facing +Z in its middle frame
-  PersonalLimbs person;            ///< the performer
+  PersonalLimbs person;            ///< the performer's true limbs
   PersonalLimbs measured;          ///< the limb lengths as measured beforehand, as in paper B
   std::array<Rgb8, 16> colours{};  ///< the performer's colours, indexed by Part
-  std::optional<OwnFigure> own;    ///< drawn instead of the stage's people
+  std::optional<OwnFigure> own;    ///< a figure that is drawn instead of the stage's people
   glm::dvec3 middle{0};            ///< the expected position of the performer on the floor
   std::vector<Camera> cameras;     ///< at least two, each with its lens
   std::vector<bool> in_view;       ///< per frame; true if two cameras see the whole body

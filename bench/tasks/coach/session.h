@@ -17,7 +17,7 @@ namespace etude {
 /// The truth of a performance, which only its player knows.
 struct PlayedPerformance {
   PerformanceTruth truth = PerformanceTruth::kRight;
-  std::string faults = "none";  ///< "amplitude+late"
+  std::string faults = "none";  ///< e.g. "amplitude+late"
 };
 
 /// The dancer in front of the coach.
@@ -61,7 +61,7 @@ struct LoggedWords {
 
 /// The record of a session.
 struct SessionLog {
-  std::vector<CoachMode> modes;  ///< per frame
+  std::vector<CoachMode> modes;  ///< the mode in each frame
   std::vector<LoggedPerformance> performances;
   std::vector<GivenCorrection> corrections;
   std::vector<CoachRecord> records;  ///< frames count from the session's first

@@ -26,7 +26,7 @@ struct LeaveOneOut {
   /// The same performances, classified by the nearest whole performance of any other person. This is a baseline for
   /// comparison.
   std::vector<Classified> nearest;
-  std::vector<Moment> points, detections;  ///< those of recordings with action points, on one time axis
+  std::vector<Moment> points, detections;  ///< of recordings with action points, on one time axis
   /// The number of performances whose move nobody else performed right. `verdicts` contains them as not recognised.
   int untaught_performances = 0;
 };

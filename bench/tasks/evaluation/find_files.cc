@@ -49,7 +49,7 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
   const auto first = std::find_if(pattern.begin(), pattern.end(), [](const fs::path& part) {
     return part.string().find_first_of("*?[") != std::string::npos;
   });
-  const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);  // 1 for a folder
+  const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);  // one part for a folder
   std::error_code error;
   for (const std::string& file : files) {
     fs::path path = Split(file).path;

@@ -16,7 +16,7 @@ namespace etude {
 /// A truth and an answer, matched joint by joint and frame by frame, with a note on the changes made to the answer.
 struct MatchedMotions {
   EvaluatedPair pair;
-  std::vector<std::string> joints;                ///< the joints judged
+  std::vector<std::string> joints;                ///< the judged joints
   std::vector<int> parents;                       ///< for each joint, the next judged joint towards the root; −1: none
   std::vector<std::string> lacking;               ///< joints of the set that the truth or the answer lacks
   std::vector<std::array<std::size_t, 3>> bends;  ///< knees and elbows: the joint above, itself, the joint below

@@ -73,7 +73,7 @@ void MakePoses(const KinematicTree& tree, const IkTrialOptions& options, const W
 /// Moves the target of one effector straight away from the root, until it is `beyond` metres farther than the border of
 /// the effector's reach in that direction. Bisection finds the border.
 void PullOutOfReach(const KinematicTree& tree, double beyond, RandomStream& dice, IkProblem& problem) {
-  constexpr double kFarOut = 100;  // metres
+  constexpr double kFarOut = 100;  // metres, beyond every reach
   constexpr int kHalvings = 50;    // accurate to 10⁻¹³ m
   EffectorTarget& target = problem.targets[dice.IndexBelow(problem.targets.size())];
   const glm::dvec3 from = target.position, outward = glm::normalize(from - problem.start.root_position);

@@ -29,8 +29,9 @@ struct HiddenWindow {
   TreeMotion motion;
   int first = 0, last = 0;  ///< the hidden frames, both inclusive; three or more frames are on either side
   std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1: none
-  std::vector<glm::dvec3> deviations;      ///< L2P's divisors: standard deviations of each joint's position in
-                                           ///< training, metres; empty: unknown
+  /// The divisors of L2P: the standard deviations of each joint's position in training, metres. Empty if they are
+  /// unknown.
+  std::vector<glm::dvec3> deviations;
   std::shared_ptr<const JudgedFile> file;  ///< shared by all windows of a file; they outlive the file's motion
 };
 

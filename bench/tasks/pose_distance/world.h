@@ -17,7 +17,7 @@ namespace etude {
 /// Two poses that look clearly different but have a small fuzzy distance. Paper A's features measure how far a limb is
 /// raised but not in which direction, and their membership functions are flat in ranges that were thought unimportant.
 struct BlindSpot {
-  std::string_view name;  ///< "arm forward or sideways"
+  std::string_view name;  ///< e.g. "arm forward or sideways"
   Controls a, b;          ///< controls of the two poses, for the body of the built-in moves
 };
 

@@ -86,8 +86,8 @@ class OpenAngles {
   }
 
  private:
-  static constexpr double kOpenAngle = Radians(35);  // standard deviation of the change that is drawn; the
-                                                     // solver then removes most of it to meet the targets
+  // Standard deviation of the change that is drawn. The solver then removes most of the change to meet the targets.
+  static constexpr double kOpenAngle = Radians(35);
 
   const KinematicTree& tree_;
   const GaussNewtonSolver solver_;
