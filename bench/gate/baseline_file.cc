@@ -64,7 +64,7 @@ class Lines {
 // The status letters that may occur in a baseline. The letters 'm', 't' and 'c' are missing, because no baseline is
 // made of a run with such a cell.
 constexpr std::string_view kLetters = "oufbs";
-constexpr std::string_view kAnswers = "ou";     // letters of the statuses with an answer
+constexpr std::string_view kAnswers = "ou";     // letters of the statuses that have an answer
 constexpr std::int64_t kMaxTrials = 1'000'000;  // the limit of a scenario file
 constexpr std::int64_t kMaxVersions = 1'000'000;
 

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-constexpr std::string_view kStatusLetters = "ouftcmbs";  // in the order of Status
+constexpr std::string_view kStatusLetters = "ouftcmbs";  // one letter per status, in the order of Status
 
 /// Checks the rows of a run that does not fit into memory. The run must have all its rows, in canonical order
 /// (CellsOf).

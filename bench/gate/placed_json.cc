@@ -12,7 +12,7 @@ struct Level {
   bool is_object = false;
   bool key_comes = false;           ///< true: the next string is a key, not a value
   std::string key;                  ///< the key that was read last
-  std::map<std::string, int> keys;  ///< the keys of this object that were read so far, with their lines
+  std::map<std::string, int> keys;  ///< the keys read so far in this object, each with its line
 };
 
 class Walk {

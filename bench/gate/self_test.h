@@ -24,14 +24,18 @@ struct PowerResult {
 };
 
 struct SelfTestReport {
-  int comparisons = 0;     ///< number of comparisons that one gate makes
-  Rate rerun_alarms;       ///< regressions that the rule `exact` reports between two runs of one seed; must be zero
-  Rate tail_rerun_alarms;  ///< regressions that the tail rule reports between two runs of one seed; must be zero
-  Rate false_alarms;       ///< gates that report a regression although they compare the same methods under two seeds
-  Rate false_alarm_comparisons;       ///< single comparisons that report a regression in these gates
-  std::vector<PowerResult> injected;  ///< random differences of known mean, added to one metric of one method
-  std::vector<PowerResult> tails;     ///< the same metric, made far worse in a few worlds, or with values removed
-  std::vector<PowerResult> real;      ///< another method instead of the first one; one entry for each
+  int comparisons = 0;  ///< number of comparisons that one gate makes
+  /// Number of regressions that the rule `exact` reports between two runs of one seed; must be zero.
+  Rate rerun_alarms;
+  /// Number of regressions that the tail rule reports between two runs of one seed; must be zero.
+  Rate tail_rerun_alarms;
+  /// Number of gates that report a regression although the methods are the same and only the seeds differ.
+  Rate false_alarms;
+  Rate false_alarm_comparisons;       ///< number of comparisons in these gates that report a regression
+  std::vector<PowerResult> injected;  ///< power for random differences of known mean, added to one metric of one method
+  /// Power for the same metric, made far worse in a few worlds, or with values removed.
+  std::vector<PowerResult> tails;
+  std::vector<PowerResult> real;  ///< power for another method in place of the first one; one entry for each method
 
   /// Returns true if the gate works as specified: it never reports a regression between two runs of one seed, the
   /// interval of the false alarms does not lie above kFalseAlarmLimit, and the tail rule finds exactly the changes that

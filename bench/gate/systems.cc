@@ -23,7 +23,7 @@ struct Difference {
 /// tests/cli/systems_test.py measures these differences; docs/guide/install.md shows them.
 struct MeasuredSystem {
   const char* name;
-  const char *compiler, *glibc, *ceres, *mesa;  ///< beginnings of the libraries' version texts
+  const char *compiler, *glibc, *ceres, *mesa;  ///< beginnings of the libraries' versions, as text
   int cells_that_differ;
   std::span<const Difference> differences;
 };

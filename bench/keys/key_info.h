@@ -14,8 +14,8 @@ struct KeyInfo;
 
 /// The kind of a key's value: the allowed values in words, and as JSON Schema.
 struct ValueKind {
-  std::string allowed;  ///< e.g. "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
-  std::string schema;   ///< JSON Schema as text
+  std::string allowed;  ///< the allowed values in words, e.g. "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
+  std::string schema;   ///< the allowed values as JSON Schema
   /// Returns true if a non-empty value is the name of a file; the key's reader then receives the text of that file.
   /// Null: no value is a file name.
   bool (*names_file)(std::string_view value) = nullptr;
@@ -42,7 +42,7 @@ ValueKind MappingKind(std::string allowed, std::span<const KeyInfo> keys);
 /// The condition under which a key is allowed: another key of its mapping has one of these values.
 struct KeyCondition {
   std::string key;                  ///< the other key, e.g. "solver"; empty: no condition
-  std::vector<std::string> values;  ///< the key is allowed with any of these values
+  std::vector<std::string> values;  ///< the values of that key with which this key is allowed
 };
 
 /// A key of a scenario file, with everything that its reference page, error messages and schema need.

@@ -45,13 +45,13 @@ std::optional<Status> FindStatus(std::string_view name);
 struct MetricValue {
   std::string id;  ///< id of a metric in bench/metrics; the id names the unit
   std::optional<double> value;
-  std::string null_reason;  ///< why `value` is empty; "" if it is not
+  std::string null_reason;  ///< why the value is missing; "" if it is not
 };
 
 /// A curve of a cell: one value per frame or iteration, e.g. the error in each frame.
 struct Series {
-  std::string name;  ///< e.g. "mpjpe_mm"
-  std::string axis;  ///< the index of the values: "frame", "iteration", "effector", "angle"
+  std::string name;  ///< name of the curve, e.g. "mpjpe_mm"
+  std::string axis;  ///< what the values are indexed by: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
   std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into them
 };
@@ -111,12 +111,12 @@ struct Row {
   std::string task;
   std::vector<SweptValue> condition;  ///< the swept parameters and their values; empty if nothing is swept
   int trial = 0;
-  std::string clip;  ///< "" for tasks without clips
+  std::string clip;  ///< name of the world's clip; "" for tasks without clips
   /// Sampling units (clips, people, …) from which the world was drawn (Study::unit); empty if the world is its own
   /// unit.
   std::vector<std::string> units;
   std::string method;
-  CellResult result;  ///< `series` and `recording` are stored in files of their own
+  CellResult result;  ///< the result; `series` and `recording` are stored in files of their own
 
   /// Returns the cell's identity "scenario/key=value,key=value/trial/method", which is unique in a run. If nothing is
   /// swept, the condition is "-".

@@ -18,7 +18,7 @@ struct Expectation {
   std::string below, above;
   /// Bounds of `statistic` of the method `of`. They are set only if `of` is not compared with another method.
   std::optional<double> at_most, at_least;
-  std::string statistic = "median";  ///< median, mean or p95; only for bounds
+  std::string statistic = "median";  ///< "median", "mean" or "p95"; used only for bounds
   double confidence = 0.95;  ///< confidence level of a comparison's interval; the level of its test is 1 − confidence
   std::vector<SweptValue> where;  ///< the conditions under which the claim is judged; empty = all conditions
   Place place;
@@ -75,8 +75,8 @@ struct Study {
   std::string description = {};  ///< a sentence about its worlds; "" = not described
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 1;
-  std::vector<ComparedMethod> methods;              ///< at least one
-  std::vector<std::vector<SweptValue>> conditions;  ///< at least one
+  std::vector<ComparedMethod> methods;              ///< at least one method
+  std::vector<std::vector<SweptValue>> conditions;  ///< at least one condition
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
   std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
   /// The metric that says whether the task's goal was reached; answers compare it before the value metric. "" = the

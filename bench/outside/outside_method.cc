@@ -93,7 +93,7 @@ struct OutsideMethod::State {
     int times = 0;  ///< number of failures in a row
     OutsideFailure last;
   };
-  std::map<std::string, Failures> failures;  ///< by the name of the step
+  std::map<std::string, Failures> failures;  ///< failures by the name of the step
 };
 
 /// Runs `act`, a step that many problems share (the start, a setting). After kMaxFailures failures in a row, returns

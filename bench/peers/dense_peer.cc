@@ -341,7 +341,7 @@ class DensePeer final : public IkPeer {
     if (pose_.cost < best_.cost) best_ = pose_;
   }
 
-  static constexpr double kMinTurn = 1e-10;  // radians
+  static constexpr double kMinTurn = 1e-10;  // smallest turn that counts as a step, radians
 
   const int dofs_, ends_, rows_;
   std::vector<Joint> joints_;

@@ -49,9 +49,9 @@ struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;  ///< latest end of what the worker is doing; if it is missed, this machine was too slow
+  Clock::time_point deadline;  ///< latest end of the worker's present step; if it is missed, this machine was too slow
   double cpu_s = 0;            ///< processor time of the worker at the last measurement
-  double cpu_began = 0;        ///< processor time of the worker when it began what it is doing
+  double cpu_began = 0;        ///< processor time of the worker when it began its present step
   bool ready = false;          ///< true: the worker has finished its set-up
   /// The worker's orders; the first one is in progress and lists the methods that have no answer yet.
   std::deque<Order> orders;
@@ -83,7 +83,7 @@ class Supervisor {
         paces_(plan.scenarios().size()) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
-    AdoptOrphans();  // makes the outside methods of a killed worker children of this process, which can then end them
+    AdoptOrphans();  // makes outside methods of a killed worker children of this process, which can then end them
     const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
     std::size_t programs = 1;  // the maximum number of programs that one worker runs at the same time
     for (const PreparedScenario& scenario : plan_.scenarios())
@@ -374,7 +374,7 @@ class Supervisor {
   const Deliver& deliver_;
   std::string setup_line_;
   std::vector<Worker> workers_;
-  std::vector<Pace> paces_;  ///< mean time of the worlds so far, one per scenario
+  std::vector<Pace> paces_;  ///< mean time of the worlds so far, by scenario
   int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished its own
   std::size_t not_run_ = 0;  ///< number of cells that could not be run
   std::string why_not_run_;  ///< why the first such cell could not be run

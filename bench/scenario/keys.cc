@@ -144,7 +144,7 @@ Json TaskSchema(const TaskKind& kind) {
   properties["metrics"] = ListOf({{"anyOf", {metric, Ref("outside-metric")}}});
   return {{"description", kind.question},
           {"properties", std::move(properties)},
-          {"if", own},  // its expectations may name the scenario's own metrics
+          {"if", own},  // expectations may name the scenario's own metrics
           {"else", {{"properties", ours}}},
           {"propertyNames", Names(kind.condition_keys)},
           {"dependencies", ConditionSchemas(kind.condition_keys, false)}};
@@ -154,7 +154,7 @@ Json TaskSchema(const TaskKind& kind) {
 Json AnyScenarioSchema() {
   Json schema = MappingSchema(CommonScenarioKeys());
   schema.erase("required");              // `defaults` may hold the required keys
-  schema.erase("additionalProperties");  // each task adds keys
+  schema.erase("additionalProperties");  // tasks add keys of their own
   std::vector<KeyInfo> of_any_task;
   Json branches = Json::array();
   for (const TaskKind& kind : AllTaskKinds()) {

@@ -26,7 +26,7 @@ std::string ReadOptions(Fields& method) {
   }
   const auto text = WriteJson(ToJson(*options));
   if (text) return *text;
-  method.Complain(options->place, text.error().message);  // for example, bytes that are not UTF-8
+  method.Complain(options->place, text.error().message);  // the options contain, for example, bytes that are not UTF-8
   return "{}";
 }
 

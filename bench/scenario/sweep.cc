@@ -11,7 +11,7 @@ namespace {
 struct Steps {
   double from = 0, to = 0;
   std::size_t count = 0;
-  double step = 0;  ///< 0 = `count` values from `from` to `to`, both included
+  double step = 0;  ///< 0 = the range has `count` values from `from` to `to`, both included
   bool logarithmic = false;
 };
 

@@ -15,7 +15,7 @@ namespace etude {
 /// A figure with its 95 % confidence interval, which is computed by resampling units.
 struct AgreementFigure {
   std::optional<double> value;
-  std::optional<Interval> interval;  ///< absent if there are fewer than kMinSample units
+  std::optional<Interval> interval;  ///< nullopt if there are fewer than kMinSample units
 };
 
 /// The agreement of two measurements of one quantity over several pairs of curves, in the quantity's unit.

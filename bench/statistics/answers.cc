@@ -38,7 +38,7 @@ std::optional<double> SuccessAt(const MethodColumns& method, const std::string& 
 /// the worlds.
 struct Pairing {
   const MethodColumns* method;
-  std::vector<const MethodColumns*> other;  ///< by trial
+  std::vector<const MethodColumns*> other;  ///< the other method in each trial
 };
 
 PairedWorlds SuccessesOf(const Pairing& pairing, const std::string& success) {

@@ -23,7 +23,8 @@ std::vector<double> FitBradleyTerry(const WinTable& wins);
 struct PreferredMethod {
   std::string method;
   double wins = 0, answers = 0;
-  std::optional<double> share;       ///< probability of being preferred, averaged over the other methods of its pairs
+  /// Probability of being preferred, averaged over the methods with which it was compared.
+  std::optional<double> share;
   std::optional<Interval> interval;  ///< resampled over raters; nullopt below kMinSample raters
 };
 
@@ -46,8 +47,8 @@ struct OneSidedRater {
 struct Preferences {
   int raters = 0, pairs = 0;
   int answers = 0, same = 0, without = 0;  ///< `same`: answers "no difference"; `without`: pairs without answer
-  std::vector<PreferredMethod> methods;    ///< the most preferred first
-  std::vector<MetricAgreement> metrics;    ///< the largest share of agreement first
+  std::vector<PreferredMethod> methods;    ///< methods, the most preferred first
+  std::vector<MetricAgreement> metrics;    ///< metrics, the largest share of agreement first
   std::vector<OneSidedRater> one_sided;
 };
 

@@ -48,7 +48,7 @@ class Marking {
   std::size_t mark_every_;
   EvidenceOptions eye_;
   LimbColours suit_;
-  std::vector<std::vector<Annotator>> annotators_;  // [camera][annotator]
+  std::vector<std::vector<Annotator>> annotators_;  // indexed [camera][annotator]
   std::vector<MarkedTwice> joints_, limbs_;
 };
 

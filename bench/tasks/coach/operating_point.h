@@ -27,9 +27,9 @@ double ThresholdOf(std::vector<double> right, double minutes, double needless_pe
 
 /// Sets CoachOptions::right_from for methods that do not set it. This is the evidence at or above which a performance
 /// counts as right. The threshold is found on uninterrupted sessions of other people under the same condition. At this
-/// threshold, the number of right performances per minute that are taken for mistakes is the one that the condition
-/// sets. `key` is the key of any judged world; the other people are drawn with random numbers of their own. Methods
-/// with an oracle for judgement, or with a program as the recogniser, are not changed.
+/// threshold, as many right performances per minute are taken for mistakes as the condition states
+/// (`needless_per_min`). `key` is the key of any judged world; the other people are drawn with random numbers of their
+/// own. Methods with an oracle for judgement, or with a program as the recogniser, are not changed.
 Result<void> SetThresholds(const CoachCondition& condition, const CoachStage& stage, const WorldKey& key,
                            std::vector<CoachMethod>& methods);
 

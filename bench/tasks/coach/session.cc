@@ -30,7 +30,7 @@ class Loop {
   }
 
   Result<SessionLog> Run() {
-    for (int i = 0; i < kAhead; ++i) MoveLearner();  // the poses that are requested in advance
+    for (int i = 0; i < kAhead; ++i) MoveLearner();  // requests poses in advance
     ASSIGN_OR_RETURN(sensor_, MakeSensor());
     for (const BodyPose& pose : log_.learner.poses) sensor_->Update(pose);
     while (frame_ < world_.frames) {

@@ -5,7 +5,7 @@ namespace {
 
 constexpr Range kShare{0, 1};
 constexpr Range kThresholds{0.01, 1};  // 0 would call every performance right
-constexpr Range kLengths{0, 1};        // metres
+constexpr Range kLengths{0, 1};        // range of lengths, metres
 
 using Method = DetectionMethod;
 using MethodKey = Field<Method>;

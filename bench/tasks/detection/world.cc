@@ -25,7 +25,7 @@ Cuboid BoxBefore(const SensorPlacement& sensor, double ahead, double aside, doub
 
 std::vector<BodyPose> Bystander(const SensorPlacement& sensor, std::size_t frames) {
   const auto sway = LoadBuiltinMove("sway");
-  assert(sway);  // a built-in move
+  assert(sway);  // sway is a built-in move
   const Cuboid place = BoxBefore(sensor, 1.2, 0.35, 0, glm::dvec3(1));
   const FloorMove move{.yaw = sensor.turn + Radians(90), .x = place.centre.x, .z = place.centre.z};
   std::vector<BodyPose> poses;

@@ -41,8 +41,8 @@ std::vector<std::string> FilesIn(const std::string& folder) {
   return files;
 }
 
-/// Fails if one of the files that a folder or pattern stands for is a link, or is in a linked folder, because the
-/// sender of the answers may have linked them to the truth. A file that the scenario names itself may be a link.
+/// Fails if a file that a folder or pattern stands for is a link or lies in a linked folder, because the sender of the
+/// answers may have linked it to the truth. A file that the scenario names itself may be a link.
 Result<void> RefuseLinks(const std::string& reference, std::span<const std::string> files, const Place& place) {
   if (files.size() == 1 && files.front() == reference) return {};
   const fs::path pattern = Split(reference).path;

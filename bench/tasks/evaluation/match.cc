@@ -172,7 +172,7 @@ std::string SomeOf(const std::vector<std::string>& names) {
 /// Returns true if the rates, which files state with rounding, drift apart by less than a hundredth of a frame over the
 /// length of the truth.
 bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
-  constexpr double kMaxDrift = 0.01;  // frames
+  constexpr double kMaxDrift = 0.01;  // tolerance, frames
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
 }
 
@@ -186,7 +186,7 @@ struct ClockOffset {
 /// first frames count as simultaneous. If the offset differs from whole frames by less than a tenth of a frame, it is
 /// rounded.
 ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
-  constexpr double kSame = 0.1;  // frames
+  constexpr double kSame = 0.1;  // tolerance, frames
   const double truth_s = truth.start_s.value_or(0), answer_s = answer.start_s.value_or(0);
   const double frames = (answer_s - truth_s) * truth.rate_hz;
   if (std::abs(frames) < kSame) return {};

@@ -74,7 +74,7 @@ void MakePoses(const KinematicTree& tree, const IkTrialOptions& options, const W
 /// the effector's reach in that direction. Bisection finds the border.
 void PullOutOfReach(const KinematicTree& tree, double beyond, RandomStream& dice, IkProblem& problem) {
   constexpr double kFarOut = 100;  // metres, beyond every reach
-  constexpr int kHalvings = 50;    // accurate to 10⁻¹³ m
+  constexpr int kHalvings = 50;    // number of bisections, for an accuracy of 10⁻¹³ m
   EffectorTarget& target = problem.targets[dice.IndexBelow(problem.targets.size())];
   const glm::dvec3 from = target.position, outward = glm::normalize(from - problem.start.root_position);
   double within = 0, without = kFarOut;

@@ -18,7 +18,7 @@ namespace etude {
 /// at 0.90 m.
 struct JudgedFile {
   double floor_m = 0;  ///< the 5th percentile, over the frames, of the lowest joint's height (hands do not count)
-  double scale = 1;    ///< factor from the file's body to the judged one
+  double scale = 1;    ///< factor from the size of the file's body to that of the judged body
   std::vector<double> natural_jumps_cm;
   double own_slide_cmps = 0;
   RealFrames frames;

@@ -35,7 +35,7 @@ struct PoseDistanceMethod {
 
 /// A method's verdicts on the pairs of a world, in the order of the pairs.
 struct PairVerdict {
-  std::vector<double> distances;  ///< larger = less alike; on any scale
+  std::vector<double> distances;  ///< distances on any scale; larger = less alike
   std::vector<bool> alike;
 };
 

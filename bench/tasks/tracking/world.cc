@@ -62,8 +62,8 @@ std::vector<AngleRange> WithinReach(const KinematicTree& tree, const std::vector
   return ranges;
 }
 
-/// Changes the poses of a secret world, but keeps their targets. Even a program that recovers the disguised motion from
-/// its targets then does not know the angles that the targets leave open.
+/// Changes the poses of a secret world, but keeps their targets. A program that recovers the disguised motion from its
+/// targets then still does not know the angles that no target determines.
 class OpenAngles {
  public:
   OpenAngles(const KinematicTree& tree, const WorldKey& key) : tree_(tree), solver_(tree) {

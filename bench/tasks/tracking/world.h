@@ -20,8 +20,8 @@ namespace etude {
 /// is nearer.
 struct TrackingWorld {
   KinematicTree tree;
-  std::vector<TreeState> truth;                      ///< one per frame; the root is given to solvers
-  std::vector<std::vector<EffectorTarget>> targets;  ///< [frame][effector]
+  std::vector<TreeState> truth;                      ///< one state per frame; solvers are given its root
+  std::vector<std::vector<EffectorTarget>> targets;  ///< indexed [frame][effector]
   std::vector<double> first_angles;                  ///< the start of the first frame, within the limits
 };
 

@@ -20,7 +20,7 @@ struct TransitionMethod {
   /// The choice and the join. Its weights are paper A's, because learnt weights depend on the world.
   TransitionWay way = DefaultWay();
   WeightSource weights = WeightSource::kFixed;
-  double wait_s = 1;  ///< the longest wait of its requests, seconds
+  double wait_s = 1;  ///< the longest wait of the method's requests, seconds
 };
 
 /// A condition of a transition scenario.
