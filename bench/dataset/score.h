@@ -23,7 +23,7 @@ struct ScoreOptions {
   /// Number of worker processes for the scenarios' own methods; 0 = one per processor.
   int jobs = 0;
   std::optional<std::uint64_t> seed;  ///< the seed for scenario files; a manifest states its own seed
-  std::optional<SecretKey> key = {};  ///< the key of secret worlds
+  std::optional<SecretKey> key = {};
   std::optional<int> trials;
   std::vector<std::string> clips;
   std::string joint_map;

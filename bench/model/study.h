@@ -55,7 +55,6 @@ struct GateRules {
   std::vector<TimeRatio> time_ratios;
 };
 
-/// One of the methods that a scenario compares.
 struct ComparedMethod {
   std::string name;
   std::string against;  ///< the method with which this one is compared; the first method names itself

@@ -15,7 +15,6 @@ namespace etude {
 struct PreparedRun;
 struct ReplayOptions;
 
-/// The rows of one method in one scenario.
 struct MethodRows {
   std::string scenario, method;
   std::size_t rows = 0;

@@ -46,7 +46,7 @@ struct ReplayOptions {
   bool without_programs = false;  ///< true: cells that need outside programs are left out
   int jobs = 0;                   ///< number of worker processes; 0 = one per processor
   OutsideRules outside;
-  std::optional<SecretKey> key = {};  ///< the key of secret worlds
+  std::optional<SecretKey> key = {};
   Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
   OnProgress on_progress = {};  ///< receives the number of finished cells

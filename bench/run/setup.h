@@ -111,7 +111,7 @@ class PreparedScenario {
   ScenarioSetup setup_;
   Scenario scenario_;
   std::unique_ptr<ClipLibrary> clips_;
-  std::map<std::string, ClipLibrary> libraries_;  ///< clip libraries, by name
+  std::map<std::string, ClipLibrary> libraries_;
   std::unique_ptr<LabelledStreams> recordings_;
   std::unique_ptr<OpenOptions> opening_;
   std::vector<std::unique_ptr<Task>> tasks_;  ///< the task of each condition
@@ -144,7 +144,7 @@ class ParsedSuite {
 
  private:
   const SuiteSetup& suite_;
-  std::map<std::string, std::vector<Scenario>> parsed_;  ///< the parsed scenarios, by file
+  std::map<std::string, std::vector<Scenario>> parsed_;
 };
 
 /// Loads the clips of a scenario (from ParsedSuite::Find) and makes its tasks. Fails if a clip, or a key of a method,

@@ -26,12 +26,10 @@ namespace {
 
 constexpr int kPollMilliseconds = 20;  // pause between two measurements of workers' memory and time
 constexpr double kAheadS = 0.05;       // seconds of work that a worker gets at a time, estimated from earlier worlds
-// A world that takes longer than this counts as long, seconds. If a long world is begun last, the run loses more time
-// than a second worker needs to prepare the world's condition.
+// A longer world counts as long: begun last, it would delay the run more than preparing its condition on two workers.
 constexpr double kLongWorldS = 1;
 constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if no worker is idle
-// The number of consecutive deaths of workers that ends the run. A single death may be chance (a shortage of memory, a
-// stray kill).
+// Number of deaths in a row that end the run; a single death may be chance (a shortage of memory, a stray kill).
 constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which it loads clips
 constexpr double kClockPerLimit = 20;   // maximum wall time, as a multiple of the scenario's limit on processor time

@@ -122,7 +122,6 @@ int SizeOf(const Study& study, int methods) {
   return methods * static_cast<int>(study.metrics.size() * study.conditions.size());
 }
 
-/// Compares a method with its baseline.
 void AskAgainstBaseline(const Study& study, const ConditionTable& condition, const ComparedMethod& entry,
                         std::uint64_t seed, std::vector<Question>& questions) {
   if (entry.name == entry.against) return;

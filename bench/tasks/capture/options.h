@@ -21,7 +21,6 @@ enum class Clothes {
   kCoded,     ///< "coded": a suit in which every limb has a colour of its own
 };
 
-/// The figure that is drawn as the performer.
 enum class PerformerFigure {
   kStaged,  ///< "staged": the stage's own people; `clothes` and `scene` choose their clothes
   kOwn,     ///< "own": the meshes and textures of the clip's file
@@ -43,7 +42,7 @@ struct StudioOptions {
   /// sim/stage/README.md describes the values in between.
   double scene = 0;
   double light_drift = 0.06;  ///< largest relative change of the lamp's brightness
-  CameraEffects camera = {};  ///< the effects of every camera
+  CameraEffects camera = {};
   CalibrationTargetKind calibration_target = CalibrationTargetKind::kPoints;
   int calibration_pairs = 24;         ///< number of measured points per camera; only for kPoints
   double calibration_measure_mm = 0;  ///< standard deviation of the target's measured positions along each axis
@@ -119,7 +118,6 @@ enum class Smoothing {
   kRts,   ///< "rts": each joint's track is smoothed separately (Rauch–Tung–Striebel smoother)
 };
 
-/// The source of the limb lengths.
 enum class LengthSource {
   kKnown,     ///< "known": the lengths are measured on the performer beforehand (paper B)
   kMeasured,  ///< "measured": the lengths are computed from the marks of a few frames
@@ -134,7 +132,6 @@ enum class SilhouetteStart {
   kKeypoints,
 };
 
-/// The source of the marks in the pictures.
 enum class MarkSource {
   kAnnotator,  ///< "annotator": a person marks by hand (paper B)
   /// "colours": no marks by hand. The colours of a coded suit identify the limbs (engine/vision/limb_colours).

@@ -46,7 +46,7 @@ struct CaptureWorld {
   std::vector<Camera> cameras;     ///< at least two, each with its lens
   std::vector<bool> in_view;       ///< for each frame, true if two cameras see the whole body
   Room room;                       ///< the empty room; its brightness is that of the background pictures
-  StageOptions stage_options;      ///< the options of `stage`
+  StageOptions stage_options;
   StagedRoom stage;                ///< the room and people that `scene` adds
   std::vector<double> brightness;  ///< brightness of each frame
 };

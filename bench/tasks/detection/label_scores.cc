@@ -89,7 +89,6 @@ class PersonLeftOut {
   }
 
  private:
-  /// Evaluates the labelled parts of one stream.
   void TakeStream(const std::string& person, std::span<const LabelledPart> parts) {
     const auto is_theirs = [&](const LabelledPart& part) { return part.person == person; };
     if (std::ranges::none_of(parts, is_theirs)) return;

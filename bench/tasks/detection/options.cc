@@ -5,14 +5,13 @@ namespace {
 
 constexpr Range kShare{0, 1};
 constexpr Range kThresholds{0.01, 1};  // 0 would call every performance right
-constexpr Range kLengths{0, 1};        // range of lengths, metres
+constexpr Range kLengths{0, 1};        // metres
 
 using Method = DetectionMethod;
 using MethodKey = Field<Method>;
 
 bool IsSensorFile(std::string_view reference) { return !FindSensorPreset(reference) && reference != kCameraSensor; }
 
-/// Returns the keys of the filters' settings.
 std::vector<MethodKey> FilterFields() {
   const auto holt = [](const std::string& key, double HoltOptions::*member, Range range, const std::string& meaning) {
     const auto value = Path(&Method::filter, &FilterOptions::holt, member);

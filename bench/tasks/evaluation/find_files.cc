@@ -124,7 +124,6 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
   return named;
 }
 
-/// The columns of a CSV of pairs.
 struct PairColumns {
   std::size_t truth = 0;
   std::optional<std::size_t> name;

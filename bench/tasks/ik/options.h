@@ -46,7 +46,6 @@ struct IkRecords {
   bool motion = false;
 };
 
-/// A condition of an ik scenario.
 struct IkCondition {
   IkTrialOptions trial;
   IkRecords records;

@@ -23,7 +23,6 @@ std::vector<std::string> PoseDistanceNames();
 /// Returns the distance with this name. `name` must be one of PoseDistanceNames.
 PoseDistance FindPoseDistance(std::string_view name);
 
-/// A method of task pose-distance.
 struct PoseDistanceMethod {
   std::string name;
   PoseDistance distance = PoseDistance::kFuzzy;

@@ -23,7 +23,6 @@ struct TransitionMethod {
   double wait_s = 1;  ///< the longest wait of the method's requests, seconds
 };
 
-/// A condition of a transition scenario.
 struct TransitionCondition {
   double threshold = kPaperThreshold;  ///< threshold of methods that do not set their own
   double wait_s = 1;                   ///< longest wait, seconds, of methods that do not set their own

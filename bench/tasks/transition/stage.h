@@ -43,7 +43,6 @@ std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
 /// Returns the smaller of the natural limits of two clips, centimetres.
 double CalmerLimitCm(const Stage& stage, int from, int to);
 
-/// Prepares the clips of a library.
 Stage SetStage(const ClipLibrary& library, const StageRules& rules = {});
 
 }  // namespace etude
