@@ -165,7 +165,7 @@ class Supervisor {
     return usage;
   }
 
-  /// Starts the time limits for what the worker does next; its wall time may be `clock_s` seconds.
+  /// Starts the time limits of the worker's next step; its wall time may be at most `clock_s` seconds.
   static void Begin(Worker& worker, double clock_s) {
     constexpr auto kStale = std::chrono::milliseconds(100);
     if (Clock::now() - worker.measured > kStale) Measure(worker);
@@ -189,7 +189,7 @@ class Supervisor {
     return worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
   }
 
-  /// Starts the time limits of the first method in the order that has no answer yet.
+  /// Starts the time limits of the order's first method without an answer. If there is none, ends the world.
   Result<void> StartNextMethod(Worker& worker) {
     const Order& order = worker.orders.front();
     if (order.methods.empty()) return EndWorld(worker);
@@ -372,7 +372,7 @@ class Supervisor {
   const Deliver& deliver_;
   std::string setup_line_;
   std::vector<Worker> workers_;
-  std::vector<Pace> paces_;  ///< mean time of the worlds so far, by scenario
+  std::vector<Pace> paces_;  ///< wall time of the worlds so far, by scenario
   int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished its own
   std::size_t not_run_ = 0;  ///< number of cells that could not be run
   std::string why_not_run_;  ///< why the first such cell could not be run

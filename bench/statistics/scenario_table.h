@@ -98,8 +98,8 @@ void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const 
               PairedWorlds& paired);
 
 /// Counts failures as losses: in each world in which only one method failed, that method is worse by the largest
-/// difference among the pairs, and at least by the practical threshold (worst ranks, Lachin 1999). Returns nothing if
-/// there is no such world, if there is no pair, or if the metric has no direction.
+/// difference among the pairs, and at least by the practical threshold, or by 1 for shares (worst ranks, Lachin 1999).
+/// Returns nothing if there is no such world, if there is no pair, or if the metric has no direction.
 std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const MetricInfo& metric);
 
 /// Returns the text that keys the random streams of a comparison. It does not change if methods, metrics or conditions
