@@ -51,15 +51,14 @@ constexpr double kFalseAlarmLimit = 0.05;
 using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 
 /// Measures the gate on `repetitions` pairs of seeds (2i − 1, 2i):
-/// - false alarms: compares trial t of one seed with trial t of the other. Both have the same distribution, so the sign
-/// of
-///   every difference is random, and every reported regression is false. The differences are far larger than in a real
-///   gate, because the worlds differ; the test is the same. The tail rule, which requires equal worlds, is off.
+/// - false alarms: compares trial t of one seed with trial t of the other. Both have the same distribution, so the
+///   sign of every difference is random, and every reported regression is false. The differences are far larger than
+///   in a real gate, because the worlds differ; the test is the same. The tail rule, which requires equal worlds, is
+///   off.
 /// - reruns: compares the first seed with a second run of this seed.
 /// - injected: compares the first seed with a copy in which a random difference is added to every value of one metric,
-/// in
-///   the first method and condition. This metric is the first one compared that is a median and has a direction. The
-///   differences are normal: mean k practical thresholds (worse), standard deviation three thresholds.
+///   under the first method and condition. The metric is the first one compared that is a median and has a direction.
+///   The differences are normal: mean k practical thresholds (worse), standard deviation three thresholds.
 /// - tails: compares the first seed with a copy in which a few worlds of that metric are changed (InjectedTails).
 /// - real: compares the first seed's first method with each other method under the first method's name.
 /// Fails if a run fails, or if the scenario has no metric for injection.

@@ -113,7 +113,7 @@ class ShiftFinder {
   /// Returns the shift, in whole frames of the truth, that fits best. Returns nothing if no shift fits, or if the best
   /// shift is the largest that is searched.
   std::optional<int> FindWholeFrames() const {
-    constexpr std::size_t kMaxCompared = 1000;  // upper bound of the compared frames
+    constexpr std::size_t kMaxCompared = 1000;  // largest number of compared frames
     const std::size_t stride = 1 + truth_.FrameCount() / kMaxCompared;
     const std::size_t fewest = std::max(CountOf(DistancesAt(0, stride)) / 2, kMinFrames);
     const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth_rate_hz_));

@@ -61,8 +61,8 @@ struct ComparedMethod {
   /// True: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
   bool has_oracle = false;
   std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces
-  std::string settings = {};     ///< the text of its other settings, in one form per value; "" = an outside method
-  std::string description = {};  ///< a sentence about the method, or the method's settings
+  std::string settings = {};             ///< its other settings as text; equal settings have equal texts; "" = outside
+  std::string description = {};          ///< a sentence about the method, or the method's settings
 };
 
 /// The comparisons and expectations of a scenario, and everything else that is needed to judge the scenario's rows. It

@@ -50,7 +50,7 @@ class ErrorLog {
 struct OutsideFailure {
   Status status = Status::kFailed;
   std::string reason;
-  bool was_asked = true;  ///< false: this machine is the cause
+  bool was_asked = true;  ///< false: this machine, not the program, is the cause
 };
 template <typename T>
 using OutsideOutcome = tl::expected<T, OutsideFailure>;

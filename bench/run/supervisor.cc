@@ -34,7 +34,7 @@ constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which it loads clips
 constexpr double kClockPerLimit = 20;   // maximum wall time, as a multiple of the scenario's limit on processor time
 constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report it
-constexpr int kShutdownGraceMs = 3000;  // time in which a worker can end all its outside methods when it ends
+constexpr int kShutdownGraceMs = 3000;  // time in which an ending worker can end all its outside methods
 
 Clock::time_point After(double seconds) {
   constexpr double kMaxSeconds = 1e9;  // longer than any run, but short enough for Clock::time_point

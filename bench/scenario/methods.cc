@@ -166,7 +166,7 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
   if (list->items.size() > kMaxMethods) {
     return complain({list->place, fmt::format("{} methods; at most {}", list->items.size(), kMaxMethods)});
   }
-  // Read every method; names are unique.
+  // Read every method, and check that names are unique.
   std::vector<std::string> names;
   for (const Node& item : list->items) {
     auto method = ReadMethod(item, kind);

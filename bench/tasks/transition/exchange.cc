@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMaxBetween = 300;  // frames: ten seconds
+constexpr std::size_t kMaxBetween = 300;  // number of frames in ten seconds
 constexpr std::size_t kMaxThrough = 16;
 constexpr std::size_t kMaxReasonBytes = 300;
 constexpr Range kJoins_s{0, 5};
