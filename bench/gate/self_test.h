@@ -25,13 +25,13 @@ struct PowerResult {
 
 struct SelfTestReport {
   int comparisons = 0;  ///< number of comparisons that one gate makes
-  /// Number of regressions that the rule `exact` reports between two runs of one seed; must be zero.
+  /// Rate at which the rule `exact` reports a regression between two runs of one seed; must be zero.
   Rate rerun_alarms;
-  /// Number of regressions that the tail rule reports between two runs of one seed; must be zero.
+  /// Rate at which the tail rule reports a regression between two runs of one seed; must be zero.
   Rate tail_rerun_alarms;
-  /// Number of gates that report a regression although the methods are the same and only the seeds differ.
+  /// Rate of gates that report a regression although the methods are the same and only the seeds differ.
   Rate false_alarms;
-  Rate false_alarm_comparisons;       ///< number of comparisons in these gates that report a regression
+  Rate false_alarm_comparisons;       ///< rate of comparisons in these gates that report a regression
   std::vector<PowerResult> injected;  ///< power for random differences of known mean, added to one metric of one method
   /// Power for the same metric, made far worse in a few worlds, or with values removed.
   std::vector<PowerResult> tails;

@@ -143,8 +143,8 @@ struct Answer {
   /// The comparison of the value metric in the worlds where both methods succeeded. It is nullopt if both succeeded in
   /// all worlds or in none, or if success is not a yes-or-no value.
   std::optional<Comparison> both_succeed = {};
-  /// Compares the share of worlds in which the method is far better with the share in which it is far worse: the
-  /// difference is the former minus the latter.
+  /// The comparison of the tails: the share of worlds in which the method is far better, minus the share in which it is
+  /// far worse.
   std::optional<Comparison> tail = {};
 };
 

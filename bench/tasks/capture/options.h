@@ -83,10 +83,9 @@ enum class Sync {
   kEstimated,  ///< "estimated": times are estimated from the motion of the marks
 };
 
-/// Selects the stages of the pipeline whose results are replaced by the truth, which shows how much of the final error
-/// each stage causes. With `marks`, strokes and discs are at the true joints wherever a picture shows the limb or end.
-/// With `start` or `ik`, the truth is the pose of the method's body that is nearest to the true pose
-/// (`FindNearestPoses`).
+/// Selects stages of the pipeline. The truth replaces their results, which shows how much of the final error they
+/// cause. With `marks`, strokes and discs are at the true joints wherever a picture shows the limb or end. With `start`
+/// or `ik`, the truth is the pose of the method's body that is nearest to the true pose (`FindNearestPoses`).
 struct Oracle {
   bool calibration = false;
   bool segmentation = false;

@@ -146,7 +146,7 @@ class Loop {
     }
   }
 
-  /// Logs the performance whose window has closed. A window that the coach itself cut off is not logged, because the
+  /// Logs the performance whose window has closed. A window that the coach interrupted is not logged, because the
   /// coach did not ask for a whole performance.
   void NoteVerdict(CoachEvent event) {
     if (!open_) return;
