@@ -13,14 +13,15 @@ namespace etude {
 
 struct ExportOptions {
   std::vector<std::string> scenarios;  ///< paths of files, or of folders with *.yaml files
-  std::optional<std::uint64_t> seed;   ///< default: each scenario's own, else 1
+  std::optional<std::uint64_t> seed;   ///< seed of the worlds; nullopt = each scenario's own, else 1
   std::optional<SecretKey> key = {};   ///< the key of secret worlds, instead of a seed
-  bool reuse_key = false;              ///< allows a key that was used before (used_keys.h)
-  std::optional<int> trials;           ///< default: each scenario's own
+  bool reuse_key = false;              ///< true: the key may have been used before (used_keys.h)
+  std::optional<int> trials;           ///< trials per condition; nullopt = each scenario's own
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
   std::string joint_map;               ///< if not empty, replaces the scenarios' joint maps
   std::string clip_facts = {};         ///< additional lines of the joint map (RunOptions::clip_facts)
-  bool depth = false;                  ///< also write the pictures of the truth (TaskWorld::MakeTruePictures)
+  /// True: the pictures of the truth are also written (TaskWorld::MakeTruePictures).
+  bool depth = false;
   std::string output;
   std::string program_version;
 };

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxNameLength = 120;  // bytes; file systems allow 255
+constexpr std::size_t kMaxNameLength = 120;  // bytes; file systems allow up to 255
 
 bool IsPlain(char c) {
   const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');

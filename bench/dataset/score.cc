@@ -72,7 +72,8 @@ std::string NameOf(const Plan& plan, std::size_t w) {
                      WorldName(plan.scenario_of(w), world.condition, world.trial));
 }
 
-constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;  // as kMaxReplyBytes; 60 s of poses take 3 MB
+// The limit of kMaxReplyBytes; 60 s of poses take 3 MB.
+constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;
 
 Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file, kMaxAnswerBytes));

@@ -15,14 +15,15 @@ struct ScoreOptions {
   /// The path of a data set (or of any folder with a run's manifest), of a scenario file, or of a folder of *.yaml
   /// files.
   std::string target;
-  std::string predictions;            ///< the folder of answers
-  std::string output;                 ///< the result folder
-  std::string name = "predictions";   ///< the name of the method that gave the answers
-  bool alone = false;                 ///< true: the scenarios' own methods are not run
-  bool allow_missing = false;         ///< true: a world without an answer is a failed cell, not an error
-  int jobs = 0;                       ///< worker processes for the scenarios' own methods; 0 = one per processor
-  std::optional<std::uint64_t> seed;  ///< the seed of scenario files; a manifest states its own
-  std::optional<SecretKey> key = {};  ///< the key of secret worlds
+  std::string predictions;           ///< the folder of answers
+  std::string output;                ///< the result folder
+  std::string name = "predictions";  ///< the name of the method that gave the answers
+  bool alone = false;                ///< true: the scenarios' own methods are not run
+  bool allow_missing = false;        ///< true: a world without an answer is a failed cell, not an error
+  /// Number of worker processes for the scenarios' own methods; 0 = one per processor.
+  int jobs = 0;
+  std::optional<std::uint64_t> seed;  ///< the seed for scenario files; a manifest states its own seed
+  std::optional<SecretKey> key = {};
   std::optional<int> trials;
   std::vector<std::string> clips;
   std::string joint_map;
@@ -35,7 +36,7 @@ struct ScoreOptions {
 
 struct ScoreOutcome {
   RunOutcome run;
-  PredictionFaults faults;  ///< if there are any, nothing was written
+  PredictionFaults faults;  ///< faults of the answers; if there are any, nothing was written
 };
 
 /// Scores answers from files and writes an ordinary result folder. The scored method is the last method of each

@@ -62,9 +62,9 @@ std::string MethodDigest(const MethodEntry& method) {
 
 constexpr const char* kBuiltInName = "built in";
 
-// A fast scenario with metrics of every kind: medians, a share and a count. Its methods limit by different angles how
-// far a joint may turn from the start pose. The start pose has an error of 15° (standard deviation), so some methods
-// differ little from the first one and others much.
+// A fast scenario with metrics of every kind: medians, a share and a count. Each method limits, by an angle of its own,
+// how far a joint may turn from the start pose. The start pose has an error of 15° (standard deviation), so some
+// methods differ little from the first one and others much.
 constexpr const char* kBuiltInScenario = R"(
 scenario: gate-self-test
 question: Does the gate see what it should, and nothing else?

@@ -35,8 +35,8 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
 
 /// What a loaded run holds in memory.
 enum class Held {
-  kAll,      ///< as LoadRun
-  kOutline,  ///< as LoadRunRowByRow
+  kAll,      ///< everything that LoadRun loads
+  kOutline,  ///< what LoadRunRowByRow loads
 };
 
 /// Reads a result folder with its scenarios and times. A run that has not ended or was interrupted has no data, only

@@ -30,7 +30,8 @@ Json EncodeScenario(const SnapshotScenario& scenario) {
             {"metrics", std::move(metrics)},
             {"worlds", EncodePairs(scenario.worlds)},
             {"methods", EncodePairs(scenario.methods)}};
-  for (const auto& [name, truth] : scenario.files) json["files"].push_back({name, truth});  // their order counts
+  // The order of files is kept.
+  for (const auto& [name, truth] : scenario.files) json["files"].push_back({name, truth});
   return json;
 }
 
@@ -63,8 +64,8 @@ class Lines {
 // The status letters that may occur in a baseline. The letters 'm', 't' and 'c' are missing, because no baseline is
 // made of a run with such a cell.
 constexpr std::string_view kLetters = "oufbs";
-constexpr std::string_view kAnswers = "ou";     // statuses with an answer
-constexpr std::int64_t kMaxTrials = 1'000'000;  // as in a scenario file
+constexpr std::string_view kAnswers = "ou";     // letters of the statuses that have an answer
+constexpr std::int64_t kMaxTrials = 1'000'000;  // the limit of a scenario file
 constexpr std::int64_t kMaxVersions = 1'000'000;
 
 /// Returns the seal of a baseline: the digest of its JSON values without the key `seal`. White space does not affect
@@ -75,7 +76,7 @@ Result<std::string> SealOf(Json baseline) {
   return Digest().Add(std::string_view(text)).Hex();
 }
 
-/// The cells that a line with statuses or values of one scenario, condition and method fills.
+/// The cells that one line of statuses or values fills: those of one scenario, condition and method.
 struct Slot {
   std::size_t trials = 0;
   SnapshotCells* cells = nullptr;

@@ -12,9 +12,11 @@ namespace etude {
 /// The comparison of two snapshots. It lists every entry of either snapshot, including entries that only one of them
 /// has.
 struct SnapshotComparison {
-  std::vector<MetricMove> moves;                     ///< one for every metric that both snapshots have, changed or not
-  std::vector<std::string> only_before, only_after;  ///< "ik-weights, joint_noise_deg=5, fixed, iterations"
-  std::vector<std::string> settings_changed;         ///< methods with the same name but different settings
+  /// One move for every metric that both snapshots have, even if nothing changed.
+  std::vector<MetricMove> moves;
+  /// Entries of one snapshot only, e.g. "ik-weights, joint_noise_deg=5, fixed, iterations".
+  std::vector<std::string> only_before, only_after;
+  std::vector<std::string> settings_changed;  ///< methods with the same name but different settings
 };
 
 /// Returns the reasons why the worlds of two snapshots cannot be paired: different seeds, numbers of trials, parameters

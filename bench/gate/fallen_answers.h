@@ -23,7 +23,8 @@ struct FallenAnswer {
 
 /// Returns the answers whose verdict fell from "better" to "no difference" or "worse", or from "no difference" to
 /// "worse". An answer may fall although neither method's values moved by a practical threshold: the method became a
-/// little worse, its baseline method a little better. An answer that is inconclusive in either snapshot has not fallen.
+/// little worse, and its baseline method a little better. An answer that is inconclusive in either snapshot has not
+/// fallen.
 std::vector<FallenAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
                                             std::span<const MetricMove> moves);
 

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-constexpr std::string_view kStatusLetters = "ouftcmbs";  // in the order of Status
+constexpr std::string_view kStatusLetters = "ouftcmbs";  // one letter per status, in the order of Status
 
 /// Checks the rows of a run that does not fit into memory. The run must have all its rows, in canonical order
 /// (CellsOf).
@@ -55,7 +55,7 @@ class ScenarioTaker {
   }
 
   void Take(const Row& row) {
-    // Computed once for each condition, whose rows are consecutive.
+    // The label is computed once per condition, because the rows of a condition are consecutive.
     if (row.condition != condition_ || label_.empty()) {
       condition_ = row.condition;
       label_ = CompactLabel(row.condition);

@@ -52,7 +52,7 @@ struct SnapshotCells {
   std::string condition;  ///< the condition as text (CompactLabel)
   std::string method;
   std::string statuses;                 ///< one letter per trial (StatusLetter)
-  std::vector<SnapshotValues> metrics;  ///< in the order of SnapshotScenario::metrics
+  std::vector<SnapshotValues> metrics;  ///< values of each metric, in the order of SnapshotScenario::metrics
 };
 
 struct SnapshotScenario {
@@ -62,7 +62,7 @@ struct SnapshotScenario {
   NamedDigests worlds;                               ///< by condition: digest of the task's parameters and the clips
   NamedDigests methods;                              ///< by method: digest of its settings
   std::vector<std::pair<std::string, int>> metrics;  ///< the metrics in the snapshot, with their versions
-  std::vector<SnapshotCells> cells;                  ///< one for each condition and method
+  std::vector<SnapshotCells> cells;                  ///< one entry for each condition and method
   NamedDigests files = {};  ///< as in FinishedScenario::files: name of each world and digest of its ground truth
 };
 

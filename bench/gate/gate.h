@@ -41,8 +41,8 @@ struct GateAnswer {
 
 struct GateReport {
   std::string suite;
-  std::string run_folder;        ///< as the caller names it, for `etude replay`; "" = unknown
-  std::string baseline_file;     ///< "" = no baseline: only the scenarios' own expectations were judged
+  std::string run_folder;        ///< the folder's name as the caller gave it, for `etude replay`; "" = unknown
+  std::string baseline_file;     ///< file of the baseline; "" = none: only the scenarios' own expectations were judged
   std::string baseline_version;  ///< the version of the program that made the baseline
   std::string program_version;   ///< the version of the program that made the run
   std::vector<GateExpectation> expectations;

@@ -110,7 +110,7 @@ const MetricInfo* FindGateMetric(std::string_view id) {
     metric.direction = Direction::kHigherIsBetter;
     metric.aggregate = Aggregate::kMean;
     metric.reading = Reading::kYesNo;
-    metric.practical = 0.02;  // as the catalogue defines for shares of solved problems
+    metric.practical = 0.02;  // the value in the catalogue for shares of solved problems
     return metric;
   }();
   return id == kOkShare ? &ok : FindMetric(id);
@@ -146,7 +146,7 @@ MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::u
   move.after = AggregateOfPresent(all_after, metric.aggregate);
   const std::string purpose = fmt::format("gate/{}/{}/{}/{}", move.identity.scenario, move.identity.condition,
                                           move.identity.metric, move.identity.method);
-  if (move.differing == 0) return move;  // usually, no value differs and nothing need be tested
+  if (move.differing == 0) return move;  // usually, all values are equal, and no test is needed
   move.comparison = ComparePaired(values, metric, seed, purpose);
   if (move.lost + move.gained > 0) {
     move.presence = ComparePaired(presence, *FindGateMetric(kOkShare), seed, purpose + "/presence");

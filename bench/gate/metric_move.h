@@ -22,8 +22,8 @@ const MetricInfo* FindGateMetric(std::string_view id);
 
 enum class Movement {
   kSame,      ///< all values are equal
-  kBetter,    ///< clearly better, by at least the practical threshold
-  kWorse,     ///< clearly worse, by at least the practical threshold
+  kBetter,    ///< the value is clearly better, by at least the practical threshold
+  kWorse,     ///< the value is clearly worse, by at least the practical threshold
   kNoMatter,  ///< the difference is clearly below the practical threshold
   kUnclear,   ///< values differ, but the test supports none of the results above; or the metric has no direction
   kChanged,   ///< values differ in a scenario whose gate rule is `exact`
@@ -55,7 +55,7 @@ struct MetricMove {
   Comparison comparison;  ///< paired comparison, later − earlier, of the worlds with a value in both snapshots
   /// True if `movement` follows from the difference of means; false if it follows from the metric's own aggregate.
   bool by_mean = false;
-  std::optional<Comparison> presence;  ///< if values were lost or gained: the comparison of "has a value" (1 or 0)
+  std::optional<Comparison> presence;  ///< comparison of "has a value" (1 or 0), if values were lost or gained
   /// Far worse worlds: first those that lost their value, then the others from the worst on.
   std::vector<TailWorld> tail;
   bool by_tail = false;  ///< true: only the tail rule makes this change a regression

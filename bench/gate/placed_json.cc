@@ -12,7 +12,7 @@ struct Level {
   bool is_object = false;
   bool key_comes = false;           ///< true: the next string is a key, not a value
   std::string key;                  ///< the key that was read last
-  std::map<std::string, int> keys;  ///< the keys of this object that were read so far, with their lines
+  std::map<std::string, int> keys;  ///< the keys read so far in this object, each with its line
 };
 
 class Walk {
@@ -54,7 +54,7 @@ class Walk {
     }
     Level& level = levels_.back();
     level.key_comes = false;
-    level.key = Json::parse(text_.substr(from, at_ + 1 - from)).get<std::string>();  // "\u0061" is "a"
+    level.key = Json::parse(text_.substr(from, at_ + 1 - from)).get<std::string>();  // decodes escapes: "\u0061" is "a"
     const auto [first, is_new] = level.keys.emplace(level.key, line_);
     if (is_new) return {};
     return Fail({file_, line_, 0}, "the key {} appears twice in one object, first in line {}; allowed: once",

@@ -61,7 +61,7 @@ void Inject(SnapshotValues& values, double size, std::uint64_t seed) {
   }
 }
 
-// Worsening, as a multiple of the tail rule's `times`, that must be found, and that must not be found.
+// Two worsenings of a world, as multiples of the tail rule's `times`: the gate must find the first and not the second.
 constexpr double kBeyondRule = 2, kWithinRule = 0.9;
 
 template <typename AnySnapshot>

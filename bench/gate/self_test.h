@@ -24,14 +24,18 @@ struct PowerResult {
 };
 
 struct SelfTestReport {
-  int comparisons = 0;     ///< number of comparisons that one gate makes
-  Rate rerun_alarms;       ///< regressions that the rule `exact` reports between two runs of one seed; must be zero
-  Rate tail_rerun_alarms;  ///< regressions that the tail rule reports between two runs of one seed; must be zero
-  Rate false_alarms;       ///< gates that report a regression although they compare the same methods under two seeds
-  Rate false_alarm_comparisons;       ///< single comparisons that report a regression in these gates
-  std::vector<PowerResult> injected;  ///< random differences of known mean, added to one metric of one method
-  std::vector<PowerResult> tails;     ///< the same metric, made far worse in a few worlds, or with values removed
-  std::vector<PowerResult> real;      ///< another method under the first method's name, one entry each
+  int comparisons = 0;  ///< number of comparisons that one gate makes
+  /// Rate at which the rule `exact` reports a regression between two runs of one seed; must be zero.
+  Rate rerun_alarms;
+  /// Rate at which the tail rule reports a regression between two runs of one seed; must be zero.
+  Rate tail_rerun_alarms;
+  /// Rate of gates that report a regression although the methods are the same and only the seeds differ.
+  Rate false_alarms;
+  Rate false_alarm_comparisons;       ///< rate of comparisons in these gates that report a regression
+  std::vector<PowerResult> injected;  ///< power for random differences of known mean, added to one metric of one method
+  /// Power for the same metric, made far worse in a few worlds, or with values removed.
+  std::vector<PowerResult> tails;
+  std::vector<PowerResult> real;  ///< power for another method in place of the first one; one entry for each method
 
   /// Returns true if the gate works as specified: it never reports a regression between two runs of one seed, the
   /// interval of the false alarms does not lie above kFalseAlarmLimit, and the tail rule finds exactly the changes that
@@ -47,15 +51,14 @@ constexpr double kFalseAlarmLimit = 0.05;
 using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 
 /// Measures the gate on `repetitions` pairs of seeds (2i − 1, 2i):
-/// - false alarms: compares trial t of one seed with trial t of the other. Both have the same distribution, so the sign
-/// of
-///   every difference is random, and every reported regression is false. The differences are far larger than in a real
-///   gate, because the worlds differ; the test is the same. The tail rule, which requires equal worlds, is off.
+/// - false alarms: compares trial t of one seed with trial t of the other. Both have the same distribution, so the
+///   sign of every difference is random, and every reported regression is false. The differences are far larger than
+///   in a real gate, because the worlds differ; the test is the same. The tail rule, which requires equal worlds, is
+///   off.
 /// - reruns: compares the first seed with a second run of this seed.
 /// - injected: compares the first seed with a copy in which a random difference is added to every value of one metric,
-/// in
-///   the first method and condition. This metric is the first one compared that is a median and has a direction. The
-///   differences are normal: mean k practical thresholds (worse), standard deviation three thresholds.
+///   under the first method and condition. The metric is the first one compared that is a median and has a direction.
+///   The differences are normal: mean k practical thresholds (worse), standard deviation three thresholds.
 /// - tails: compares the first seed with a copy in which a few worlds of that metric are changed (InjectedTails).
 /// - real: compares the first seed's first method with each other method under the first method's name.
 /// Fails if a run fails, or if the scenario has no metric for injection.

@@ -23,14 +23,14 @@ struct Difference {
 /// tests/cli/systems_test.py measures these differences; docs/guide/install.md shows them.
 struct MeasuredSystem {
   const char* name;
-  const char *compiler, *glibc, *ceres, *mesa;  ///< beginnings of the libraries' version texts
+  const char *compiler, *glibc, *ceres, *mesa;  ///< beginnings of the libraries' versions, as text
   int cells_that_differ;
   std::span<const Difference> differences;
 };
 
 constexpr int kQuickCells = 2192;
 /// The differences between Debian sid and Debian 12. All concern task capture: Mesa 26.2 draws some pixels a few levels
-/// differently, and the last digits of a camera differ.
+/// differently, and the last digits of a camera's parameters differ.
 constexpr std::array<Difference, 13> kSidDiffers = {{
     {"auc_200mm", 3.2e-4},
     {"bone_length_error_cm", 4e-16},

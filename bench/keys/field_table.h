@@ -31,8 +31,8 @@ constexpr auto Path(Members... members) {
 template <typename Value>
 using NamedValues = std::vector<std::pair<std::string, Value>>;
 
-// ReadNumber reads the value of `key` into a number's member. There is one overload for each type of member. An absent
-// key leaves the value unchanged.
+// ReadNumber reads the value of `key` into a member that is a number. There is one overload for each type of member. An
+// absent key leaves the value unchanged.
 void ReadNumber(Fields& fields, const std::string& key, Range range, double& value);
 void ReadNumber(Fields& fields, const std::string& key, Range range, int& value);
 void ReadNumber(Fields& fields, const std::string& key, Range range, std::optional<double>& value);

@@ -14,8 +14,8 @@ struct KeyInfo;
 
 /// The kind of a key's value: the allowed values in words, and as JSON Schema.
 struct ValueKind {
-  std::string allowed;  ///< "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
-  std::string schema;   ///< JSON
+  std::string allowed;  ///< the allowed values in words, e.g. "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
+  std::string schema;   ///< the allowed values as JSON Schema
   /// Returns true if a non-empty value is the name of a file; the key's reader then receives the text of that file.
   /// Null: no value is a file name.
   bool (*names_file)(std::string_view value) = nullptr;
@@ -41,17 +41,16 @@ ValueKind MappingKind(std::string allowed, std::span<const KeyInfo> keys);
 
 /// The condition under which a key is allowed: another key of its mapping has one of these values.
 struct KeyCondition {
-  std::string key;                  ///< "solver"; empty: no condition
-  std::vector<std::string> values;  ///< the key is allowed with any of these values
+  std::string key;                  ///< the other key, e.g. "solver"; empty: no condition
+  std::vector<std::string> values;  ///< the values of that key with which this key is allowed
 };
 
 /// A key of a scenario file, with everything that its reference page, error messages and schema need.
 struct KeyInfo {
   std::string key;
   ValueKind value;
-  std::string fallback;  ///< the default as a file would state it, or its meaning in (parentheses); "" = the key is
-                         ///< required
-  std::string meaning;   ///< one sentence
+  std::string fallback;  ///< the default as in a file, or its meaning in (parentheses); "" = required
+  std::string meaning;   ///< one sentence about the key
   KeyCondition only_with = {};
 
   /// Returns the allowed values and the condition, e.g. "0…1; with `weights: adaptive`".

@@ -15,7 +15,7 @@ Json ScalarToJson(const Node& node) {
   if (text == "true" || text == "false") return text == "true";
   const auto number = AsNumber(node);
   if (!number) return text;
-  if (const auto whole = ParseNumber<std::int64_t>(text)) return *whole;  // 5 stays 5 and does not become 5.0
+  if (const auto whole = ParseNumber<std::int64_t>(text)) return *whole;  // keeps 5 as 5, not 5.0
   return *number;
 }
 

@@ -35,8 +35,8 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
     return glm::dvec4(r[1] * m23 - r[2] * m13 + r[3] * m12, r[2] * m03 - r[0] * m23 - r[3] * m02,
                       r[0] * m13 - r[1] * m03 + r[3] * m01, r[1] * m02 - r[0] * m12 - r[2] * m01);
   };
-  // The characteristic polynomial is λ⁴ + c₂λ² + c₁λ + c₀. The start value is above every root, so Newton's steps only
-  // descend.
+  // The characteristic polynomial is λ⁴ + c₂λ² + c₁λ + c₀. The start value is above every root, so every Newton
+  // step lowers λ.
   const double square = glm::dot(s[0], s[0]) + glm::dot(s[1], s[1]) + glm::dot(s[2], s[2]);
   const double c2 = -2 * square, c1 = -8 * glm::determinant(s);
   const double c0 = glm::dot(glm::dvec4(rows[0][0], rows[0][1], rows[0][2], rows[0][3]), cofactors());
@@ -92,7 +92,7 @@ PairFits::PairFits(const EvaluatedPair& pair) : pair_(pair) {
 FrameFits PairFits::Of(Alignment alignment) const {
   using enum Alignment;
   const std::size_t frames = moments_.size();
-  // Alignments with one fit for all frames, and alignments by the root.
+  // Handle alignments with one fit for all frames, and alignments by the root.
   const auto for_all = [&](std::optional<Similarity> fit) {
     return FrameFits{{std::move(fit)}, std::max<std::size_t>(frames, 1)};
   };

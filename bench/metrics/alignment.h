@@ -13,14 +13,14 @@ namespace etude {
 /// similarity for names that end in `Scaled`. It is fitted to the joints seen in both, and is never a reflection.
 enum class Alignment {
   kNone,
-  kRoot,         ///< in each frame, by the translation of root onto root
-  kRootScaled,   ///< kRoot, with the scale of least squared error in each frame (N-MPJPE)
-  kFirst,        ///< in all frames, by the best fit of the first frame with three joints seen in both
-  kFirstScaled,  ///< kFirst, by a similarity
-  kTake,         ///< by the best fit of all frames together
-  kTakeScaled,   ///< kTake, by a similarity
-  kFrame,        ///< in each frame, by its own best fit
-  kFrameScaled,  ///< kFrame, by a similarity (PA-MPJPE)
+  kRoot,         ///< each frame is moved so that the roots coincide
+  kRootScaled,   ///< as kRoot; each frame is also scaled for the least squared error (N-MPJPE)
+  kFirst,        ///< all frames have the best fit of the first frame with three joints seen in both
+  kFirstScaled,  ///< as kFirst, but the fit is a similarity
+  kTake,         ///< all frames have the best fit of the whole take
+  kTakeScaled,   ///< as kTake, but the fit is a similarity
+  kFrame,        ///< each frame has its own best fit
+  kFrameScaled,  ///< as kFrame, but the fit is a similarity (PA-MPJPE)
 };
 
 /// The transformations that align the frames of an answer. A frame has none if it lacks a root, or if fewer than three
@@ -48,7 +48,7 @@ class PairFits {
   FrameFits ByRoot(bool with_scale) const;
 
   const EvaluatedPair& pair_;
-  std::vector<PointMoments> moments_;  // one per frame
+  std::vector<PointMoments> moments_;  // the sums of each frame
   std::vector<std::optional<Similarity>> each_frame_;
 };
 

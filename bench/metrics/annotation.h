@@ -16,8 +16,8 @@ struct MarkedTwice {
 /// marked. Returns nothing if there is no such joint.
 std::optional<double> AnnotatorDistancePx(std::span<const MarkedTwice> joints);
 
-/// Returns `annotator_overlap`: of the limbs that at least one annotator marked, the share that both marked. Returns
-/// nothing if no limb was marked.
+/// Returns `annotator_overlap`: the number of limbs that both annotators marked, divided by the number that at least
+/// one of them marked. Returns nothing if no limb was marked.
 std::optional<double> AnnotatorOverlap(std::span<const MarkedTwice> limbs);
 
 }  // namespace etude

@@ -78,7 +78,7 @@ std::vector<std::ptrdiff_t> FramesOf(std::span<const double> beats_s, double rat
 /// `others`. Returns nothing if either list is empty.
 std::optional<double> MeanNearness(std::span<const std::ptrdiff_t> ours, std::span<const std::ptrdiff_t> others) {
   if (ours.empty() || others.empty()) return std::nullopt;
-  constexpr double kSigma = 3;  // frames
+  constexpr double kSigma = 3;  // σ of the mean nearness, frames
   double sum = 0;
   for (const std::ptrdiff_t beat : ours) {
     std::ptrdiff_t nearest = std::abs(others.front() - beat);
@@ -89,7 +89,7 @@ std::optional<double> MeanNearness(std::span<const std::ptrdiff_t> ours, std::sp
   return sum / static_cast<double>(ours.size());
 }
 
-constexpr double kSmoothing = 5;  // frames
+constexpr double kSmoothing = 5;  // standard deviation of the Gaussian, frames
 
 }  // namespace
 
@@ -110,7 +110,7 @@ std::optional<double> BeatAlignmentOfMusic(const PointTracks& found, double rate
 }
 
 std::optional<double> BeatAlignmentOfMotion(const PointTracks& found, double rate_hz, std::span<const double> beats_s) {
-  constexpr std::ptrdiff_t kOrder = 10;  // frames
+  constexpr std::ptrdiff_t kOrder = 10;  // frames on either side of a minimum
   const auto lengths = StepLengths(found);
   if (!lengths || lengths->empty()) return std::nullopt;
   // The speed at a frame is taken over the step before it; the first frame has speed 0.

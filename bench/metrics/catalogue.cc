@@ -16,7 +16,7 @@ const MetricInfo* FindInCatalogue(std::string_view id) {
   static const std::vector<const MetricInfo*> by_id = [] {
     std::vector<const MetricInfo*> sorted;
     for (const MetricInfo& metric : AllMetrics()) sorted.push_back(&metric);
-    std::ranges::sort(sorted, {}, &MetricInfo::id);  // no two ids are equal
+    std::ranges::sort(sorted, {}, &MetricInfo::id);  // ids are unique
     return sorted;
   }();
   const auto found =

@@ -25,38 +25,38 @@ enum class Reading {
   kAmount,  ///< an amount in the metric's unit, or a count
   kYesNo,   ///< 1 or 0; a run has the share of cells with 1
   kShare,   ///< a share of something within the cell, 0…1; a run has the mean of shares
-  kScore,   ///< 0…1, a quantity with a name of its own: F1, recall
+  kScore,   ///< a quantity from 0 to 1 with a name of its own: F1, recall
 };
 
 /// A key of the JSON input of a metric's test vectors.
 struct MetricInput {
   std::string key;
-  std::string meaning;  ///< shape and unit
+  std::string meaning;  ///< shape and unit of the value
 };
 
 /// A test vector: an input and the metric's known value for it. Every implementation must agree with it.
 struct MetricVector {
-  std::string_view title;          ///< the case that it tests: "one joint of twenty jumps"
+  std::string_view title;          ///< the case that it tests, e.g. "one joint of twenty jumps"
   std::string_view input_json;     ///< one JSON object, with the keys of MetricInfo::inputs
-  std::optional<double> expected;  ///< nullopt: the metric has no value here
-  std::string_view null_reason;    ///< why it has no value; "" if it has one
-  double tolerance = 0;            ///< absolute, in the metric's unit
-  std::string_view source;         ///< "derived: …" or "published: …"
+  std::optional<double> expected;  ///< the known value; nullopt: the metric has no value here
+  std::string_view null_reason;    ///< why the metric has no value; "" if it has one
+  double tolerance = 0;            ///< absolute tolerance, in the metric's unit
+  std::string_view source;         ///< origin of the known value: "derived: …" or "published: …"
 };
 
 /// The definition of a metric. Tables, comparisons and other implementations use this entry.
 struct MetricInfo {
-  std::string id;     ///< unit in the name, e.g. "position_error_cm"
+  std::string id;     ///< e.g. "position_error_cm"; it ends with the unit
   int version = 1;    ///< raised if the definition changes; values of two versions are never mixed
-  std::string label;  ///< for display: "position error"
-  std::string unit;   ///< "cm", "deg", "" for shares and counts
+  std::string label;  ///< the name for display, e.g. "position error"
+  std::string unit;   ///< e.g. "cm", "deg"; "" for shares and counts
   Direction direction = Direction::kLowerIsBetter;
   Aggregate aggregate = Aggregate::kMedian;
-  std::string weight = {};  ///< the metric that weights the cells in a mean; "" = all count alike
+  std::string weight = {};  ///< the metric that weights the cells in a mean; "" = all cells count alike
   Reading reading = Reading::kAmount;
-  bool is_success = false;  ///< its value says how far a cell reached its task's goal, which status `ok` does not say
+  bool is_success = false;  ///< the value says how far a cell reached its task's goal; status `ok` does not say this
   double practical = 0;     ///< the smallest difference that matters, in the metric's unit
-  std::string definition;   ///< one sentence
+  std::string definition;   ///< the definition in one sentence
 
   std::string practical_reason;     ///< why a smaller difference than `practical` does not matter
   std::string formula;              ///< the exact definition: frames, denominators, edge cases
@@ -64,7 +64,7 @@ struct MetricInfo {
   std::string source;               ///< the origin of the definition
   std::vector<MetricInput> inputs;  ///< the inputs of its test vectors
   std::span<const MetricVector> vectors = {};
-  std::string domain = {};  ///< its heading on the page: "Inverse kinematics", …
+  std::string domain = {};  ///< the metric's heading on the reference page, e.g. "Inverse kinematics"
 };
 
 /// Returns the metrics of all files in bench/metrics/catalogue, in the order in which tables and

@@ -22,8 +22,8 @@ const CoachedPerformance* CauseOf(const GivenCorrection& correction, const Coach
   return cause;
 }
 
-/// Returns true if a correction was decided between the end of the window of performance `i` and the end of the next
-/// performance's window, or the end of the session if there is no next performance.
+/// Returns true if a correction was decided after the window of performance `i` ended and before the window of the next
+/// performance ended. If there is no next performance, the limit is the end of the session.
 bool IsAnswered(const CoachedSession& session, std::size_t i) {
   const bool is_last = i + 1 == session.performances.size();
   const int first = session.performances[i].end_frame;

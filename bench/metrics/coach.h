@@ -12,10 +12,10 @@ enum class PerformanceTruth { kRight, kGrey, kWrong };
 /// One performance that the coach asked for and judged at the end of its window. A performance is left out if the
 /// session ended before its window.
 struct CoachedPerformance {
-  int begin_frame = 0;  ///< first frame of its window
-  int end_frame = 0;    ///< the frame after its window
+  int begin_frame = 0;  ///< first frame of the performance's window
+  int end_frame = 0;    ///< the frame after the performance's window
   PerformanceTruth truth = PerformanceTruth::kRight;
-  std::optional<int> called_wrong;  ///< the frame in which the coach called it wrong
+  std::optional<int> called_wrong;  ///< the frame in which the coach called the performance wrong
   bool called_right = false;
 };
 
@@ -27,8 +27,8 @@ struct GivenCorrection {
 
 /// A coached session (docs/reference/metrics.md, Coach). Performances and corrections are in order of time.
 struct CoachedSession {
-  double rate_hz = 30;  ///< frames per second, > 0
-  int frames = 0;       ///< length of the session, > 0
+  double rate_hz = 30;  ///< frame rate, above 0
+  int frames = 0;       ///< length of the session, frames, above 0
   std::vector<CoachedPerformance> performances;
   std::vector<GivenCorrection> corrections;
 
@@ -37,11 +37,11 @@ struct CoachedSession {
 
 /// Counts of the corrections that were due, given and missed.
 struct CorrectionTally {
-  int due = 0;           ///< performances that were wrong
+  int due = 0;           ///< number of performances that were wrong
   int given = 0;         ///< number of corrections that the coach gave
-  int missed = 0;        ///< due corrections that were not given before the window of the next performance closed
-  int unneeded = 0;      ///< corrections given after a right performance, or before any performance
-  int wrong_praise = 0;  ///< wrong performances that were called right
+  int missed = 0;        ///< number of due corrections not given before the window of the next performance closed
+  int unneeded = 0;      ///< number of corrections given after a right performance, or before any performance
+  int wrong_praise = 0;  ///< number of wrong performances that were called right
 };
 CorrectionTally TallyCorrections(const CoachedSession& session);
 
@@ -70,8 +70,8 @@ std::optional<double> RepetitionsUntilRight(std::span<const std::vector<Performa
 /// if there are no tests.
 std::optional<double> Retention(std::span<const double> chances);
 
-/// Returns `beat_error_ms`: the 95th percentile of the absolute errors. The input is in seconds, the result in
-/// milliseconds. The result is empty if there are no errors.
+/// Returns `beat_error_ms`: the 95th percentile of the absolute times by which the dance is early or late. The input is
+/// in seconds, the result in milliseconds. The result is empty if there are no errors.
 std::optional<double> BeatErrorMs(std::span<const double> errors_s);
 
 /// Returns the median of `values`; `transition_jump_cm` uses it. The result is empty if there are no values.

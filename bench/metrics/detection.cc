@@ -103,7 +103,8 @@ std::optional<double> MeanFScore(std::span<const Moment> points, std::span<const
       std::ranges::copy_if(moments, std::back_inserter(own), [&](const Moment& m) { return m.move == move; });
       return own;
     };
-    sum += *MatchMoments(of_move(points), of_move(detections), tolerance_s).FScore();  // not empty: the move occurs
+    // FScore has a value, because the move occurs among the points or the detections.
+    sum += *MatchMoments(of_move(points), of_move(detections), tolerance_s).FScore();
   }
   return sum / static_cast<double>(moves.size());
 }

@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// Returns `fault_found`: among the performances with a fault of any size, the share that were not called right. The
-/// result is empty if there are no such performances.
+/// Returns `fault_found`: the share of performances with a fault, of any size, that were not called right. The result
+/// is empty if there are no such performances.
 std::optional<double> FaultFound(const std::vector<bool>& called);
 /// Returns the share of grey performances that were called right. The result is empty if there are no grey
 /// performances.

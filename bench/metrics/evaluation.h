@@ -53,11 +53,11 @@ class SeenMean {
 };
 /// Returns the mean of the values that are not NaN; nothing if all are NaN.
 std::optional<double> MeanOfSeen(std::span<const double> values);
-/// Returns, of the values that are not NaN, the share below `limit_mm`; nothing if all are NaN.
+/// Returns the share below `limit_mm` among the values that are not NaN; nothing if all are NaN.
 std::optional<double> ShareBelow(std::span<const double> values, double limit_mm);
 /// Returns the mean of ShareBelow over the limits 0, 5, …, 150 mm, as MPI-INF-3DHP's code computes it.
 std::optional<double> AucTo150(std::span<const double> values);
-/// Returns, of the joints seen in the truth over all frames, the share that is seen in the answer too; nothing if no
+/// Returns the share of joints seen in the answer among the joints seen in the truth, over all frames; nothing if no
 /// joint is seen in the truth.
 std::optional<double> SeenShare(const EvaluatedPair& pair);
 
@@ -91,8 +91,8 @@ struct FloorErrors {
 };
 FloorErrors MeasureFloor(const PointTracks& found);
 
-/// The global rotations of answer and truth as channels (QuaternionChannels). Of a quaternion's two signs, the answer
-/// takes the one nearer to the truth's quaternion. A value is NaN where a joint is not seen in both motions. There are
+/// The global rotations of answer and truth as channels (QuaternionChannels). Each quaternion of the answer has the
+/// sign that is nearer to the truth's quaternion. A value is NaN where a joint is not seen in both motions. There are
 /// no channels if answer or truth has no rotations.
 struct RotationChannels {
   ChannelTracks found, truth;

@@ -39,7 +39,8 @@ Json EncodeVector(const MetricInfo& metric, const MetricVector& vector) {
   return json;
 }
 
-constexpr std::array kReadings = {"amount", "yes-no", "share", "score"};  // in the order of Reading
+// One word per Reading, in the order of Reading.
+constexpr std::array kReadings = {"amount", "yes-no", "share", "score"};
 
 Json EncodeMetric(const MetricInfo& metric) {
   Json inputs = Json::object();

@@ -38,11 +38,11 @@ std::vector<bool> Skates(const PointTracks& feet, std::size_t toes, double rate_
   return skates;
 }
 
-/// Returns the mean speed of the feet's joints in three dimensions, m/s, over the steps for whose first frame
-/// `is_judged` returns true.
+/// Returns the mean speed of the feet's joints in three dimensions, m/s, over the steps whose first frame satisfies
+/// `is_judged`.
 template <typename IsJudged>
 double MeanSpeed(const PointTracks& feet, double rate_hz, const IsJudged& is_judged) {
-  constexpr double kNoDivisionByZero = 1e-6;  // as in Kimodo's code
+  constexpr double kNoDivisionByZero = 1e-6;  // value in Kimodo's code
   double sum = 0, count = 0;
   for (std::size_t f = 0; f + 1 < feet.FrameCount(); ++f) {
     for (std::size_t column = 0; column < feet.points; ++column) {

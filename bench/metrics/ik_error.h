@@ -11,9 +11,9 @@ namespace etude {
 /// The errors of end effectors with respect to their targets (docs/reference/metrics.md: position_error_cm,
 /// position_error_max_cm, orientation_error_deg, orientation_error_max_deg, solved_practical, solved_tight).
 struct IkErrorSummary {
-  double position_cm = 0;      ///< mean over the effectors
-  double position_max_cm = 0;  ///< the largest error of any effector
-  double orientation_deg = 0;  ///< mean over the effectors and their three axes
+  double position_cm = 0;      ///< mean position error over the effectors
+  double position_max_cm = 0;  ///< largest position error of any effector
+  double orientation_deg = 0;  ///< mean axis error over the effectors and their three axes
   double orientation_max_deg = 0;
   double axis_max_deg = 0;  ///< the largest error of any axis of any effector
 };

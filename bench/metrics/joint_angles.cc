@@ -43,7 +43,7 @@ glm::dquat ShortestArc(const glm::dvec3& from, const glm::dvec3& to) {
   const double length = glm::length(from) * glm::length(to);
   if (length == 0) return {1, 0, 0, 0};
   const double cosine = glm::dot(from, to) / length;
-  if (cosine < -1 + 1e-12) return {0, 0, 0, 1};  // upside down: half a turn about Z
+  if (cosine < -1 + 1e-12) return {0, 0, 0, 1};  // the directions are opposite: half a turn about Z
   return glm::normalize(glm::dquat(1 + cosine, glm::cross(from, to) / length));
 }
 
@@ -232,7 +232,7 @@ std::optional<double> IccOf(const AgreementSums& sums) {
   const double columns = n * bias * bias / 2;
   const double rest = (sums.square_truth + sums.square_found - 2 * sums.product) / 2 / (n - 1);
   const double all = rows + rest + 2 / n * (columns - rest);
-  constexpr double kRounding = 1e-12;  // degrees²
+  constexpr double kRounding = 1e-12;  // rounding errors of mean squares, degrees²
   if (!(all > kRounding)) return std::nullopt;
   return (rows - rest) / all;
 }

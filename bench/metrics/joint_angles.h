@@ -34,7 +34,8 @@ AngleTracks AnglesOfRotations(const RawMotion& motion);
 struct AgreementSums {
   double count = 0;
   double mean_truth = 0, mean_found = 0;
-  double square_truth = 0, square_found = 0, product = 0;  ///< sums over the deviations from the means
+  /// Sums of squares and of products of the deviations from the means.
+  double square_truth = 0, square_found = 0, product = 0;
 };
 
 /// The axis name of a series that a cell stores for each angle. The series holds the angle's sums.

@@ -7,13 +7,13 @@
 
 namespace etude {
 
-/// Counts the pairs of frames that match by a threshold on a distance. The pairs are all that a transition could have
-/// used: every bridge frame of the old clip within the allowed wait × every bridge frame of the new clip
+/// Counts pairs of frames, and the pairs among them that match by a threshold on a distance. The pairs combine every
+/// bridge frame of the old clip within the allowed wait with every bridge frame of the new clip
 /// (docs/reference/metrics.md, Matching).
 struct MatchTally {
   std::int64_t pairs = 0;
-  std::int64_t matching = 0;        ///< pairs whose distance is below the threshold
-  std::int64_t falsely_smooth = 0;  ///< matching pairs whose pose gap exceeds 20 cm (IsFalselySmooth)
+  std::int64_t matching = 0;        ///< number of pairs whose distance is below the threshold
+  std::int64_t falsely_smooth = 0;  ///< number of matching pairs whose pose gap exceeds 20 cm (IsFalselySmooth)
 };
 
 /// Returns the share of the pairs that match; empty if there are no pairs.

@@ -15,7 +15,7 @@ struct MeasuredAndTrue {
 
 /// The mean error of measurements, and the coverage: the share of true values that were measured.
 struct MeasuredError {
-  std::optional<double> mean;      ///< over all measured values; empty if there are none
+  std::optional<double> mean;      ///< mean error over all measured values; empty if there are none
   std::optional<double> coverage;  ///< share of the true values that were measured; empty if there are none
 };
 

@@ -14,7 +14,6 @@ namespace etude {
 double FaultyShare(std::span<const MotionFault> faults, FaultKind kind, double duration_s);
 /// Returns the largest size of the faults of this kind, in the kind's unit; 0 if there are none.
 double LargestFault(std::span<const MotionFault> faults, FaultKind kind);
-/// Returns the number of faults of this kind.
 double FaultCount(std::span<const MotionFault> faults, FaultKind kind);
 
 /// Returns the ids of the metrics whose values exceed their limits.

@@ -121,8 +121,8 @@ PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPos
     for (std::size_t i = 0; i < kRoleCount; ++i) {
       const double error_mm = kMmPerMetre * glm::distance(found[f].joints[i], truth[f].joints[i]);
       sums.pck_50mm += error_mm < kNear_mm;
-      // The share of correct joints, as a function of the threshold, steps from 0 to 1 at `error_mm` for a single
-      // joint. The area under that step is to the right of `error_mm`.
+      // The share of correct joints, for a single joint, is 0 at thresholds below `error_mm` and 1 above it. The area
+      // under this curve is the part of the range above `error_mm`.
       sums.auc_200mm += std::max(0.0, 1 - error_mm / kAucEnd_mm);
     }
     sums.joint_angle_error_deg += AngleErrorsDeg(found[f], truth[f], angles);

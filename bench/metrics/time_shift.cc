@@ -28,9 +28,9 @@ glm::dvec3 CubicAt(const PointTracks& tracks, double at, std::size_t joint) {
                 u * u * u * (3.0 * p(1) - p(0) - 3.0 * p(2) + p(3)));
 }
 
-/// The distance between two joints over time, metres: in the truth, its rate of change in the truth (metres per
-/// second), and in the answer at the shifted time. One entry per frame of the truth in which all three values are
-/// known.
+/// The distance between two joints over time, metres: `truth` is the true distance, `rate` its rate of change (metres
+/// per second), and `found` the answer's distance at the shifted time. There is one entry per frame of the truth in
+/// which all three values are known.
 struct Distances {
   std::vector<double> truth, rate, found;
   std::vector<std::size_t> frames;
@@ -113,7 +113,7 @@ class ShiftFinder {
   /// Returns the shift, in whole frames of the truth, that fits best. Returns nothing if no shift fits, or if the best
   /// shift is the largest that is searched.
   std::optional<int> FindWholeFrames() const {
-    constexpr std::size_t kMaxCompared = 1000;  // frames
+    constexpr std::size_t kMaxCompared = 1000;  // largest number of compared frames
     const std::size_t stride = 1 + truth_.FrameCount() / kMaxCompared;
     const std::size_t fewest = std::max(CountOf(DistancesAt(0, stride)) / 2, kMinFrames);
     const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth_rate_hz_));
@@ -176,7 +176,7 @@ class ShiftFinder {
 
   std::optional<TimeShift> Refine(double shift_s) const {
     constexpr int kMaxSteps = 50;
-    constexpr double kSettled_s = 1e-10, kMinRate_mps = 1e-4, kMaxWay = 2;  // kMaxWay in frames
+    constexpr double kSettled_s = 1e-10, kMinRate_mps = 1e-4, kMaxWay = 2;  // kMaxWay is in frames
     const double start_s = shift_s;
     for (int count = 0; count < kMaxSteps; ++count) {
       const Step step = StepAt(shift_s);
@@ -194,7 +194,7 @@ class ShiftFinder {
   /// Returns half the width of the jackknife interval over equal parts of the motion; nothing if the motion is too
   /// short.
   static std::optional<double> HalfWidth(const Step& step) {
-    constexpr std::size_t kParts = 10, kMinPart = 3;  // frames
+    constexpr std::size_t kParts = 10, kMinPart = 3;  // kMinPart is in frames
     constexpr double kStudent = 2.2621571628;         // t, 97.5 %, nine degrees of freedom
     const std::size_t frames = step.products.size();
     if (frames < kParts * kMinPart) return std::nullopt;

@@ -8,7 +8,7 @@ namespace etude {
 
 /// The time by which an answer is later than its truth.
 struct TimeShift {
-  double shift_s = 0;                  ///< the truth at time t is the answer at t + shift_s
+  double shift_s = 0;                  ///< the truth at time t corresponds to the answer at t + shift_s
   std::optional<double> half_width_s;  ///< half the width of the 95 % interval; empty if there are too few frames
 };
 

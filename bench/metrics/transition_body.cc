@@ -104,7 +104,7 @@ double Overlap(const BodyPose& pose) {
 /// The measurements of one frame.
 struct BodyFrame {
   bool flight = false;
-  std::optional<double> zmp_cm, slip_mps2;  // nothing if no joint supports the body
+  std::optional<double> zmp_cm, slip_mps2;  // nullopt if no joint supports the body
   double glide_cm = 0;                      // distance that the slowest supporting joint moves in this frame
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
   std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each foot at rest, radians
@@ -158,9 +158,9 @@ BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   return frame;
 }
 
-/// Returns the largest value that is sustained over `length` successive frames: the maximum, over all runs of that
-/// length, of the run's minimum. Frames without a value are skipped, but a flight ends a run. Returns 0 if no run is
-/// long enough, and nothing if no frame has a value.
+/// Returns the largest value that is sustained over `length` successive frames. Each run of this length counts with its
+/// minimum; the largest of these minima is returned. Frames without a value are skipped, but a flight ends a run.
+/// Returns 0 if no run is long enough, and nothing if no frame has a value.
 template <class Value>
 std::optional<double> Sustained(std::span<const BodyFrame> frames, std::size_t length, const Value& value) {
   std::optional<double> worst;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kCmPerMetre = 100;
 constexpr int kLiveFrames = 10;
-constexpr double kMinJudgedSpeed = 0.05;  // metres per second; clips that move less are not judged
-constexpr double kVelocitySeconds = 0.1;  // converts velocities to distances
+constexpr double kMinJudgedSpeed = 0.05;  // metres per second; clips that move more slowly are not judged
+constexpr double kVelocitySeconds = 0.1;  // factor that converts velocities to distances
 
 int LastFrame(const JoinView& view) { return static_cast<int>(view.shown.size()) - 1; }
 
@@ -169,7 +169,7 @@ double StrangeCmSeconds(const JoinView& view, const RealFrames& real) {
   const int end = JoinEnd(view);
   for (int frame = view.first + 1; frame <= end; ++frame) {
     sum += real.DistanceCm(view.shown[frame - 1], view.shown[frame], view.rate_hz, nearest);
-    ++nearest;  // because the next frame is probably near the next row
+    ++nearest;  // the next frame is probably near the next row
   }
   return sum / view.rate_hz;
 }

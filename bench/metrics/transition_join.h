@@ -13,14 +13,14 @@ namespace etude {
 /// A join as it was shown, together with the two clips that it joins (docs/reference/metrics.md, Transitions). All
 /// motions have the rate at which joins are judged and are in metres.
 struct JoinView {
-  std::span<const BodyPose> shown;   ///< the spliced motion
-  std::span<const BodyPose> left;    ///< the old clip, continued: left[f] is its own frame at the time of shown[f],
-                                     ///< from 0 on
-  std::span<const BodyPose> wanted;  ///< the wanted clip, placed where it is shown: wanted[k] belongs to shown[last +
-                                     ///< k]
-  int request = 0;                   ///< the frame shown when the wanted clip was requested
-  int first = 0;                     ///< the frame of the first transition point
-  int last = 0;                      ///< the frame of the last transition point
+  std::span<const BodyPose> shown;  ///< the spliced motion
+  /// The old clip, continued. left[f] is its own frame at the time of shown[f]; the first index is 0.
+  std::span<const BodyPose> left;
+  /// The wanted clip, placed where it is shown. The frame wanted[k] belongs to shown[last + k].
+  std::span<const BodyPose> wanted;
+  int request = 0;  ///< the frame shown when the wanted clip was requested
+  int first = 0;    ///< the frame of the first transition point
+  int last = 0;     ///< the frame of the last transition point
   double rate_hz = kJudgedRateHz;
   std::vector<SupportingClip> between = {};  ///< the clips in between, placed where they are shown
 };
@@ -91,9 +91,9 @@ int UnsupportedFrames(std::span<const Support> support);
 /// frames in a row.
 bool IsSupported(std::span<const Support> support);
 
-/// Returns `balance_cm`: the horizontal distance from the centre of mass to the joints that support the body
-/// (BalanceOffset), as a mean over the frames of `support` in which some joints support it. Returns nothing if there is
-/// no such frame. `support` is the result of JoinSupport.
+/// Returns `balance_cm`: the mean of BalanceOffset, the horizontal distance from the centre of mass to the supporting
+/// joints. The mean is over the frames of `support` that have a supporting joint. Returns nothing if there is no such
+/// frame. `support` is the result of JoinSupport.
 std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> support);
 
 /// The start of the wanted clip, which the transition skips. If the motion continues without a transition, no clip is
@@ -114,7 +114,7 @@ constexpr double SkippedShare(const SkippedStart& start) {
 struct CleanMeasures {
   bool natural = false, calmly_natural = false, supported = false;
   double slide_cmps = 0, strange_cm_s = 0, live = 0;
-  double own_slide_cmps = 0;  ///< foot slide of the clip that slides more, over the whole clip
+  double own_slide_cmps = 0;  ///< foot slide of the clip that slides more, measured over the whole clip
   double skipped_share = 0;
   std::optional<double> settle_s;
   bool possible = false;  ///< all measures of its body are within their limits (transition_body.h)

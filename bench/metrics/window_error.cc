@@ -42,7 +42,7 @@ class PowerSpectrum {
       powers[k] = powers[(length_ - k) % length_] = re * re + im * im;
     }
     for (const double power : powers) sum += power;
-    constexpr double kRounding = 1e-24;  // relative to the largest power that the values can have
+    constexpr double kRounding = 1e-24;  // rounding error relative to the largest power that the values can have
     if (sum > kRounding * static_cast<double>(length_) * squares) return sum;
     powers.assign(length_, 0.0);
     return 0;

@@ -16,7 +16,7 @@ namespace {
 
 struct Dances {
   std::vector<TaughtMove> taught;
-  SkeletonStream stream;  ///< all moves one after the other, with noise of 1 cm
+  SkeletonStream stream;  ///< a stream of all moves, one after the other, with noise of 1 cm
 };
 
 const Dances& AllDances() {
@@ -52,7 +52,7 @@ void Follow(benchmark::State& state, const RecogniserKind* kind) {
   const SeenStream seen = SeeStream(dances.stream, {});
   const auto follower = (*recogniser)->Follow(dances.stream.rate_hz);
   std::size_t frame = 0;
-  constexpr std::size_t kWindow = 120;  // frames
+  constexpr std::size_t kWindow = 120;  // frames for which a move is requested
   for (auto _ : state) {
     if (frame % kWindow == 0) follower->Ask(frame / kWindow % dances.taught.size());
     benchmark::DoNotOptimize(follower->Update(seen[frame % seen.frames.size()]).asked);

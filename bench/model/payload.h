@@ -18,7 +18,7 @@ struct Attachment {
 /// A function that receives files one by one, because all of them together might not fit into memory. It may fail.
 using AttachmentSink = std::function<Result<void>(const Attachment&)>;
 
-/// The data that an outside method receives about a world, or the truth about it (docs/outside-methods.md).
+/// The data that an outside method receives about a world, or the world's truth (docs/outside-methods.md).
 struct Payload {
   JsonPtr json;  ///< never null
   std::vector<Attachment> files;

@@ -12,7 +12,7 @@ namespace etude {
 
 /// One motion of a recording, and its name ("truth", "solution", …).
 struct Track {
-  std::string name;  ///< "truth", "recovered", "coach", …
+  std::string name;  ///< e.g. "truth", "recovered", "coach"
   BodyMotion motion;
 };
 

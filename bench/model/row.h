@@ -45,18 +45,18 @@ std::optional<Status> FindStatus(std::string_view name);
 struct MetricValue {
   std::string id;  ///< id of a metric in bench/metrics; the id names the unit
   std::optional<double> value;
-  std::string null_reason;  ///< why `value` is empty; "" if it is not
+  std::string null_reason;  ///< why the value is missing; "" if it is not
 };
 
 /// A curve of a cell: one value per frame or iteration, e.g. the error in each frame.
 struct Series {
-  std::string name;  ///< e.g. "mpjpe_mm"
-  std::string axis;  ///< the index of the values: "frame", "iteration", "effector", "angle"
+  std::string name;  ///< name of the curve, e.g. "mpjpe_mm"
+  std::string axis;  ///< what the values are indexed by: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
   std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into them
 };
 
-struct Track;  // Track is defined in bench/model/recording.h, which also includes motions.
+struct Track;  // Forward declaration: bench/model/recording.h defines Track and includes the headers of motions.
 
 /// The motions and other data from which a cell can be shown again, e.g. in a film, without running it.
 struct Recording {
@@ -111,12 +111,12 @@ struct Row {
   std::string task;
   std::vector<SweptValue> condition;  ///< the swept parameters and their values; empty if nothing is swept
   int trial = 0;
-  std::string clip;  ///< "" for tasks without clips
+  std::string clip;  ///< name of the world's clip; "" for tasks without clips
   /// Sampling units (clips, people, …) from which the world was drawn (Study::unit); empty if the world is its own
   /// unit.
   std::vector<std::string> units;
   std::string method;
-  CellResult result;  ///< `series` and `recording` are stored in files of their own
+  CellResult result;  ///< the result; `series` and `recording` are stored in files of their own
 
   /// Returns the cell's identity "scenario/key=value,key=value/trial/method", which is unique in a run. If nothing is
   /// swept, the condition is "-".

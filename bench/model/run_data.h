@@ -42,26 +42,27 @@ struct CellRecording {
 
 /// The software, apart from this program, on which a result may depend. The run's manifest records it.
 struct RunSystem {
-  std::string compiler;  ///< "12.2.0"
-  std::string glibc;     ///< "2.36"
-  std::string ceres;     ///< "2.1.0"
-  std::string renderer;  ///< "4.5 (Core Profile) Mesa 22.3.6, by OSMesa"; "" = nothing was drawn
+  std::string compiler;  ///< version of the compiler, e.g. "12.2.0"
+  std::string glibc;     ///< version, e.g. "2.36"
+  std::string ceres;     ///< version, e.g. "2.1.0"
+  /// The OpenGL version, e.g. "4.5 (Core Profile) Mesa 22.3.6, by OSMesa"; "" = nothing was drawn.
+  std::string renderer;
   friend bool operator==(const RunSystem&, const RunSystem&) = default;
 };
 
-/// A result folder in memory. `rows` contains all rows; of a very large run, only those of some worlds, and `source`
-/// reads all rows one by one.
+/// A result folder in memory. `rows` contains all rows, but if the run is very large, only the rows of some worlds;
+/// `source` then reads all rows one by one.
 struct RunData {
   std::string suite;
   std::uint64_t seed = 1;  ///< seed of the worlds; for secret worlds, a number derived from the digest of their key
-  std::string key_digest;  ///< for secret worlds; "" otherwise
-  std::string fence;       ///< the sandbox in which outside methods ran; "" = there were none
+  std::string key_digest;  ///< digest of the key of secret worlds; "" if worlds are not secret
+  std::string fence;       ///< description of the sandbox in which outside methods ran; "" = there were none
   std::string program_version;
   std::string command_line;  ///< the command line of the run, as host.json records it
-  std::string host;          ///< describes the machine in one line
+  std::string host;          ///< description of the machine in one line
   RunSystem system;
   double wall_seconds = 0;
-  std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
+  std::vector<Row> rows;  ///< rows in canonical order: scenario, condition, trial, method
   /// The source of all rows if the run does not fit into memory, else null. If it is set, `rows`, `series` and
   /// `cpu_seconds` contain only the data of some evenly spaced worlds; after LoadRunRowByRow they are empty.
   std::shared_ptr<const RowSource> source;

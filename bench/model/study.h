@@ -18,7 +18,7 @@ struct Expectation {
   std::string below, above;
   /// Bounds of `statistic` of the method `of`. They are set only if `of` is not compared with another method.
   std::optional<double> at_most, at_least;
-  std::string statistic = "median";  ///< median, mean or p95; only for bounds
+  std::string statistic = "median";  ///< "median", "mean" or "p95"; used only for bounds
   double confidence = 0.95;  ///< confidence level of a comparison's interval; the level of its test is 1 − confidence
   std::vector<SweptValue> where;  ///< the conditions under which the claim is judged; empty = all conditions
   Place place;
@@ -32,9 +32,9 @@ struct TimeRatio {
   Place place;
 };
 
-/// The rule by which a few far worse worlds alone are a regression, even if the statistics over all worlds show no
-/// change. Both runs have the same worlds, so every difference comes from the code. docs/gate.md explains how the
-/// defaults were measured.
+/// The rule by which a few far worse worlds count as a regression, even if the statistics over all worlds show no
+/// change. Both compared runs have the same worlds, so every difference comes from the code. docs/gate.md explains how
+/// the defaults were measured.
 struct TailRule {
   double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
   /// A comparison with at least this many far worse worlds is a regression; 0 = never.
@@ -55,15 +55,14 @@ struct GateRules {
   std::vector<TimeRatio> time_ratios;
 };
 
-/// One of the methods that a scenario compares.
 struct ComparedMethod {
   std::string name;
   std::string against;  ///< the method with which this one is compared; the first method names itself
   /// True: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
   bool has_oracle = false;
   std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces
-  std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method
-  std::string description = {};  ///< a sentence about the method, or the method's settings
+  std::string settings = {};             ///< its other settings as text; equal settings have equal texts; "" = outside
+  std::string description = {};          ///< a sentence about the method, or the method's settings
 };
 
 /// The comparisons and expectations of a scenario, and everything else that is needed to judge the scenario's rows. It
@@ -75,10 +74,10 @@ struct Study {
   std::string description = {};  ///< a sentence about its worlds; "" = not described
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 1;
-  std::vector<ComparedMethod> methods;              ///< at least one
-  std::vector<std::vector<SweptValue>> conditions;  ///< at least one
+  std::vector<ComparedMethod> methods;              ///< at least one method
+  std::vector<std::vector<SweptValue>> conditions;  ///< at least one condition
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
-  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
+  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
   /// The metric that says whether the task's goal was reached; answers compare it before the value metric. "" = the
   /// task has none.
   std::string success;

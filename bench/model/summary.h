@@ -62,7 +62,7 @@ std::string_view VerdictName(Verdict verdict);
 /// A test of paired differences (bench/statistics/paired_tests.h).
 struct PairedTest {
   std::optional<double> p;  ///< two-sided p-value; nullopt if there are no pairs
-  std::string how;          ///< "exact", "normal approximation", "9,999 draws"
+  std::string how;          ///< how p was computed, e.g. "exact", "normal approximation", "9,999 draws"
 };
 
 /// The mean difference of a comparison when the worlds of one sampling unit (clip, person, …) are left out.
@@ -114,7 +114,7 @@ struct Comparison {
   std::optional<double> effect_size;
   Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
   std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
-  std::vector<std::string> notes;            ///< further warnings for readers of the numbers
+  std::vector<std::string> notes;            ///< warnings for readers of the numbers
   Beyond beyond;                             ///< the result generalised to sampling units that were not run
 };
 
@@ -132,7 +132,7 @@ struct Answer {
   std::string method;
   /// The method with which the method is compared: the scenario's baseline, or the strongest other method.
   std::string baseline = {};
-  std::string value_metric = {};             ///< ValueMetricOf; "" if the scenario has only its success
+  std::string value_metric = {};             ///< the metric that ValueMetricOf returns; "" if there is none
   Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
   AnswerStep decided_by = AnswerStep::kNone;
   /// The verdict of the deciding comparison, generalised to other sampling units; nullopt = too few units.
@@ -140,11 +140,11 @@ struct Answer {
   /// The comparison of the success metric (Study::success), in which failed cells count 0; nullopt if no cell has a
   /// value.
   std::optional<Comparison> success = {};
-  /// The comparison of the value metric in the worlds where both methods succeeded. nullopt if both succeeded in all
-  /// worlds or in none, or if success is not a yes or no.
+  /// The comparison of the value metric in the worlds where both methods succeeded. It is nullopt if both succeeded in
+  /// all worlds or in none, or if success is not a yes-or-no value.
   std::optional<Comparison> both_succeed = {};
-  /// Compares the share of worlds in which the method is far better with the share in which it is far worse: the
-  /// difference is the former minus the latter.
+  /// The comparison of the tails: the share of worlds in which the method is far better, minus the share in which it is
+  /// far worse.
   std::optional<Comparison> tail = {};
 };
 
@@ -172,10 +172,11 @@ struct ErrorBudget {
 struct ConditionSummary {
   std::vector<SweptValue> condition;
   std::vector<MethodSummary> methods;
-  std::vector<Comparison> comparisons;  ///< every method against its baseline, for each headline metric
-  std::vector<Comparison> rivals;       ///< every method against the strongest other method, for each headline metric
-  std::vector<Answer> answers = {};     ///< answers for every method against its baseline
-  std::vector<Answer> rival_answers = {};  ///< answers for every method against the strongest other method
+  std::vector<Comparison> comparisons;  ///< comparisons of every method with its baseline, for each headline metric
+  /// Comparisons of every method with the strongest other method, for each headline metric.
+  std::vector<Comparison> rivals;
+  std::vector<Answer> answers = {};        ///< answers about every method against its baseline
+  std::vector<Answer> rival_answers = {};  ///< answers about every method against the strongest other method
   /// Error budgets of the first headline metric, for methods that differ only in the stages that ground truth replaces.
   std::vector<ErrorBudget> budgets = {};
 };
@@ -188,7 +189,7 @@ struct AcrossVerdict {
   std::string baseline;
   std::string method;
   struct Each {
-    std::string value;  ///< "learning=power"
+    std::string value;  ///< the parameters' values, e.g. "learning=power"
     Verdict verdict = Verdict::kInconclusive;
     std::optional<double> difference;
   };
@@ -206,7 +207,7 @@ std::string_view ClaimOutcomeName(ClaimOutcome outcome);
 
 /// An expectation of a scenario and its result.
 struct ExpectationResult {
-  std::string text;  ///< "orientation_error_deg of adaptive below fixed"
+  std::string text;  ///< the claim, e.g. "orientation_error_deg of adaptive below fixed"
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
   std::string detail;  ///< the numbers that decided the outcome
 };
@@ -222,7 +223,7 @@ struct ScenarioSummary {
   std::vector<ExpectationResult> expectations;
   /// Number of comparisons, over all conditions and headline metrics, to which Holm's correction applies together.
   int family = 0;
-  std::vector<AcrossVerdict> across = {};  ///< verdicts across parameters; empty without the key `across`
+  std::vector<AcrossVerdict> across = {};  ///< verdicts across parameters; empty if the scenario has no key `across`
   std::string description = {};            ///< a sentence about its worlds; "" = not described
   /// One sentence about each method; empty if the scenario describes no method.
   std::vector<std::string> descriptions = {};

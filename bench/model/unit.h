@@ -14,7 +14,7 @@ enum class SamplingUnit {
   kWorld,     ///< each world is its own unit
   kPerson,    ///< the person in a world; each world has another person
   kClip,      ///< the first clip that a world shows
-  kClipPair,  ///< both clips of a world: the clip that is left and the wanted clip
+  kClipPair,  ///< both clips of a world: the clip that a transition leaves and the clip that it enters
   kLibrary,   ///< the folder from which a world's clips come
 };
 inline constexpr std::array<Named<SamplingUnit>, 5> kSamplingUnits = {{{"world", SamplingUnit::kWorld},

@@ -241,8 +241,8 @@ class ConformanceTest {
     return {};
   }
 
-  /// For a method that solved no problem: reports a failed check if a plain built-in method solves some of the
-  /// problems. Also tests whether the method's angles are in radians.
+  /// If the method solved no problem, but a plain built-in method solves some of the problems, reports a failed check.
+  /// Also tests whether the method's angles are in radians.
   void CheckAgainstPlain() {
     int plain = 0, in_radians = 0;
     for (std::size_t i = 0; i < first_.size(); ++i) {

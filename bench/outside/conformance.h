@@ -14,13 +14,14 @@ namespace etude {
 struct SpecimenProblem {
   std::string id;
   std::string setting_id;
-  std::shared_ptr<const Payload> setting;  ///< shared by all problems of the specimen, or of this world alone
+  /// The setting, shared by all problems of the specimen or of this world alone.
+  std::shared_ptr<const Payload> setting;
   std::unique_ptr<TaskWorld> world;
-  Payload problem;  ///< empty for tasks with seats
+  Payload problem;  ///< the problem; empty for tasks with seats
 };
 
 struct Specimen {
-  std::unique_ptr<ClipLibrary> clips;  ///< must outlive the task
+  std::unique_ptr<ClipLibrary> clips;  ///< the clips, which must outlive the task
   std::unique_ptr<Task> task;
   std::vector<SpecimenProblem> problems;
   bool has_plain_method = false;  ///< method 0 of its worlds is a built-in method that solves them

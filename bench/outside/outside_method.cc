@@ -93,7 +93,7 @@ struct OutsideMethod::State {
     int times = 0;  ///< number of failures in a row
     OutsideFailure last;
   };
-  std::map<std::string, Failures> failures;  ///< by the name of the step
+  std::map<std::string, Failures> failures;  ///< failures by the name of the step
 };
 
 /// Runs `act`, a step that many problems share (the start, a setting). After kMaxFailures failures in a row, returns
@@ -226,7 +226,7 @@ Outcome<void> OutsideMethod::State::ReadPendingLines(Read read) {
 template <typename Read>
 auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Read read, Measuring measuring)
     -> Outcome<typename decltype(read(line))::value_type> {
-  // Send the line.
+  // Handle the pending lines, then send this line.
   const auto limit = std::chrono::duration<double>(std::min(seconds, kMaxLimit_s));
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
   RETURN_IF_ERROR(ReadPendingLines(read));

@@ -20,15 +20,15 @@ struct OutsideOptions {
   std::string task;                  ///< the kind of task, sent in the handshake
   std::string options_json = {};     ///< an object sent in the handshake; "" = {}
   double time_s = 300;               ///< time limit per problem, or per step of a session
-  double memory_mb = 4096;           ///< limit of resident memory, with all processes of the program
-  std::string error_file = {};       ///< file for its standard error, up to 1 MiB; "" = it shares ours
+  double memory_mb = 4096;           ///< limit of resident memory of the program with all its processes
+  std::string error_file = {};       ///< file for its standard error, up to 1 MiB; "" = it shares Etude's
   /// The shortest time limit, in seconds, of the handshake and of each setting; `time_s` applies if it is longer.
   /// During these steps, programs load libraries and models.
   double start_s = 30;
   Fence fence = {};                     ///< the sandbox in which the program runs
   std::vector<std::string> files = {};  ///< files that the sandbox shows the program (ProgramView)
-  /// Keys the random ids that replace the names of settings and problems. With a secret seed the program is restarted
-  /// for every setting, so that its memory carries nothing from one condition to the next.
+  /// The seed of the random ids that replace the names of settings and problems. With a secret seed the program is
+  /// restarted for every setting, so that its memory carries nothing from one condition to the next.
   Seed seed = 1;
 };
 
@@ -43,10 +43,11 @@ struct OutsideReply {
   /// False if this machine or its set-up is the cause: the program was not asked, or never replied to its first
   /// handshake. `reason` then says why.
   bool was_asked = true;
-  JsonPtr answer;         ///< an object with finite numbers
-  double cpu_s = 0;       ///< processor time since the last reply; 0 if the program ended before the first sample
-  double peak_mb = 0;     ///< the program's largest memory during this problem, sampled 50 times a second
-  int repeated = 0;       ///< lines ignored before this reply, because they repeat answers to earlier questions
+  JsonPtr answer;      ///< an object with finite numbers
+  double cpu_s = 0;    ///< processor time since the last reply; 0 if the program ended before the first sample
+  double peak_mb = 0;  ///< the program's largest memory during this problem, sampled 50 times a second
+  /// Number of lines ignored before this reply, because they repeat answers to earlier questions.
+  int repeated = 0;
 };
 
 /// A program that answers problems over its standard input and output. It is started for the first problem, kept for

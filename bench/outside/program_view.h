@@ -22,13 +22,13 @@ struct ProgramView {
 ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<std::string>& files);
 
 /// Returns the files and folders that a program may lack if it did not start in a sandbox. Candidates are the target of
-/// the program's link, the paths in its text if it is a script, and the paths in `words`, its last output. A candidate
-/// that the sandbox does not show is returned as the folder of the installation that contains it. Empty = nothing is
-/// known to be missing.
+/// the program if it is a link, the paths in its text if it is a script, and the paths in `words`, its last output. A
+/// candidate that the sandbox does not show is returned as the folder of the installation that contains it. Empty =
+/// nothing is known to be missing.
 std::vector<std::filesystem::path> FindUnseen(const ProgramView& view, std::string_view words);
 
-/// Returns the key `files` that shows a program `unseen` in addition to the files it sees already: "files: [mine,
-/// /home/me/venv]".
+/// Returns the text of a key `files` with which the sandbox shows a program `unseen` in addition to the files shown
+/// already, e.g. "files: [mine, /home/me/venv]".
 std::string FilesThatShow(const std::vector<std::filesystem::path>& unseen, const ProgramView& view);
 
 /// Returns the folder of Etude's Python package: `share/etude/python` of an installation, else `python` in a folder

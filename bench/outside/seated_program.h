@@ -25,7 +25,6 @@ class SeatedProgram : public LiveProgram {
   double cpu_s() const { return cpu_s_; }
   double peak_mb() const { return peak_mb_; }
   int repeated() const { return repeated_; }
-  /// Returns the digest of all answers of the program.
   std::string AnswersDigest() const { return answers_.Hex(); }
 
  private:

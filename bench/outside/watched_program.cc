@@ -22,7 +22,7 @@
 namespace etude {
 namespace {
 
-constexpr long kTailBytes = 4096;  // the number of bytes at the end in which the last line is searched
+constexpr long kTailBytes = 4096;  // size of the end of the output in which the last line is searched
 
 /// Opens a log file for appending, and creates its folder. Links are not followed, because a resumed run may come from
 /// somebody else.
@@ -260,7 +260,7 @@ std::string WatchedProgram::WithoutFolder(std::string text) const {
   if (!attachment_root_) return text;
   const std::string folder = attachment_root_->path().string();
   for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
-    const std::size_t own = at + folder.size();  // each message has its own folder below
+    const std::size_t own = at + folder.size();  // below `folder`, each message has a folder of its own
     const bool is_named = own < text.size() && text[own] == '/';
     text.replace(at, folder.size() + (is_named ? 1 + AttachmentFolder::kNameLength : 0), "FILES");
   }

@@ -50,7 +50,7 @@ class ErrorLog {
 struct OutsideFailure {
   Status status = Status::kFailed;
   std::string reason;
-  bool was_asked = true;  ///< false: this machine is the cause
+  bool was_asked = true;  ///< false: this machine, not the program, is the cause
 };
 template <typename T>
 using OutsideOutcome = tl::expected<T, OutsideFailure>;
@@ -111,13 +111,13 @@ class WatchedProgram {
   const OutsideOptions& options_;
   ErrorLog errors_;
   std::optional<TemporaryFolder> attachment_root_;
-  ProgramView view_;    ///< the view of the child, without attachments and package
+  ProgramView view_;    ///< the view of the child, without attachments and the Python package
   ControlGroup group_;  ///< the child's group; if this machine provides none, `meter_` measures the memory
   std::optional<ChildProcess> child_;
   std::optional<TreeMeter> meter_;  ///< measures the child and its processes
   Clock::time_point last_measured_{};
   double cpu_s_ = 0;          ///< processor time of the running program at the last sample
-  double cpu_charged_s_ = 0;  ///< the part that TakeCpuSeconds has already returned
+  double cpu_charged_s_ = 0;  ///< the part of cpu_s_ that TakeCpuSeconds has already returned
   double peak_mb_ = 0;
 };
 

@@ -308,8 +308,8 @@ class DensePeer final : public IkPeer {
     return gain;
   }
 
-  // Descends from the current pose until the problem is solved, or until the cost has not fallen below `progress` times
-  // its last value for kMaxPatience steps.
+  // Reduces the cost by damped steps from the current pose. Ends when the problem is solved, or when the cost has not
+  // fallen below `progress` times its last value for kMaxPatience steps.
   void Descend(double progress) {
     double fallen_to = pose_.cost, factor = 1, growth = 2;
     bool has_moved = true;
@@ -341,7 +341,7 @@ class DensePeer final : public IkPeer {
     if (pose_.cost < best_.cost) best_ = pose_;
   }
 
-  static constexpr double kMinTurn = 1e-10;  // radians
+  static constexpr double kMinTurn = 1e-10;  // smallest turn that counts as a step, radians
 
   const int dofs_, ends_, rows_;
   std::vector<Joint> joints_;

@@ -13,7 +13,7 @@ namespace etude {
 
 struct IkPeerAnswer {
   std::vector<double> angles;
-  int steps = -1;  ///< −1 = unknown
+  int steps = -1;  ///< steps of the solver; −1 = unknown
 };
 
 /// Inverse kinematics by another library. The library's model is built once and holds everything that does not depend

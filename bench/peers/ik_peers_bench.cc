@@ -30,7 +30,7 @@ namespace etude {
 namespace {
 
 constexpr int kSeeds = 4;
-constexpr char kCompared[] = "gauss-newton, plain";  // the unit of relative times
+constexpr char kCompared[] = "gauss-newton, plain";  // the method whose time is the unit of relative times
 
 const KinematicTree& Body() {
   static const KinematicTree tree = MakeBodyTree({});

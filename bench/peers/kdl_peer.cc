@@ -30,7 +30,8 @@ KDL::Tree ToKdl(const KinematicTree& tree) {
   KDL::Tree made("root");
   const TreeState rest = StandingState(tree);
   std::vector<std::string> limb_names(tree.joints.size(), "root");  // the last segment of each joint
-  std::vector<KDL::Frame> offsets(tree.joints.size());              // from a joint's last segment to its limb
+  // Frame of each joint's limb relative to the joint's last segment.
+  std::vector<KDL::Frame> offsets(tree.joints.size());
   for (std::size_t n = 0; n < tree.joints.size(); ++n) {
     const TreeJoint& joint = tree.joints[n];
     KDL::Frame base(ToRotation(joint.R_PJ), ToVector(joint.p_PJ));

@@ -177,7 +177,7 @@ OpenCvModel::OpenCvModel(OpenCvModel&&) noexcept = default;
 Mask OpenCvModel::Find(const ColourImage& picture) {
   State& s = *state_;
   s.model->apply(ViewOf(picture), s.found);
-  cv::threshold(s.found, s.buffers.changed, 200, 255, cv::THRESH_BINARY);  // 127 is shadow
+  cv::threshold(s.found, s.buffers.changed, 200, 255, cv::THRESH_BINARY);  // the value 127 means shadow
   Mask out(picture.width, picture.height);
   KeepPersonByLabels(s.buffers.changed, s.max_hole_px, s.buffers, out);
   return out;

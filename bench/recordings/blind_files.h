@@ -18,7 +18,7 @@ struct BlindKey {
     std::optional<double> left, right;
   };
   struct Pair {
-    std::string scenario, world;  ///< "trial 3"
+    std::string scenario, world;  ///< the scenario's name and, for example, "trial 3"
     std::string left, right;      ///< the methods shown on the left and on the right
     std::vector<Metric> metrics;
   };
@@ -33,7 +33,7 @@ struct BlindKey {
 /// The answers of one person, as the page saves them.
 struct BlindAnswers {
   std::string page, rater;
-  std::vector<std::string> preferred;  ///< by pair: "left", "right", "same", or "" without an answer
+  std::vector<std::string> preferred;  ///< the answer for each pair: "left", "right", "same", or "" = no answer
 };
 
 std::string WriteBlindKey(const BlindKey& key);

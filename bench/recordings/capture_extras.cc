@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-using SortedJson = nlohmann::json;  // keys are sorted alphabetically
+using SortedJson = nlohmann::json;  // sorts keys alphabetically
 
 constexpr const char* kFormat = "etude-capture";
 constexpr int kVersion = 1;

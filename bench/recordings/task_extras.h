@@ -30,7 +30,7 @@ struct IkExtras {
 struct TransitionExtras {
   /// A transition point: a pair of frames at which the motion changed clips. Frame numbers are those of the clips.
   struct Point {
-    std::string from, to;  ///< clips; "in-between" for the method's own frames
+    std::string from, to;  ///< names of the clips; "in-between" for the method's own frames
     std::optional<int> from_frame = {}, to_frame = {};
     std::optional<double> distance = {};
     /// Partial distances S_k Δ_k² of the features; their sum is the squared distance.
@@ -44,19 +44,20 @@ struct TransitionExtras {
     std::optional<PerFeature> partials;
     /// The cost by which the candidates are ranked; nullopt if they are ranked by distance.
     std::optional<double> cost;
-    std::string outcome;  ///< "taken", "too far", "later", "worse"
+    std::string outcome;  ///< the pair's outcome: "taken", "too far", "later", "worse"
 
     bool operator==(const Candidate&) const = default;
   };
 
   std::optional<int> transition_frame;  ///< the first entry of `transition_frames`
-  std::vector<int> transition_frames;   ///< each is the last frame of a clip, before the next clip begins
+  std::vector<int> transition_frames;   ///< the last frame of each clip before the next clip begins
   std::string from, to;                 ///< the clip that is left, and the wanted clip
-  std::string branch;                   ///< the kind of transition: "front half", "in-between", …
+  std::string branch;                   ///< the kind of transition, e.g. "front half", "in-between"
   std::string why;                      ///< a sentence that says why this transition was chosen
   std::optional<int> request_frame;     ///< frame of the request; negative if it was before the start of the recording
   std::optional<double> wait_s, threshold, natural_limit_cm;
-  std::optional<double> distance;  ///< the largest distance of the transition points; `partials` has its terms
+  /// The largest distance of any transition point; `partials` has the terms of its square.
+  std::optional<double> distance;
   std::optional<PerFeature> weights, partials;
   std::optional<std::int64_t> pairs_seen, pairs_matched;
   std::vector<Point> points;
@@ -149,8 +150,8 @@ struct PlausibilityExtras {
 template <typename Extras>
 std::string WriteExtras(const Extras& extras);
 /// Reads the text that WriteExtras returns. Fails if the text is not a JSON object. If a key is missing or has a value
-/// of another type, fails and names the key. In IkExtras and TransitionExtras, such members stay empty instead, because
-/// recordings of older runs and of outside methods contain less.
+/// of another type, fails and names the key. In IkExtras and TransitionExtras, such members stay empty, because
+/// recordings of older runs and of outside methods have fewer keys.
 template <typename Extras>
 Result<Extras> ReadExtras(const std::string& json);
 

@@ -108,7 +108,7 @@ CellCheck CompareIdentity(const Row& then, const Row& now) {
 }
 
 CellCheck CompareRows(const Row& then, const Row& now) {
-  CellCheck check = CompareIdentity(then, now);  // the values of another cell's row prove nothing
+  CellCheck check = CompareIdentity(then, now);  // rows of different cells are not compared further
   const auto differ = [&](const std::string& stage, const std::string& was, const std::string& is) {
     if (check.same && was != is) check = {check.cell, false, stage, was, is};
   };

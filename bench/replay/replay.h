@@ -25,7 +25,7 @@ struct CellCheck {
   /// "recording". If the rows belong to different cells: "scenario", "task", "cell", "clip" or "units". "" if nothing
   /// differs.
   std::string stage;
-  std::string then, now;  ///< the old and the new value
+  std::string then, now;  ///< the value in the old row and in the new row
   /// The new row without curves and recording, if `options.cells` names the cell.
   std::optional<Row> row = std::nullopt;
 };
@@ -37,23 +37,23 @@ CellCheck CompareRows(const Row& then, const Row& now);
 
 struct ReplayOptions {
   std::string folder;
-  std::vector<std::string> cells;          ///< identities as in cells.jsonl; empty = a sample
-  std::optional<std::size_t> sample = {};  ///< the size of the sample; nothing = all cells
+  std::vector<std::string> cells;          ///< identities of cells, as in cells.jsonl; empty = a sample
+  std::optional<std::size_t> sample = {};  ///< the size of the sample; nullopt = all cells
   /// The seed of the sample; nullopt = the seed of the suite. The maker of the run knows the suite's seed and thus its
   /// sample.
   std::optional<std::uint64_t> dice = {};
-  bool recorded_too = false;      ///< true: in addition to the sample, all cells with a recording
+  bool recorded_too = false;      ///< true: all cells with a recording are chosen in addition to the sample
   bool without_programs = false;  ///< true: cells that need outside programs are left out
-  int jobs = 0;                   ///< worker processes; 0 = one per processor
+  int jobs = 0;                   ///< number of worker processes; 0 = one per processor
   OutsideRules outside;
-  std::optional<SecretKey> key = {};  ///< the key of secret worlds
+  std::optional<SecretKey> key = {};
   Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
   OnProgress on_progress = {};  ///< receives the number of finished cells
 };
 
 struct ReplayOutcome {
-  std::vector<CellCheck> checks;  ///< in canonical order; only the finished ones if the replay was stopped
+  std::vector<CellCheck> checks;  ///< checks in canonical order; if the replay was stopped, those of the finished cells
   CellChoice choice;
 };
 

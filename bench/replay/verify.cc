@@ -294,7 +294,7 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
 Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   const FilePath folder = Inside(options.folder);
   ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored, Held::kOutline));
-  // The rows come first: without them, no other check makes sense.
+  // Check the rows first, because all other checks rely on them.
   VerifyOutcome outcome;
   std::vector<Verified>& all = outcome.checks;
   all.push_back({"seal.json: every file is unchanged since it was sealed", {}});

@@ -10,13 +10,14 @@ namespace etude {
 
 /// One check of a result folder, and the differences that it found.
 struct Verified {
-  std::string what;                      ///< "summary.json: computed again from 480 rows"
+  /// The check and its extent, e.g. "summary.json: computed again from 480 rows".
+  std::string what;
   std::vector<std::string> differences;  ///< the differences found; empty if there are none
 };
 
 struct VerifyOutcome {
   std::vector<Verified> checks;
-  std::optional<CellChoice> choice;  ///< the cells that were run again; nothing if none were
+  std::optional<CellChoice> choice;  ///< the cells that were run again; nullopt if none were
 };
 
 /// Checks that a result folder is consistent, even if somebody renewed its seal. It checks the seal, the set of files

@@ -47,7 +47,7 @@ void CheckHost(const Json& host, const std::string& path, std::vector<std::strin
   for (const auto& [key, _] : usual.items()) {
     if (!host.contains(key)) differences.push_back(fmt::format("{}: '{}' is missing", path, key));
   }
-  usual.update({{"fence", ""}, {"memory", ""}, {"shards", Json::array()}});  // not in every run
+  usual.update({{"fence", ""}, {"memory", ""}, {"shards", Json::array()}});  // keys that not every run has
   for (const auto& [key, value] : host.items()) {
     if (!usual.contains(key)) {
       differences.push_back(fmt::format("{}: no run writes '{}'", path, key));
@@ -88,7 +88,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   };
   for (const char* key : kSaidByMachine) keep(then, now, key);
   if (then.contains("scored") && now.contains("scored")) {
-    for (const char* key : {"answers", "digest"}) {  // of the scored answers, which are not in the folder
+    for (const char* key : {"answers", "digest"}) {  // describe the scored answers, which are not in the folder
       if (const Json& scored = then.at("scored"); scored.contains(key)) now["scored"][key] = scored.at(key);
     }
   }

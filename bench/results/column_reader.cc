@@ -190,7 +190,7 @@ class ScenarioColumns {
     return {};
   }
 
-  /// Parses those texts that are lists of units.
+  /// Parses the texts that are lists of units.
   Result<void> ReadUnits(const FilePath& folder) {
     units_.resize(index_.texts.size());
     if (!texts_[kUnits]) return {};
@@ -214,7 +214,8 @@ class ScenarioColumns {
   ColumnIndex index_;
   std::optional<NpyFile> status_, kind_, cpu_s_;
   std::array<std::optional<NpyFile>, kTextColumns.size()> texts_;
-  std::vector<std::vector<std::string>> units_;  ///< one list per text; empty unless the text is a list of units
+  /// For each text, the units that it lists; empty if it is not a list of units.
+  std::vector<std::vector<std::string>> units_;
   // The maps are behind pointers, so that pointers in KindColumns stay valid when this object is moved.
   std::unique_ptr<Files> values_ = std::make_unique<Files>(), digests_ = std::make_unique<Files>(),
                          curves_ = std::make_unique<Files>(), ends_ = std::make_unique<Files>();
@@ -252,7 +253,7 @@ class ColumnRows : public RowSource {
   std::size_t Within(std::size_t place) const { return place - firsts_[ScenarioAt(place)]; }
 
   std::vector<ScenarioColumns> scenarios_;
-  std::vector<std::size_t> firsts_ = {0};  ///< index of each scenario's first row; at the end the number of all rows
+  std::vector<std::size_t> firsts_ = {0};  ///< index of each scenario's first row, and then the number of all rows
 };
 
 }  // namespace

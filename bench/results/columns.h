@@ -34,7 +34,7 @@ struct ColumnIndex {
   /// The data that several rows share: their metrics, stages and curves, in order, and the reasons of missing values.
   struct Kind {
     std::vector<std::string> metrics;
-    std::vector<std::optional<int>> why;  ///< one per metric: why it has no value; an index in `texts`, or kOwnReason
+    std::vector<std::optional<int>> why;  ///< for each metric, why it has no value: an index in `texts`, or kOwnReason
     std::vector<std::string> stages;
     std::vector<Series> series;  ///< the curves, without their values
   };
@@ -43,7 +43,7 @@ struct ColumnIndex {
   std::vector<std::vector<SweptValue>> conditions;
   int trials = 0;
   std::vector<std::string> methods;
-  std::vector<std::string> texts = {""};  ///< reasons, clips and units; columns hold indices of these
+  std::vector<std::string> texts = {""};  ///< reasons, clips and units; columns contain indices of these texts
   std::vector<Kind> kinds;
 
   std::vector<std::size_t> shape() const {

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 /// Returns a file name for a cell "scenario/condition/trial/method". A long name is shortened, with a digest to keep it
 /// unique.
 std::string FileNameOf(std::string cell) {
-  constexpr std::size_t kMaxNameLength = 200;  // bytes; file systems allow 255, the extension included
+  constexpr std::size_t kMaxNameLength = 200;  // bytes; file systems allow 255, including the extension
   std::replace(cell.begin(), cell.end(), '/', '~');
   if (cell.size() > kMaxNameLength)
     cell = cell.substr(0, kMaxNameLength) + "~" + Digest().Add(std::string_view(cell)).Hex();

@@ -77,7 +77,7 @@ Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = S
 /// Reads a result folder without holding its rows, curves and recordings in memory: `source` reads them one by one.
 Result<RunData> LoadRunRowByRow(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
-/// Reads all but rows, series and recordings.
+/// Reads everything except rows, series and recordings.
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// Fails if another run has replaced the folder since `run` was loaded.

@@ -19,7 +19,7 @@ std::size_t SizeOf(std::string_view type) { return static_cast<std::size_t>(type
 void EndAfterCutFile(int) {
   constexpr std::string_view kComplaint = "etude: a file of a run was cut short while it was read\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kComplaint.data(), kComplaint.size());
-  ::_exit(3);  // the exit code of every fault of the machine
+  ::_exit(3);  // the exit code for faults of the machine
 }
 
 }  // namespace

@@ -139,7 +139,6 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
   std::array<unsigned char, crypto_sign_BYTES> over_all;
   crypto_sign_detached(over_all.data(), nullptr, all.data(), all.size(), secret);
   sodium_memzero(key.data(), key.size());
-  // Write both files.
   RETURN_IF_ERROR(WriteFileAtomically(Inside(folder) / kSignedFile, digests));
   return WriteFileAtomically(Inside(folder) / kSignatureFile,
                              fmt::format("{}signature of a run of Etude\n{}\n{}{}\n{}\n", kComment, Encode(signature),

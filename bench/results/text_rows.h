@@ -9,10 +9,10 @@
 
 namespace etude {
 
-/// Opens the rows of a run that are lines of text, so that they are read one at a time: only the places of the lines
-/// are held in memory. Every line is decoded once; fails with file:line if one of them is not as DecodeRow allows, or a
-/// line of curves or times is not as a run writes it. Curves and times of unknown cells are left out, as are all but
-/// the first of a cell. A line that changes later is read as an empty row.
+/// Opens the rows of a run that are stored as lines of text. Only the positions of the lines are held in memory; the
+/// source reads one row at a time. This function decodes every line once. It fails, with file:line, if DecodeRow
+/// refuses a line, or if a line of curves or times is not as a run writes it. Curves and times of unknown cells are
+/// ignored, and so are second lines of a cell. A line that is changed later is read as an empty row.
 Result<std::shared_ptr<const RowSource>> OpenTextRows(const std::filesystem::path& folder,
                                                       const std::vector<std::string>& scenarios);
 

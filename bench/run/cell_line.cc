@@ -25,7 +25,6 @@ std::optional<std::size_t> IndexInCatalogue(const std::string& id) {
   return static_cast<std::size_t>(FindMetric(id) - AllMetrics().data());
 }
 
-/// Appends items to the list that is a member of `line`.
 void Append(Json& line, const char* member, std::initializer_list<Json> items) {
   for (const Json& item : items) line[member].push_back(item);
 }

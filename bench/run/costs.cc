@@ -34,7 +34,7 @@ void Add(const Node& node, Digest& digest) {
   }
 }
 
-/// Does one yardstick of work: a fixed amount of arithmetic on 4 KB, which fit into the first-level cache.
+/// Does one yardstick of work: a fixed amount of arithmetic on 4 KB of data, which fit into the first-level cache.
 void DoOneYardstick(std::array<double, 512>& values) {
   constexpr std::size_t kPasses = 400, kStride = 7;
   for (std::size_t pass = 0; pass < kPasses; ++pass) {

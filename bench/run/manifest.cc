@@ -100,7 +100,7 @@ std::string DigestOf(const std::vector<std::string>& texts) {
 /// The libraries that affect results, given by the beginnings of their file names: C and C++, the renderer and its
 /// compiler, Ceres with its linear algebra and orderings, image codecs. Eigen, GLM, Random123 and, on Debian 12, Ceres
 /// are compiled into the program, whose build is stated in the head of a journal. Libraries that only draw pages, read
-/// fonts or train are not listed, so their updates do not change the identity of a run.
+/// fonts or learn weights are not listed, so their updates do not change the identity of a run.
 constexpr std::array kDecisiveLibraries = {
     "libc.",        "libm.",       "libstdc++.",   "libOSMesa.", "libEGL_mesa.", "libgallium", "swrast_dri.",
     "libglapi.",    "libLLVM",     "libblas.",     "libceres.",  "liblapack.",   "libatlas",   "libopenblas",

@@ -35,7 +35,7 @@ Result<PreparedRun> PrepareRun(const FilePath& manifest, const std::optional<Sec
 
 /// A value that differs between two manifests.
 struct JsonDifference {
-  std::string path;       ///< "libraries.libLLVM-15.so.1", "scenarios[0].trials"
+  std::string path;       ///< place of the value, e.g. "libraries.libLLVM-15.so.1", "scenarios[0].trials"
   std::string then, now;  ///< the two values, shortened; "absent" if missing
 
   bool operator==(const JsonDifference&) const = default;

@@ -33,7 +33,8 @@ Measured ReadValue(const std::string& id, const OutsideReply& reply) {
   const auto missing = [&](Status status, std::string why) {
     return Measured{status, {id, std::nullopt, std::move(why)}};
   };
-  if (reply.status == Status::kUnsolved) return missing(reply.status, reply.reason);  // "gave no answer: …"
+  // The reason is "gave no answer: …".
+  if (reply.status == Status::kUnsolved) return missing(reply.status, reply.reason);
   if (reply.status != Status::kOk) return missing(reply.status, fmt::format("its program: {}", reply.reason));
   AnswerFields fields(*reply.answer);
   const Json* value = fields.Raw("value");

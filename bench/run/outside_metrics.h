@@ -28,7 +28,7 @@ class OutsideMetrics {
   OutsideReply Ask(std::size_t metric, const std::string& id, const Payload& cell);
 
   const PreparedScenario& scenario_;
-  std::vector<OutsideMethod> programs_;  ///< one program per metric
+  std::vector<OutsideMethod> programs_;  ///< the program of each metric
   std::vector<Payload> settings_;
 };
 

@@ -33,7 +33,7 @@ struct RunOptions {
   std::string clip_facts = {};  ///< additional lines of the joint map, such as "unit: cm\n"
   bool skip_refused = false;    ///< true: clips that cannot be read are left out, and the manifest lists them
   bool keeps_motions = false;   ///< true: every cell is recorded
-  std::string output;           ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
+  std::string output;           ///< the result folder; "" = out/<suite>-<seed>, followed by "-<i>-of-<n>" for a shard
   bool overwrite = false;       ///< true: a run that the folder contains is replaced
   bool resume = false;          ///< true: the run that the folder contains is continued
   /// True: the run may be resumed although libraries have changed; the folder records the changes.
@@ -41,7 +41,7 @@ struct RunOptions {
   Shard shard;   ///< the part of the run to do; by default the whole run
   int jobs = 0;  ///< number of worker processes; 0 = one per processor
   OutsideRules outside;
-  JournalLag sync;           ///< how many results may be unsynchronised with the disk, and for how long
+  JournalLag sync;           ///< limits on the number and age of results that are not yet on the disk
   std::string command_line;  ///< the command line that host.json records
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;

@@ -33,14 +33,14 @@ struct ScenarioSetup {
   Seed seed = 1;
   int trials = 1;
   std::vector<std::string> clips;          ///< references to clips: the scenario's own, or those of the option --clips
-  std::string joint_map;                   ///< a key of SuiteSetup::sources; "" = none
+  std::string joint_map;                   ///< name of the joint map, a key of SuiteSetup::sources; "" = none
   std::string digest;                      ///< digest of the scenario's texts
   std::vector<NamedClips> libraries = {};  ///< the scenario's own clip libraries, and those of the option --library
   /// References to recordings: the scenario's own, or those of the option --streams.
   std::vector<std::string> streams = {};
   std::vector<std::string> labels = {};   ///< names of label files, keys of SuiteSetup::sources
   std::vector<RefusedClip> refused = {};  ///< files left out of `clips`, `libraries` and `streams`
-  std::vector<JudgedFiles> files = {};    ///< the worlds of a task that judges files, one per trial
+  std::vector<JudgedFiles> files = {};    ///< the worlds of a task that judges files, by trial
   /// True: every cell is recorded (--keep motions); false: only the cells that `video` names.
   bool keeps_motions = false;
 };
@@ -71,7 +71,7 @@ struct SuiteSetup {
   std::map<std::string, std::vector<Scenario>> parsed = {};
 };
 
-/// Encodes a set-up as JSON. Of a secret seed, only its digest is written.
+/// Encodes a set-up as JSON. A secret seed is represented by its digest alone.
 Json EncodeSetup(const SuiteSetup& setup);
 /// Reads a set-up from JSON. Fails if the JSON is not a set-up, contains no scenario, or has a scenario with no or too
 /// many trials.
@@ -111,10 +111,10 @@ class PreparedScenario {
   ScenarioSetup setup_;
   Scenario scenario_;
   std::unique_ptr<ClipLibrary> clips_;
-  std::map<std::string, ClipLibrary> libraries_;  ///< clip libraries, by name
+  std::map<std::string, ClipLibrary> libraries_;
   std::unique_ptr<LabelledStreams> recordings_;
   std::unique_ptr<OpenOptions> opening_;
-  std::vector<std::unique_ptr<Task>> tasks_;  ///< one task per condition
+  std::vector<std::unique_ptr<Task>> tasks_;  ///< the task of each condition
   /// Names from which random numbers are derived, one per condition (WorldKey::scenario).
   std::vector<std::string> dice_names_;
 };
@@ -144,7 +144,7 @@ class ParsedSuite {
 
  private:
   const SuiteSetup& suite_;
-  std::map<std::string, std::vector<Scenario>> parsed_;  ///< the parsed scenarios, by file
+  std::map<std::string, std::vector<Scenario>> parsed_;
 };
 
 /// Loads the clips of a scenario (from ParsedSuite::Find) and makes its tasks. Fails if a clip, or a key of a method,

@@ -26,15 +26,15 @@ namespace {
 
 constexpr int kPollMilliseconds = 20;  // pause between two measurements of workers' memory and time
 constexpr double kAheadS = 0.05;       // seconds of work that a worker gets at a time, estimated from earlier worlds
-// If a longer world is begun last, this costs more than preparing its condition on a second worker.
+// A longer world counts as long: begun last, it would delay the run more than preparing its condition on two workers.
 constexpr double kLongWorldS = 1;
 constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if no worker is idle
-// Consecutive deaths of workers that end the run; a single one may be chance (a shortage of memory, a stray kill)
+// Number of deaths in a row that end the run; a single death may be chance (a shortage of memory, a stray kill).
 constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which it loads clips
 constexpr double kClockPerLimit = 20;   // maximum wall time, as a multiple of the scenario's limit on processor time
 constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report it
-constexpr int kShutdownGraceMs = 3000;  // time in which a worker can end all its outside methods when it ends
+constexpr int kShutdownGraceMs = 3000;  // time in which an ending worker can end all its outside methods
 
 Clock::time_point After(double seconds) {
   constexpr double kMaxSeconds = 1e9;  // longer than any run, but short enough for Clock::time_point
@@ -47,9 +47,9 @@ struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;  ///< latest end of what the worker is doing; if it is missed, this machine was too slow
+  Clock::time_point deadline;  ///< latest end of the worker's present step; if it is missed, this machine was too slow
   double cpu_s = 0;            ///< processor time of the worker at the last measurement
-  double cpu_began = 0;        ///< processor time of the worker when it began what it is doing
+  double cpu_began = 0;        ///< processor time of the worker when it began its present step
   bool ready = false;          ///< true: the worker has finished its set-up
   /// The worker's orders; the first one is in progress and lists the methods that have no answer yet.
   std::deque<Order> orders;
@@ -81,7 +81,7 @@ class Supervisor {
         paces_(plan.scenarios().size()) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
-    AdoptOrphans();  // makes the outside methods of a killed worker children of this process, which can then end them
+    AdoptOrphans();  // makes outside methods of a killed worker children of this process, which can then end them
     const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
     std::size_t programs = 1;  // the maximum number of programs that one worker runs at the same time
     for (const PreparedScenario& scenario : plan_.scenarios())
@@ -159,13 +159,13 @@ class Supervisor {
 
   static ProcessUsage Measure(Worker& worker) {
     worker.measured = Clock::now();
-    // Without the outside methods, which the worker itself measures.
+    // This leaves out the outside methods, because the worker itself measures them.
     const ProcessUsage usage = worker.process.MeasureAlone();
     worker.cpu_s = usage.own_cpu_s;
     return usage;
   }
 
-  /// Starts the time limits for what the worker does next; its wall time may be `clock_s` seconds.
+  /// Starts the time limits of the worker's next step; its wall time may be at most `clock_s` seconds.
   static void Begin(Worker& worker, double clock_s) {
     constexpr auto kStale = std::chrono::milliseconds(100);
     if (Clock::now() - worker.measured > kStale) Measure(worker);
@@ -189,7 +189,7 @@ class Supervisor {
     return worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
   }
 
-  /// Starts the time limits of the first method in the order that has no answer yet.
+  /// Starts the time limits of the order's first method without an answer. If there is none, ends the world.
   Result<void> StartNextMethod(Worker& worker) {
     const Order& order = worker.orders.front();
     if (order.methods.empty()) return EndWorld(worker);
@@ -372,8 +372,8 @@ class Supervisor {
   const Deliver& deliver_;
   std::string setup_line_;
   std::vector<Worker> workers_;
-  std::vector<Pace> paces_;  ///< mean time of the worlds so far, one per scenario
-  int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished one
+  std::vector<Pace> paces_;  ///< wall time of the worlds so far, by scenario
+  int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished its own
   std::size_t not_run_ = 0;  ///< number of cells that could not be run
   std::string why_not_run_;  ///< why the first such cell could not be run
 };

@@ -15,8 +15,9 @@
 namespace etude {
 
 struct SupervisorOptions {
-  std::string program;                      ///< path of this program; a worker is started as `PROGRAM worker`
-  std::string error_folder;                 ///< folder for the standard error of outside methods; "" = they share ours
+  std::string program;  ///< path of this program; a worker is started as `PROGRAM worker`
+  /// Folder for the standard error of outside methods; "" = they share Etude's.
+  std::string error_folder;
   Fence fence = {};                         ///< sandbox in which outside methods run
   int jobs = 0;                             ///< number of worker processes; 0 = one per processor
   const std::atomic<bool>* stop = nullptr;  ///< the run ends early when this becomes true (Ctrl-C)

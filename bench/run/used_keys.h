@@ -11,7 +11,7 @@ namespace etude {
 
 /// A command that uses a secret key to make worlds.
 struct KeyUse {
-  std::string command;  ///< "run", "export", "score", "replay"
+  std::string command;  ///< name of the command: "run", "export", "score", "replay"
   std::string suite;
   std::string manifest;  ///< digest of the manifest (DigestOfRun)
   Shard shard = {};

@@ -144,7 +144,7 @@ Json TaskSchema(const TaskKind& kind) {
   properties["metrics"] = ListOf({{"anyOf", {metric, Ref("outside-metric")}}});
   return {{"description", kind.question},
           {"properties", std::move(properties)},
-          {"if", own},  // its expectations may name the scenario's own metrics
+          {"if", own},  // expectations may name the scenario's own metrics
           {"else", {{"properties", ours}}},
           {"propertyNames", Names(kind.condition_keys)},
           {"dependencies", ConditionSchemas(kind.condition_keys, false)}};
@@ -153,8 +153,8 @@ Json TaskSchema(const TaskKind& kind) {
 /// Returns the schema of the common keys and, once the task is known, of the task's keys.
 Json AnyScenarioSchema() {
   Json schema = MappingSchema(CommonScenarioKeys());
-  schema.erase("required");              // `defaults` may hold them
-  schema.erase("additionalProperties");  // each task has its own
+  schema.erase("required");              // `defaults` may hold the required keys
+  schema.erase("additionalProperties");  // tasks add keys of their own
   std::vector<KeyInfo> of_any_task;
   Json branches = Json::array();
   for (const TaskKind& kind : AllTaskKinds()) {

@@ -11,7 +11,7 @@ namespace etude {
 struct KeyGroup {
   /// The place of the mapping in a file: "expect[]" = an item of the list at `expect`; "" = the top level.
   std::string path;
-  std::string title;  ///< "An expectation"
+  std::string title;  ///< title of the mapping, e.g. "An expectation"
   std::vector<KeyInfo> keys;
 };
 

@@ -26,7 +26,7 @@ std::string ReadOptions(Fields& method) {
   }
   const auto text = WriteJson(ToJson(*options));
   if (text) return *text;
-  method.Complain(options->place, text.error().message);  // for example, bytes that are not UTF-8
+  method.Complain(options->place, text.error().message);  // the options contain, for example, bytes that are not UTF-8
   return "{}";
 }
 
@@ -157,7 +157,7 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
     fields.Complain(error.place, error.message);
     return std::vector<MethodEntry>{};
   };
-  // A list of at least one method.
+  // Require a list of at least one method.
   const Node* list = fields.Raw("methods");
   if (list == nullptr || list->kind != Node::Kind::kSequence || list->items.empty()) {
     return complain({list == nullptr ? fields.node().place : list->place,
@@ -166,7 +166,7 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
   if (list->items.size() > kMaxMethods) {
     return complain({list->place, fmt::format("{} methods; at most {}", list->items.size(), kMaxMethods)});
   }
-  // Read every method; names are unique.
+  // Read every method, and check that names are unique.
   std::vector<std::string> names;
   for (const Node& item : list->items) {
     auto method = ReadMethod(item, kind);

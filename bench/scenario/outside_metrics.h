@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// Return the keys of a metric that an outside program measures (OutsideMetricFields), and the keys of one of its test
-/// vectors (MetricExampleFields).
+/// These functions return the keys of a metric that an outside program measures (OutsideMetricFields), and the keys of
+/// one of its test vectors (MetricExampleFields).
 const FieldTable<OutsideMetric>& OutsideMetricFields();
 const FieldTable<MetricExample>& MetricExampleFields();
 

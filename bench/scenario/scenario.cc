@@ -155,7 +155,7 @@ const FieldTable<Scenario>& ScenarioFields() {
            .WhenAbsent("(none)"),
        {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The task that the methods solve."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
-       // The motions from which its worlds are made.
+       // The motions from which the worlds are made.
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, motion files, patterns",
                   "The clips from which worlds are made; trials take them in turn."),
        Key::Texts("streams", Path(&Scenario::streams, &StreamSource::files),

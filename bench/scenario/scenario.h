@@ -19,20 +19,22 @@ namespace etude {
 /// Clips that belong together, such as one user's dances. Each world uses the clips of one library.
 struct NamedClips {
   std::string name;
-  std::vector<std::string> clips;  ///< references as written
+  std::vector<std::string> clips;  ///< references to clips, as the file writes them
 };
 
 /// Recordings of people. Worlds are made from them instead of from simulated people.
 struct StreamSource {
-  std::vector<std::string> files;  ///< references as written
-  std::string labels;              ///< file, or folder of tag streams, that labels the streams' or clips' performances
+  std::vector<std::string> files;  ///< references to recordings, as the file writes them
+  /// File or folder of tag streams with the labels of performances in streams or clips.
+  std::string labels;
   StreamReading reading;
   StreamOptions making;
 };
 
 /// A condition: one value of each swept parameter, and the scenario's mapping with these values inserted.
 struct Condition {
-  std::vector<SweptValue> swept;  ///< empty if nothing is swept; the library's name comes first, if there are libraries
+  /// The swept parameters, after the library's name if there are libraries; empty if nothing is swept.
+  std::vector<SweptValue> swept;
   Node node;
   std::string library = {};  ///< the library of its worlds; "" = the scenario's `clips`
 };
@@ -74,22 +76,22 @@ struct MethodEntry {
 struct MetricExample {
   std::string title;
   std::string cell_json;           ///< an object with `tracks` and `extras`, as the metric's program receives it
-  std::optional<double> expected;  ///< nothing = the metric has no value
-  double tolerance = 1e-9;         ///< absolute
+  std::optional<double> expected;  ///< the known value; nullopt = the metric has no value
+  double tolerance = 1e-9;         ///< absolute tolerance, in the metric's unit
   Place place;
 };
 
 /// A metric that an outside program measures on the motions of a cell (docs/outside-methods.md).
 struct OutsideMetric {
   MetricInfo info;
-  MethodEntry program;  ///< its name is the metric's name
+  MethodEntry program;  ///< the program; its name is also the metric's name
   std::vector<MetricExample> vectors;
 };
 
 /// The time and memory that one cell, or the building of one world, may use. If it uses more, it is ended.
 struct Limits {
   double time_s = 300;
-  double memory_mb = 4096;  ///< resident memory, for the worker and for each outside method that it has started
+  double memory_mb = 4096;  ///< limit of the resident memory of the worker, and of each outside method
 };
 
 /// A scenario as its file states it: a question that several methods answer in the same worlds (docs/scenarios.md). The
@@ -100,15 +102,15 @@ struct Scenario {
   std::string question;
   std::string description;  ///< a sentence about its worlds; "" = not described
   std::string task;
-  std::vector<std::string> clips;     ///< references as written
-  std::vector<NamedClips> libraries;  ///< instead of `clips`: every condition is repeated for each library
+  std::vector<std::string> clips;     ///< references to clips, as the file writes them
+  std::vector<NamedClips> libraries;  ///< libraries in place of `clips`; every condition is repeated for each library
   StreamSource streams;
   std::string joint_map;  ///< file that maps the joints of the clips to roles (docs/clips.md); "" = none
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 10;
   std::optional<std::uint64_t> seed;
-  std::vector<Condition> conditions;                ///< at least one
-  std::vector<MethodEntry> methods;                 ///< at least one
+  std::vector<Condition> conditions;                ///< at least one condition
+  std::vector<MethodEntry> methods;                 ///< at least one method
   std::vector<std::string> metrics;                 ///< headline metrics; the task's default if the file names none
   std::string success = {};                         ///< metric of success; the task's default if the file names none
   double success_matters = 0.05;                    ///< the smallest difference of success that matters, as a share
@@ -126,7 +128,7 @@ std::vector<std::string> MethodNames(const Scenario& scenario);
 /// An outside program that a scenario starts.
 struct ScenarioProgram {
   const MethodEntry* entry = nullptr;
-  const char* role = "method";  ///< or "metric"
+  const char* role = "method";  ///< "method" or "metric"
 };
 /// Returns the methods that are programs, and then the metrics that are programs.
 std::vector<ScenarioProgram> ProgramsIn(const Scenario& scenario);

@@ -85,7 +85,7 @@ class Collector {
 
  private:
   static Node WithDefaults(Node scenario, const Entries& defaults) {
-    if (scenario.kind != Node::Kind::kMapping) return scenario;  // the reader of the scenario complains
+    if (scenario.kind != Node::Kind::kMapping) return scenario;  // the reader of the scenario reports the error
     for (const Node::Entry& entry : defaults) {
       if (scenario.Find(entry.key) == nullptr) scenario.entries.push_back(entry);
     }

@@ -11,7 +11,7 @@ namespace {
 struct Steps {
   double from = 0, to = 0;
   std::size_t count = 0;
-  double step = 0;  ///< 0 = `count` values from `from` to `to`, both included
+  double step = 0;  ///< 0 = the range has `count` values from `from` to `to`, both included
   bool logarithmic = false;
 };
 
@@ -29,7 +29,7 @@ std::string Write(double value, const Steps& steps) {
   const double largest = std::max(std::abs(steps.from), std::abs(steps.to));
   const double unit = std::pow(10, std::floor(std::log10(largest)) - 11);
   const bool rounds = !steps.logarithmic && std::isnormal(unit);
-  return fmt::format("{:.12g}", rounds ? std::round(value / unit) * unit + 0.0 : value);  // + 0.0: never -0
+  return fmt::format("{:.12g}", rounds ? std::round(value / unit) * unit + 0.0 : value);  // + 0.0 turns -0 into 0
 }
 
 Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {

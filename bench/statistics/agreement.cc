@@ -41,7 +41,8 @@ Figures FiguresOf(std::span<const AgreementSums> units) {
   for (const AgreementSums& unit : units) all = Together(all, unit);
   if (all.count == 0) return {};
   const auto deviation = DeviationOf(units, all);
-  constexpr double kNormal = 1.96;  // the factor that Bland and Altman use
+  // Quantile of the normal distribution for 95 % limits of agreement (Bland and Altman).
+  constexpr double kNormal = 1.96;
   const double bias = *BiasOf(all);
   Figures figures = {RmsOf(all), bias, std::nullopt, std::nullopt, IccOf(all)};
   if (deviation) figures[2] = bias - kNormal * *deviation;

@@ -15,7 +15,7 @@ namespace etude {
 /// A figure with its 95 % confidence interval, which is computed by resampling units.
 struct AgreementFigure {
   std::optional<double> value;
-  std::optional<Interval> interval;  ///< absent if there are fewer than kMinSample units
+  std::optional<Interval> interval;  ///< nullopt if there are fewer than kMinSample units
 };
 
 /// The agreement of two measurements of one quantity over several pairs of curves, in the quantity's unit.
@@ -23,7 +23,7 @@ struct CurveAgreement {
   int units = 0;  ///< number of people, or of pairs of curves
   AgreementFigure rmse, bias;
   AgreementFigure low, high;  ///< 95 % limits of agreement; at least two units are needed
-  AgreementFigure icc;        ///< ICC(A,1)
+  AgreementFigure icc;        ///< intraclass correlation ICC(A,1)
 };
 
 /// Measures the agreement over pairs of curves. `units` names the unit to which each pair belongs. RMSE, bias and

@@ -14,13 +14,13 @@ namespace {
 
 bool IsDecided(Verdict verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
 
-/// Returns a metric for shares of worlds, whose threshold is Study::success_matters. A step of an answer is judged by
-/// it.
+/// Returns the metric by which a step of an answer is judged: a share of worlds whose practical threshold is
+/// Study::success_matters.
 MetricInfo ShareMetric(const Study& study, const std::string& id) {
   MetricInfo metric = *FindMetric(id);
   metric.direction = Direction::kHigherIsBetter;
   metric.aggregate = Aggregate::kMean;
-  metric.reading = metric.reading == Reading::kAmount ? Reading::kYesNo : metric.reading;  // a tail is yes or no
+  metric.reading = metric.reading == Reading::kAmount ? Reading::kYesNo : metric.reading;  // the tail counts worlds
   metric.practical = study.success_matters;
   return metric;
 }
@@ -38,7 +38,7 @@ std::optional<double> SuccessAt(const MethodColumns& method, const std::string& 
 /// the worlds.
 struct Pairing {
   const MethodColumns* method;
-  std::vector<const MethodColumns*> other;  ///< by trial
+  std::vector<const MethodColumns*> other;  ///< the other method in each trial
 };
 
 PairedWorlds SuccessesOf(const Pairing& pairing, const std::string& success) {
@@ -193,8 +193,8 @@ void Decide(Answer& answer, const Comparison* value) {
   if (answer.tail && IsDecided(answer.tail->verdict)) {
     return decide(AnswerStep::kTail, answer.tail->verdict, answer.tail->beyond.verdict);
   }
-  // No step decides. The answer is "no difference" only if the verdict on the value is "no difference" and that on
-  // success is not open.
+  // No step decides. The answer is "no difference" only if the verdict on the value is "no difference" and the verdict
+  // on success is not open.
   const auto is_open = [](const std::optional<Comparison>& step) {
     return step && step->verdict == Verdict::kInconclusive && (step->differing > 0 || step->pairs < kMinSample);
   };
@@ -206,12 +206,12 @@ void Decide(Answer& answer, const Comparison* value) {
          value != nullptr ? value->beyond.verdict
          : answer.success ? answer.success->beyond.verdict
                           : std::nullopt);
-  // The answer for other units must not claim more than that for these worlds: “better” and “worse” become
-  // inconclusive, and so does every answer if the one for these worlds is open.
+  // The answer for other units must not claim more than the answer for these worlds. "Better" and "worse" therefore
+  // become inconclusive. If the answer for these worlds is open, so is the answer for other units.
   if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kInconclusive;
 }
 
-/// Judges the answers of all conditions that compare methods with one kind of other method: baselines or rivals.
+/// Judges the answers of all conditions, either those against the baselines or those against the rivals.
 void JudgeFamilyOfAnswers(const Study& study, std::vector<ConditionSummary>& conditions,
                           std::vector<Answer> ConditionSummary::*answers,
                           std::vector<Comparison> ConditionSummary::*comparisons) {

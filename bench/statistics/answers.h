@@ -20,11 +20,11 @@ double McNemarMidP(int gained, int lost);
 ///
 /// *Success* is the difference of Study::success in the worlds that neither method skipped. A cell that failed counts
 /// 0; a world in which an answered cell has no value is left out. If all values are 0 or 1, the test is McNemar's.
-/// *Value* is the first headline metric that is not the success. It is compared here in the worlds in which both
-/// methods succeeded, if success is a yes or no and some worlds drop out. The comparison over all worlds, with failures
-/// counted, is in ConditionSummary::comparisons or ::rivals. *Tail* is the share of worlds in which the method is far
-/// better, minus the share in which it is far worse. Far means by more than TailRule::times practical thresholds of the
-/// value's metric. Shares have no tail.
+/// *Value* is the first headline metric that is not the success. Here it is compared in the worlds in which both
+/// methods succeeded, but only if success is a yes-or-no value and a method failed in some world. The comparison over
+/// all worlds, with failures counted, is in ConditionSummary::comparisons or ::rivals. *Tail* is the share of worlds in
+/// which the method is far better, minus the share in which it is far worse. "Far" means by more than TailRule::times
+/// practical thresholds of the value's metric. Shares have no tail.
 std::optional<Answer> MeasureAnswerAgainstBaseline(const Study& study, const ConditionTable& table,
                                                    const ComparedMethod& method, std::uint64_t seed);
 std::optional<Answer> MeasureAnswerAgainstRival(const Study& study, const ConditionTable& table,

@@ -32,7 +32,8 @@ std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregat
   return values;
 }
 
-/// Finds the medians of resamples of sorted values. Each number of 32 bits draws the index number · count / 2³².
+/// Finds the medians of resamples of sorted values. A random 32-bit number draws the value at index number · count /
+/// 2³².
 class DrawnMedian {
  public:
   explicit DrawnMedian(std::span<const double> sorted)
@@ -46,10 +47,11 @@ class DrawnMedian {
     last_ = static_cast<std::uint32_t>(FirstDrawing(std::min(sorted.size(), upper_ + 1 + reach)) - 1);
   }
 
-  /// Returns the median of the resample that the halves of `drawn` draw. Only draws near the middle are looked at.
+  /// Returns the median of the resample that the 32-bit halves of `drawn` draw. Only draws near the middle are
+  /// compared.
   double Of(const std::uint64_t* drawn) {
     HalvesWithin found = FindHalvesWithin(drawn, sorted_.size(), low_, last_, near_.data());
-    if (lower_ < found.below || upper_ >= found.below + found.within) {  // the middle is elsewhere: look at all
+    if (lower_ < found.below || upper_ >= found.below + found.within) {  // not among these: compare all
       found = FindHalvesWithin(drawn, sorted_.size(), 0, ~std::uint32_t{0}, near_.data());
     }
     const auto end = near_.begin() + static_cast<std::ptrdiff_t>(found.within);
@@ -60,7 +62,7 @@ class DrawnMedian {
   }
 
  private:
-  /// Returns the least number that draws `index` or a later one.
+  /// Returns the smallest 32-bit number that draws `index` or a larger index.
   std::uint64_t FirstDrawing(std::size_t index) const { return ((index << 32) + sorted_.size() - 1) / sorted_.size(); }
   double ValueOf(std::uint64_t number) const { return sorted_[(number * sorted_.size()) >> 32]; }
 

@@ -205,7 +205,6 @@ bool Matches(const std::vector<SweptValue>& condition, const std::vector<SweptVa
       where, [&](const SweptValue& wanted) { return std::ranges::find(condition, wanted) != condition.end(); });
 }
 
-/// Returns the claim of an expectation as a sentence.
 std::string Claim(const Expectation& expectation) {
   const MetricInfo& metric = *FindMetric(expectation.metric);
   std::string text = metric.label + " of " + expectation.of;

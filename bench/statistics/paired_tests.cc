@@ -31,7 +31,7 @@ SignedRanks Rank(std::span<const double> differences) {
   for (std::size_t first = 0; first < ordered.size();) {
     std::size_t end = first;
     while (end < ordered.size() && std::abs(ordered[end]) == std::abs(ordered[first])) ++end;
-    const int doubled = static_cast<int>(first + 1 + end);  // mean of the ranks first + 1 … end, twice
+    const int doubled = static_cast<int>(first + 1 + end);  // twice the mean of the ranks first + 1 … end
     for (; first < end; ++first) {
       if (ordered[first] != 0) (ordered[first] > 0 ? ranks.positive : ranks.negative).push_back(doubled);
     }

@@ -36,7 +36,7 @@ void AddTo(WinTable& sum, const WinTable& wins) {
   }
 }
 
-/// Returns for each item the probability that it is preferred, the mean over the items it was compared with.
+/// Returns, for each item, its probability of being preferred, averaged over the items with which it was compared.
 std::vector<std::optional<double>> SharesOf(const WinTable& wins) {
   const std::vector<double> strengths = FitBradleyTerry(wins);
   std::vector<std::optional<double>> shares(wins.size());
@@ -170,7 +170,7 @@ Preferences MeasurePreferences(const BlindFiles& files, std::uint64_t seed) {
     }
   }
   found.raters = static_cast<int>(raters.size());
-  // The methods.
+  // Summarise the methods, and find raters who mostly chose one side.
   std::vector<const Rater*> all;
   WinTable wins = EmptyTable(names.size());
   for (const auto& [name, rater] : raters) {
@@ -190,7 +190,7 @@ Preferences MeasurePreferences(const BlindFiles& files, std::uint64_t seed) {
   }
   FillIntervals(all, seed, found.methods);
   std::ranges::stable_sort(found.methods, std::greater(), &PreferredMethod::share);
-  // The metrics.
+  // Count how often each metric agrees with the raters.
   for (const BlindKey& key : files.keys) {
     for (std::size_t i = 0; i < key.pairs.size(); ++i) AddPair(key.pairs[i], votes[key.page][i], found.metrics);
   }

@@ -15,28 +15,30 @@ using WinTable = std::vector<std::vector<double>>;
 
 /// Fits the model of Bradley and Terry (1952): i is preferred to j with probability s_i / (s_i + s_j). Returns the
 /// strengths of maximum likelihood, whose sum is 1, by the MM algorithm (Hunter 2004, equation 3). An item without a
-/// win has strength 0; of items that were never compared, even through others, strengths cannot be compared either.
+/// win has strength 0. Two strengths can be compared only if comparisons connect their items, directly or through other
+/// items.
 std::vector<double> FitBradleyTerry(const WinTable& wins);
 
 /// How often people prefer the films of a method.
 struct PreferredMethod {
   std::string method;
   double wins = 0, answers = 0;
-  std::optional<double> share;  ///< probability that it is preferred, the mean over the methods it was compared with
-  std::optional<Interval> interval;  ///< over raters; nothing below kMinSample raters
+  /// Probability of being preferred, averaged over the methods with which it was compared.
+  std::optional<double> share;
+  std::optional<Interval> interval;  ///< resampled over raters; nullopt below kMinSample raters
 };
 
-/// How often a metric's better film of a pair is the one that more raters prefer. A pair counts if one side has more
-/// votes than the other (answers "no difference" are no votes) and the metric's two values differ.
+/// How often the film with the better value of a metric is the film that more raters prefer. A pair counts if one side
+/// has more votes than the other (the answer "no difference" is no vote) and the metric's two values differ.
 struct MetricAgreement {
   std::string metric;
   int agreed = 0, decided = 0;
-  int equal = 0, missing = 0;        ///< pairs on which the raters decided, but not the metric
-  std::optional<Interval> interval = {};  ///< Wilson's, over pairs
+  int equal = 0, missing = 0;             ///< pairs on which the raters decided, but not the metric
+  std::optional<Interval> interval = {};  ///< Wilson interval over pairs
 };
 
 /// A rater who chose one side so often (two-sided p < 0.01 of a fair coin) that the answers may not be about the films.
-/// Sides are drawn by lot, so whoever looks chooses both about equally often.
+/// Sides are drawn at random, so a rater who looks at the films chooses both about equally often.
 struct OneSidedRater {
   std::string rater;
   int left = 0, decided = 0;
@@ -44,9 +46,9 @@ struct OneSidedRater {
 
 struct Preferences {
   int raters = 0, pairs = 0;
-  int answers = 0, same = 0, without = 0;  ///< `same` of the answers say "no difference"; `without`: no answer
-  std::vector<PreferredMethod> methods;    ///< the most preferred first
-  std::vector<MetricAgreement> metrics;    ///< the largest share of agreement first
+  int answers = 0, same = 0, without = 0;  ///< `same`: answers "no difference"; `without`: pairs without answer
+  std::vector<PreferredMethod> methods;    ///< methods, the most preferred first
+  std::vector<MetricAgreement> metrics;    ///< metrics, the largest share of agreement first
   std::vector<OneSidedRater> one_sided;
 };
 

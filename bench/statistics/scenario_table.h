@@ -35,16 +35,17 @@ class MethodColumns {
 
  private:
   std::string name_;
-  std::vector<std::optional<Status>> statuses_;  ///< by trial
-  CyclicLookup<std::vector<double>> values_;     ///< by metric and trial; NaN = none
+  std::vector<std::optional<Status>> statuses_;  ///< statuses by trial
+  CyclicLookup<std::vector<double>> values_;     ///< values by metric and trial; NaN = none
 };
 
 /// All values and statuses measured under one condition.
 struct ConditionTable {
   std::vector<SweptValue> condition;
-  std::vector<MethodColumns> methods;         ///< in the order of the study's methods
-  std::vector<std::string> units;             ///< names of all units, in the order of first occurrence
-  std::vector<std::vector<int>> world_units;  ///< by trial: indices of the units that the world was drawn from
+  std::vector<MethodColumns> methods;  ///< methods in the order of the study
+  std::vector<std::string> units;      ///< names of all units, in the order of first occurrence
+  /// For each trial, the indices of the units from which its world was drawn.
+  std::vector<std::vector<int>> world_units;
 
   const MethodColumns& Of(const std::string& method) const;
   int trials() const { return static_cast<int>(world_units.size()); }
@@ -75,12 +76,11 @@ int HalfOf(const ConditionTable& table, int trial);
 /// The values of one metric for two methods in the worlds of a condition. Worlds that both methods skipped are left
 /// out.
 struct PairedWorlds {
-  std::vector<Pair> pairs;  ///< one for each world in which both have a value
+  std::vector<Pair> pairs;  ///< one pair for each world in which both methods have a value
   std::vector<int> trials;  ///< the trial of each pair
   int only_baseline = 0, only_method = 0, neither = 0;
-  /// baseline_failed lists the trials counted in only_method in which the baseline's cell failed; method_failed lists
-  /// the trials counted in only_baseline in which the method's cell failed. In other trials, the cell only lacks this
-  /// metric.
+  /// Trials in which a cell failed and did not merely lack this metric. baseline_failed lists trials of only_method in
+  /// which the baseline's cell failed; method_failed lists trials of only_baseline in which the method's cell failed.
   std::vector<int> baseline_failed, method_failed;
 };
 
@@ -98,8 +98,8 @@ void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const 
               PairedWorlds& paired);
 
 /// Counts failures as losses: in each world in which only one method failed, that method is worse by the largest
-/// difference among the pairs, and at least by the practical threshold (worst ranks, Lachin 1999). Returns nothing if
-/// there is no such world, if there is no pair, or if the metric has no direction.
+/// difference among the pairs, and at least by the practical threshold, or by 1 for shares (worst ranks, Lachin 1999).
+/// Returns nothing if there is no such world, if there is no pair, or if the metric has no direction.
 std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const MetricInfo& metric);
 
 /// Returns the text that keys the random streams of a comparison. It does not change if methods, metrics or conditions
@@ -111,8 +111,8 @@ std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>
 struct Rival {
   std::array<std::string, 2> of_half;  ///< the rival in worlds of even units, then the rival in worlds of odd units
 
-  std::string Name() const;  ///< "a", or "a or b" if the two halves chose differently
-  std::string Note() const;  ///< says how they were chosen; "" if both are the same
+  std::string Name() const;  ///< the rival's name: "a", or "a or b" if the two halves chose differently
+  std::string Note() const;  ///< says how the two rivals were chosen; "" if they are the same
 };
 
 /// Returns true if a method competes. Two kinds of methods do not compete: a method that takes part in no comparison

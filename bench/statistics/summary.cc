@@ -49,8 +49,8 @@ MetricSummary SummariseMetric(const MetricInfo& metric, const MethodColumns& met
   summary.present = static_cast<int>(values.size());
   if (values.empty()) return summary;
   summary.median = Quantile(values, 0.5);
-  // A weighted mean is the mean of its linearised values (Taylor expansion of a ratio), so their interval is its
-  // interval.
+  // A weighted mean is the mean of its linearised values (Taylor expansion of a ratio), so the interval of this mean is
+  // the interval of the weighted mean.
   std::vector<double> linear = values;
   if (!metric.weight.empty()) {
     const std::vector<double> weights = method.WeightsOf(metric);
@@ -122,7 +122,6 @@ int SizeOf(const Study& study, int methods) {
   return methods * static_cast<int>(study.metrics.size() * study.conditions.size());
 }
 
-/// Compares a method with its baseline.
 void AskAgainstBaseline(const Study& study, const ConditionTable& condition, const ComparedMethod& entry,
                         std::uint64_t seed, std::vector<Question>& questions) {
   if (entry.name == entry.against) return;

@@ -21,7 +21,8 @@ struct TrainingFrame {
 /// Training clips, performed by one body. Weights for a transition are never learnt from the two clips of that
 /// transition.
 struct TrainingClips {
-  std::vector<std::string> identities;             ///< equal for equal clips: "builtin:clap", or the file
+  /// Names of the clips, equal for equal clips: "builtin:clap", or the file.
+  std::vector<std::string> identities;
   std::vector<std::vector<TrainingFrame>> frames;  ///< frames of each clip, sampled evenly
 };
 
@@ -58,9 +59,9 @@ void UpdateGrades(std::span<const std::vector<TrainingFrame>> clips, const Membe
 
 /// Counts how well "d < threshold" separates close pairs from others.
 struct MatchScore {
-  int matched = 0;        ///< pairs with d < threshold
-  int close = 0;          ///< close pairs
-  int close_matched = 0;  ///< close pairs with d < threshold
+  int matched = 0;        ///< number of pairs with d < threshold
+  int close = 0;          ///< number of close pairs
+  int close_matched = 0;  ///< number of close pairs with d < threshold
 
   /// Returns F1, the harmonic mean of precision (the share of matched pairs that are close) and recall (the share of
   /// close pairs that are matched); 0 if no close pair is matched. Accuracy and AUC are not used: there are few close
@@ -84,7 +85,7 @@ class PairTable {
   struct Block {
     float squared_gaps[kFeatureCount][kBlock];
     int used[kBlock];   // 1 for a pair, 0 for unused places in the last block
-    int close[kBlock];  // 1 or 0
+    int close[kBlock];  // 1 if the pair is close, else 0
   };
   static void AddUp(const Block& block, const FeatureWeights& weights, float (&squared)[kBlock]);
 

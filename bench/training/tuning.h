@@ -23,17 +23,17 @@ struct TunedSystem {
   WeightFitStatus status = WeightFitStatus::kOneClassOnly;
   FuzzySystem system;  ///< the start system unless the status is kFitted
   int pairs = 0, close_pairs = 0;
-  int generations = 0;  ///< generations of the genetic algorithm, or Newton steps
+  int generations = 0;  ///< number of generations of the genetic algorithm, or of Newton steps
 };
 
-/// Tunes a fuzzy system until "d < 0.4" separates the close pairs of these clips as well as possible (paper A leaves
+/// Tunes a fuzzy system so that "d < 0.4" separates the close pairs of these clips as well as possible (paper A leaves
 /// this to future work; the methods are Etude's). `genetic` has no effect on kAdaptive.
 TunedSystem TuneSystem(ClipFrames clips, Tuning tuning, const GeneticOptions& genetic = {});
 
 /// Measures how well a system separates close pairs of clips.
 struct SystemScore {
   MatchScore at_threshold;    ///< the score at the threshold 0.4
-  std::optional<double> auc;  ///< over all thresholds; nullopt if all pairs are close, or none is
+  std::optional<double> auc;  ///< area under the curve over all thresholds; nullopt if all pairs are close, or none is
 };
 SystemScore ScoreSystem(ClipFrames clips, const FuzzySystem& system);
 

@@ -18,7 +18,7 @@ inline std::optional<double> Share(std::int64_t part, std::int64_t whole) {
 /// not events. "Right" is the positive class.
 struct JudgedEvent {
   bool is_right = false;      ///< true if the performance was truly right
-  bool called_right = false;  ///< the recogniser's call by the end of the event's window
+  bool called_right = false;  ///< true: the recogniser called it right before the end of the event's window
   double score = 0;           ///< the recogniser's soft score; higher = more likely right
 };
 
@@ -71,7 +71,7 @@ std::optional<WithInterval> JackknifedAuc(std::span<const JudgedEvent> events, s
 /// A waiting time. It ends when an event happens or when the observation stops.
 struct Wait {
   double seconds = 0;
-  bool happened = false;  ///< false: censored, the wait is longer than `seconds`, which may be infinite
+  bool happened = false;  ///< false: the wait was censored; it is longer than `seconds`, which may be infinite
 };
 
 /// Returns the Kaplan–Meier estimate (1958) of the share still waiting. The first point is (the earliest time, 1); then

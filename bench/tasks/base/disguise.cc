@@ -24,7 +24,7 @@ constexpr double kSplineDeviation = 0.692;
 /// The random turn of a limb about its upper joint. It is added to the turn of the limb's parent.
 struct LimbTurn {
   Role child;
-  double turn_deg = 0;  ///< standard deviation about each of three axes
+  double turn_deg = 0;  ///< standard deviation of the turn about each of three axes
   double bend = 0;      ///< standard deviation of the relative change of the length of BendAxis
 };
 

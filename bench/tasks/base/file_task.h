@@ -16,7 +16,7 @@ template <typename Options, typename Method>
 struct FileStudy {
   Options options;
   std::vector<Method> methods;
-  std::vector<JudgedFiles> files;  ///< one per trial
+  std::vector<JudgedFiles> files;  ///< the files of each trial's world
   OpenOptions opening;
 
   /// Copies the files from the input. Fails if the number of a world's answers differs from the number of methods.

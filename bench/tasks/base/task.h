@@ -98,10 +98,10 @@ struct OpenOptions;
 
 /// One world of a task that judges files: the answer of each method, and the truth, if the task has truths.
 struct JudgedFiles {
-  std::string name;   ///< identifies the world; it does not depend on which other files exist
+  std::string name;   ///< identifier of the world; it does not depend on which other files exist
   std::string unit;   ///< the sampling unit to which the world belongs, such as a person; "" = its name
   std::string truth;  ///< a reference to a motion (io/clips/references.h); "" = the task knows no truths
-  std::vector<std::string> answers;  ///< also references, by method; "" = the method has no answer of this name
+  std::vector<std::string> answers;  ///< references to motions, by method; "" = the method has no answer of this name
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 
@@ -114,7 +114,7 @@ struct FoundFiles {
 /// The parts of a scenario from which a task is made.
 struct TaskInput {
   Fields& condition;              ///< the scenario's mapping with swept values inserted; the task reads its own keys
-  std::span<const Node> methods;  ///< each a mapping with at least `name`
+  std::span<const Node> methods;  ///< one mapping per method, with at least the key `name`
   const ClipLibrary& clips;
   /// The texts of the files that the condition names, by the condition's key (ValueKind::names_file).
   std::map<std::string, std::string> texts = {};
@@ -130,14 +130,14 @@ struct TaskInput {
 /// A kind of task. Each folder of bench/tasks defines one.
 struct TaskKind {
   std::string name;
-  std::string question;                      ///< one line, for `etude list`
+  std::string question;                      ///< the question that the task asks, in one line, for `etude list`
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
   /// The metric that says how well a cell reached the task's goal (solved, recovered, clean, …).
   std::string success;
   std::vector<std::string> metrics;          ///< all metrics that its cells report, by a value or by a reason
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
-  std::vector<KeyInfo> condition_keys;  ///< its keys in a scenario
-  std::vector<KeyInfo> method_keys;     ///< its keys in a method, in addition to `name`
+  std::vector<KeyInfo> condition_keys;  ///< the keys that the task adds to a scenario
+  std::vector<KeyInfo> method_keys;     ///< the keys that the task adds to a method, except `name`
   /// The seats of the task's loop that a program may take; the method's key `seat` names one. The program is then asked
   /// step by step. The task's keys configure everything else of the method.
   std::vector<std::string> seats = {};

@@ -21,7 +21,7 @@ TaskKind MakeTrackingTaskKind();
 /// Task capture measures how close the skeleton from two cameras comes to the truth. It runs paper B's whole pipeline
 /// on rendered pictures of a clip.
 TaskKind MakeCaptureTaskKind();
-/// Task pose-distance measures how well a distance shows if two poses look alike. A world is one of eight authored
+/// Task pose-distance measures how well a distance tells whether two poses look alike. A world is one of eight authored
 /// pairs of poses, or some hundreds of pairs of frames of two clips.
 TaskKind MakePoseDistanceTaskKind();
 TaskKind MakeCoachTaskKind();

@@ -18,7 +18,7 @@ struct CaptureStudy {
   StudioOptions options;
   std::vector<CaptureMethod> methods;
   std::vector<PersonSource>
-      sources;  ///< of all built-in methods, each once: methods with equal sources share the same marks
+      sources;  ///< the sources of all methods, each once; methods with equal sources share their marks
   ClipLibrary clips;
 };
 

@@ -20,9 +20,9 @@ namespace etude {
 /// (`StudioOptions::picture_every`).
 struct Observation {
   PersonSource source;
-  std::vector<std::vector<Marks>> marks;  ///< empty in frames that the annotator was not shown
+  std::vector<std::vector<Marks>> marks;  ///< the marks; empty in frames that the annotator was not shown
   std::vector<std::vector<Mask>>
-      masks;        ///< by picture, half size; kept on request, and for silhouettes (`kMaxSilhouettePictures`)
+      masks;        ///< masks by picture, half size; kept on request, and for silhouettes (`kMaxSilhouettePictures`)
   MaskScore score;  ///< mean score over all pictures
   /// The agreement of two annotators over all pictures. Empty if there is one annotator.
   std::optional<double> annotator_distance_px, annotator_overlap;
@@ -36,8 +36,8 @@ constexpr std::size_t kMaxSilhouettePictures = 4000;
 
 struct Take {
   std::string pictures_digest;
-  std::vector<ColourImage> stills;        ///< each camera's picture of the middle frame; only if masks are kept
-  std::vector<Observation> observations;  ///< one per requested source, in the order of the sources
+  std::vector<ColourImage> stills;        ///< each camera's picture of the middle frame; empty unless masks are kept
+  std::vector<Observation> observations;  ///< one observation per requested source, in the order of the sources
 };
 
 /// Receives each picture when it is shot, because there are too many to keep. `frame` is empty for the background.

@@ -41,7 +41,7 @@ class LiveCapture {
   const WorldKey key_;
   const std::vector<PersonSource> sources_;
   CaptureStages stages_;
-  const CalibratedCameras* cameras_ = nullptr;  ///< owned by `stages_`, as are the next two
+  const CalibratedCameras* cameras_ = nullptr;  ///< `stages_` owns the objects of this and the next two pointers
   const CaptureBody* body_ = nullptr;
   Renderer* renderer_ = nullptr;
   std::optional<TakeCameras> take_;

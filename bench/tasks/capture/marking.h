@@ -19,8 +19,8 @@ namespace etude {
 /// draws, whatever pictures they receive.
 class Marking {
  public:
-  /// `key` must outlive this object. The world determines the number of cameras and the kind of figure, i.e. the place
-  /// of the joints in its limbs and the point of its head that is marked.
+  /// `key` must outlive this object. The world determines the number of cameras and the kind of figure. The figure
+  /// determines where its joints lie in its limbs, and which point of its head is marked.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
   /// Marks one picture and returns the marks as methods receive them. A stroke or disc that both annotators drew is the
@@ -48,7 +48,7 @@ class Marking {
   std::size_t mark_every_;
   EvidenceOptions eye_;
   LimbColours suit_;
-  std::vector<std::vector<Annotator>> annotators_;  // [camera][annotator]
+  std::vector<std::vector<Annotator>> annotators_;  // indexed [camera][annotator]
   std::vector<MarkedTwice> joints_, limbs_;
 };
 

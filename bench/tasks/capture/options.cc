@@ -17,7 +17,7 @@ Field<StudioOptions> Effect(const std::string& key, double CameraEffects::*effec
 std::vector<Field<StudioOptions>> CameraFields() {
   using E = CameraEffects;
   return {
-      // Timing.
+      // Effects of the clock and the shutter.
       Effect("sync_offset_ms", &E::sync_offset_ms, {0, 500},
              "Offset of the clocks of all cameras but the first; its sign is random."),
       Effect("clock_drift_ppm", &E::clock_drift_ppm, {0, 50000},
@@ -25,7 +25,7 @@ std::vector<Field<StudioOptions>> CameraFields() {
       Effect("rolling_shutter_ms", &E::rolling_shutter_ms, {0, 66},
              "Time between reading a picture's first row and its last."),
       Effect("motion_blur", &E::motion_blur, {0, 1}, "Exposure time as a share of the time between frames."),
-      // The lens.
+      // Effects of the lens.
       Effect("radial_distortion", &E::radial_distortion, {-0.12, 0.25},
              "Shift of the picture's corner as a share of its distance from the centre; below 0 is barrel distortion."),
       Effect("tangential_distortion", &E::tangential_distortion, {0, 0.05},
@@ -34,7 +34,7 @@ std::vector<Field<StudioOptions>> CameraFields() {
       Effect("vignette", &E::vignette, {0, 4},
              "Darkness of the corners: 1 is natural, the cosine of the angle from the axis to the fourth power."),
       Effect("dust", &E::dust, {0, 1}, "Share of the light that a speck of dust blocks at its centre."),
-      // The sensor and its picture.
+      // Effects of the sensor and of picture processing.
       Effect("exposure_ev", &E::exposure_ev, {-4, 4}, "Overexposure of the pictures, in stops."),
       Effect("exposure_drift_ev", &E::exposure_drift_ev, {0, 2}, "Largest drift of an automatic exposure, in stops."),
       Effect("gain_db", &E::gain_db, {0, 36},
@@ -62,7 +62,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
   using Key = Field<Options>;
   FieldTable<Options> made{
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the filmed window."),
-       // The cameras' places.
+       // Keys of the cameras' places.
        Key::Name("rig", Path(&Options::rig, &RigOptions::shape),
                  {{"angles", RigShape::kAngles},
                   {"stereo", RigShape::kStereo},
@@ -91,7 +91,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
                     "Heights of the cameras: one per angle; in other rigs the cameras take them in turn."),
        Key::Number("camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
                    "Distance to the middle of the performer's path, as far as the room allows."),
-       // The performer, the room and the light.
+       // Keys of the performer, the room and the light.
        Key::Name("figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
                  "The figure: the stage's own people, or the meshes and textures in the clips' files (glTF)."),
        Key::Name("clothes", &Options::clothes,
@@ -102,7 +102,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
                    "How much the set resembles a lived-in room: 0 = the studio, 1 = furniture, clutter, a second "
                    "person, similar hues."),
        Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
-       // Calibration, measurements and annotation.
+       // Keys of calibration, measurements and annotation.
        Key::Name("calibration_target", &Options::calibration_target,
                  {{"points", CalibrationTargetKind::kPoints}, {"boards", CalibrationTargetKind::kBoards}},
                  "What the cameras are calibrated with: points on planes, clicked by the annotator; or a cube of coded "
@@ -189,7 +189,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
     FieldTable<Method> made{
-        // The stages from pictures to marks and cameras.
+        // Keys of the stages from pictures to marks and cameras.
         {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
                    "How the person is cut out of the pictures."),
          Key::Name("pieces", &Method::pieces, {{"largest", PersonPieces::kLargest}, {"large", PersonPieces::kLarge}},
@@ -207,7 +207,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
          Key::Name("body", &Method::body, {{"fitted", BodyKind::kFitted}, {"paper", BodyKind::kPaper}},
                    "The performer's own joints, or paper B's 29 degrees of freedom.")
              .With("recovery", {"ik"}),
-         // The stages from marks or silhouettes to poses.
+         // Keys of the stages from marks or silhouettes to poses.
          Key::Name(
              "recovery", &Method::recovery,
              {{"ik", Recovery::kIk},

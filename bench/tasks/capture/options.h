@@ -21,7 +21,6 @@ enum class Clothes {
   kCoded,     ///< "coded": a suit in which every limb has a colour of its own
 };
 
-/// The figure that is drawn as the performer.
 enum class PerformerFigure {
   kStaged,  ///< "staged": the stage's own people; `clothes` and `scene` choose their clothes
   kOwn,     ///< "own": the meshes and textures of the clip's file
@@ -29,7 +28,7 @@ enum class PerformerFigure {
 
 /// The target with which the cameras are calibrated.
 enum class CalibrationTargetKind {
-  kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
+  kPoints,  ///< "points": points marked on planes, and clicked in the picture (paper B)
   kBoards,  ///< "boards": a cube of calibration boards, found in the picture
 };
 
@@ -43,9 +42,9 @@ struct StudioOptions {
   /// sim/stage/README.md describes the values in between.
   double scene = 0;
   double light_drift = 0.06;  ///< largest relative change of the lamp's brightness
-  CameraEffects camera = {};  ///< the effects of every camera
+  CameraEffects camera = {};
   CalibrationTargetKind calibration_target = CalibrationTargetKind::kPoints;
-  int calibration_pairs = 24;         ///< kPoints: measured points per camera
+  int calibration_pairs = 24;         ///< number of measured points per camera; only for kPoints
   double calibration_measure_mm = 0;  ///< standard deviation of the target's measured positions along each axis
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
@@ -71,8 +70,8 @@ struct StudioOptions {
 
 /// The body with which a skeleton is made.
 enum class BodyKind {
-  kFitted,  ///< "fitted": the performer's own joints
-  kPaper,   ///< "paper": paper B's 29 degrees of freedom, with the performer's limb lengths
+  kFitted,  ///< "fitted": a body with the performer's own joints
+  kPaper,   ///< "paper": a body with paper B's 29 degrees of freedom and the performer's limb lengths
 };
 
 /// The treatment of a camera that disagrees with the others.
@@ -84,10 +83,9 @@ enum class Sync {
   kEstimated,  ///< "estimated": times are estimated from the motion of the marks
 };
 
-/// Selects the stages of the pipeline whose results are replaced by the truth, which shows how much of the final error
-/// each stage causes. With `marks`, strokes and discs are at the true joints wherever a picture shows the limb or end.
-/// With `start` or `ik`, the truth is the pose of the method's body that is nearest to the true pose
-/// (`FindNearestPoses`).
+/// Selects stages of the pipeline. The truth replaces their results, which shows how much of the final error they
+/// cause. With `marks`, strokes and discs are at the true joints wherever a picture shows the limb or end. With `start`
+/// or `ik`, the truth is the pose of the method's body that is nearest to the true pose (`FindNearestPoses`).
 struct Oracle {
   bool calibration = false;
   bool segmentation = false;
@@ -103,8 +101,8 @@ struct Oracle {
 
 /// The way in which poses of a body are recovered from pictures.
 enum class Recovery {
-  kIk,      ///< "ik": limb directions and ends, known lengths, inverse kinematics (paper B)
-  kEnds,    ///< "ends": every joint triangulated from the strokes that end there; no body, no inverse kinematics
+  kIk,      ///< "ik": inverse kinematics to limb directions and ends, with known lengths (paper B)
+  kEnds,    ///< "ends": each joint is triangulated from the strokes that end there; no body is fitted
   kBundle,  ///< "bundle": bundle adjustment of one body in smooth motion to all marks of all frames
   /// "keypoints": the method of `etude capture`. Joints are triangulated robustly, and a body with the median limb
   /// lengths is fitted to all of them (engine/keypoints).
@@ -115,28 +113,26 @@ enum class Recovery {
 
 /// The smoothing of the joints over a whole take.
 enum class Smoothing {
-  kNone,  ///< "none"
-  kRts,   ///< "rts": each joint's track separately (Rauch–Tung–Striebel smoother)
+  kNone,  ///< "none": no smoothing
+  kRts,   ///< "rts": each joint's track is smoothed separately (Rauch–Tung–Striebel smoother)
 };
 
-/// The source of the limb lengths.
 enum class LengthSource {
-  kKnown,     ///< "known": measured on the performer beforehand (paper B)
-  kMeasured,  ///< "measured": from the marks of a few frames
+  kKnown,     ///< "known": the lengths are measured on the performer beforehand (paper B)
+  kMeasured,  ///< "measured": the lengths are computed from the marks of a few frames
 };
 
 /// The way in which a method that tracks silhouettes finds its first pose.
 enum class SilhouetteStart {
-  kCold,  ///< "cold": from the pictures alone
-  kNear,  ///< "near": from the first frame's true pose with errors of up to 10° in every angle
+  kCold,  ///< "cold": it uses the pictures alone
+  kNear,  ///< "near": it starts from the first true pose, with errors of up to 10° in every angle
   /// "keypoints": as kCold; in addition, in every picture the marks give the positions of joints, like the keypoints of
   /// a pose estimator.
   kKeypoints,
 };
 
-/// The source of the marks in the pictures.
 enum class MarkSource {
-  kAnnotator,  ///< "annotator": a person, by hand (paper B)
+  kAnnotator,  ///< "annotator": a person marks by hand (paper B)
   /// "colours": no marks by hand. The colours of a coded suit identify the limbs (engine/vision/limb_colours).
   kColours,
 };
@@ -194,8 +190,8 @@ struct PersonSource {
   bool for_silhouettes = false;
   bool has_keypoints = false;          ///< true: pictures are marked although `for_silhouettes` is set
   SeatedSegmenter* program = nullptr;  ///< a program that replaces the segmenter, or null
-  bool has_true_marks = false;         ///< exact marks at the true joints, where the picture shows them
-  bool has_coloured_marks = false;     ///< marks from the suit's colours
+  bool has_true_marks = false;         ///< true: marks are exact, at the true joints, where the picture shows them
+  bool has_coloured_marks = false;     ///< true: marks are read from the suit's colours
   auto operator<=>(const PersonSource&) const = default;
 };
 

@@ -22,8 +22,8 @@ MeasureInputs PicturesOf(const CaptureRun& run) {
   return {.cameras = run.cameras.matrices, .marks = run.measured.marks};
 }
 
-/// Returns the joints of every frame, smoothed, or with gaps bridged. Joints may be missing before the first
-/// observation.
+/// Returns the joints of every frame, smoothed if the method smooths, else with gaps bridged. Joints may be missing
+/// before the first observation.
 std::vector<OptionalJoints> JointsOf(const CaptureRun& run) {
   if (run.method.smoothing == Smoothing::kRts) return SmoothJoints(run.measured.joints, kJudgedRateHz);
   return BridgeJoints(run.measured.joints);
@@ -125,7 +125,7 @@ Result<RecoveredPerson> PersonByKeypoints(const CaptureStages& stages, const Cap
   return RecoverPerson(run.cameras.matrices, people, UsualRecovery(kJudgedRateHz, longer_side));
 }
 
-/// Takes over a person's body and motion into the run. Frames for which `is_lost` is true stay without a skeleton.
+/// Copies a person's body and motion into the run. Frames for which `is_lost` is true stay without a skeleton.
 void TakePerson(const RecoveredPerson& person, const std::vector<bool>& is_lost, CaptureRun& run) {
   run.body = person.body;
   TreeState last = StandingState(run.body.tree);

@@ -15,7 +15,7 @@ constexpr double kMaskPixel = 2;  // picture pixels per mask pixel: masks are ha
 
 // Returns the true pose of the first frame, with random errors of up to `kNearAngle` in every angle.
 TreeState NearStart(const SilhouetteBody& body, const BodyPose& pose, const WorldKey& key) {
-  constexpr double kNearAngle = Radians(10), kNearPosition = 0.05;  // metres, along each axis
+  constexpr double kNearAngle = Radians(10), kNearPosition = 0.05;  // kNearPosition: metres, along each axis
   RandomStream random(key, "capture/near-start");
   const TreeState truth = FitJoints(body, TargetsOf(pose));
   std::vector<double> by(kRootDofs + truth.angles.size());

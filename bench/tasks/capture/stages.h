@@ -48,7 +48,7 @@ struct MeasuredTake {
   std::vector<std::vector<Marks>> marks;
   std::vector<FrameMeasurement> frames;
   std::vector<std::optional<LimbObservation>> seen;  ///< `frames` after BridgeGaps
-  std::vector<JointMeasurements> joints;             ///< every joint triangulated from all strokes that end there
+  std::vector<JointMeasurements> joints;             ///< every joint, triangulated from all strokes that end there
   std::string directions_digest, points_digest;
 };
 

@@ -53,7 +53,7 @@ class TakeCameras {
     ColourImage colour;
     Mask person, shadow;  ///< the true masks
     std::vector<Mask> found;
-    std::vector<Marks> marks;  ///< empty for silhouettes without keypoints
+    std::vector<Marks> marks;  ///< marks by source; empty for silhouettes without keypoints
   };
 
   /// The pictures of one camera. Its TakeCameras must outlive this object.
@@ -70,7 +70,7 @@ class TakeCameras {
 
     TakeCameras& cameras_;
     std::size_t camera_;
-    std::vector<PersonFinder> finders_;  // one per source
+    std::vector<PersonFinder> finders_;  // one finder per source
   };
   Feed FeedOf(std::size_t camera) { return Feed(*this, camera); }
 

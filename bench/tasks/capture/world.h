@@ -36,16 +36,17 @@ struct OwnFigure {
 
 /// The truth of one take: performer, motion, cameras and light.
 struct CaptureWorld {
-  std::vector<BodyPose> truth;     ///< at 30 Hz, around the floor's origin, facing +Z in its middle frame
-  PersonalLimbs person;            ///< the performer
+  /// The performer's poses at 30 Hz, around the floor's origin, facing +Z in the middle frame.
+  std::vector<BodyPose> truth;
+  PersonalLimbs person;            ///< the performer's true limbs
   PersonalLimbs measured;          ///< the limb lengths as measured beforehand, as in paper B
   std::array<Rgb8, 16> colours{};  ///< the performer's colours, indexed by Part
-  std::optional<OwnFigure> own;    ///< drawn instead of the stage's people
+  std::optional<OwnFigure> own;    ///< a figure that is drawn instead of the stage's people
   glm::dvec3 middle{0};            ///< the expected position of the performer on the floor
   std::vector<Camera> cameras;     ///< at least two, each with its lens
-  std::vector<bool> in_view;       ///< per frame; true if two cameras see the whole body
+  std::vector<bool> in_view;       ///< for each frame, true if two cameras see the whole body
   Room room;                       ///< the empty room; its brightness is that of the background pictures
-  StageOptions stage_options;      ///< the options of `stage`
+  StageOptions stage_options;
   StagedRoom stage;                ///< the room and people that `scene` adds
   std::vector<double> brightness;  ///< brightness of each frame
 };
@@ -61,11 +62,11 @@ struct FilmedPerson {
 /// Makes the studio of `key` without a performer: `truth` and `in_view` are empty.
 CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& booking, const WorldKey& key);
 
-/// Makes the world of `key`. The window of the clip begins at a random frame. Of a few random windows, the first is
-/// taken that keeps the performer within 1.2 m of the middle, where both cameras see the whole body. If there is none,
-/// the window that leaves this circle least is taken. Clips that loop are repeated; other clips that are shorter than
-/// the window are used whole. In a secret world the clip is disguised (bench/tasks/base/disguise.h), unless it has its
-/// own figure.
+/// Makes the world of `key`. The window of the clip begins at a random frame. A few random windows are tried. The first
+/// one that keeps the performer within 1.2 m of the middle, where both cameras see the whole body, is taken. If none
+/// does, the window that leaves this circle least is taken. Clips that loop are repeated; other clips that are shorter
+/// than the window are used whole. In a secret world the clip is disguised (bench/tasks/base/disguise.h), unless it has
+/// its own figure.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
 
 /// Returns the lens distortion of a camera that has these effects.

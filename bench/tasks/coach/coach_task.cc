@@ -105,7 +105,7 @@ class CoachTask final : public Task {
 
  private:
   const Rehearsal shared_;
-  mutable ReadyCoaches coaches_{shared_};  // a cache; its content depends on keys alone
+  mutable ReadyCoaches coaches_{shared_};  // a cache whose content depends on keys alone
 };
 
 /// Returns the stage of a song. All conditions with this song share it.

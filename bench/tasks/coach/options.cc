@@ -68,7 +68,7 @@ const std::vector<std::string>& SeatNames() {
 const FieldTable<CoachCondition>& CoachConditionFields() {
   using Key = Field<Condition>;
   static const FieldTable<Condition> table = [] {
-    // The song, the learner and the music.
+    // Keys of the song, the learner and the music.
     std::vector<std::pair<std::string, std::string>> songs;
     for (const std::string& song : BuiltinSongNames()) songs.emplace_back(song, song);
     std::vector<Key> fields = {

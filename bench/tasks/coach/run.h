@@ -18,7 +18,8 @@ namespace etude {
 /// A prepared method: its coach, and its recogniser, which has been taught the moves of the dance.
 struct ReadyCoach {
   CoachMethod method;
-  std::shared_ptr<const DanceTransitions> transitions;  ///< shared by all methods with this kind of transitions
+  /// Transitions, shared by all methods with transitions of this kind.
+  std::shared_ptr<const DanceTransitions> transitions;
   std::unique_ptr<Recogniser> recogniser;
   std::unique_ptr<Coach> coach;
   std::unique_ptr<Coach> partner;  ///< the partner coach of a yoked method; else null

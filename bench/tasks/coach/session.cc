@@ -30,7 +30,7 @@ class Loop {
   }
 
   Result<SessionLog> Run() {
-    for (int i = 0; i < kAhead; ++i) MoveLearner();  // the poses that are requested in advance
+    for (int i = 0; i < kAhead; ++i) MoveLearner();  // requests poses in advance
     ASSIGN_OR_RETURN(sensor_, MakeSensor());
     for (const BodyPose& pose : log_.learner.poses) sensor_->Update(pose);
     while (frame_ < world_.frames) {
@@ -146,7 +146,7 @@ class Loop {
     }
   }
 
-  /// Logs the performance whose window has closed. A window that the coach itself cut off is not logged, because the
+  /// Logs the performance whose window has closed. A window that the coach interrupted is not logged, because the
   /// coach did not ask for a whole performance.
   void NoteVerdict(CoachEvent event) {
     if (!open_) return;

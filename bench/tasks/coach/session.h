@@ -17,7 +17,7 @@ namespace etude {
 /// The truth of a performance, which only its player knows.
 struct PlayedPerformance {
   PerformanceTruth truth = PerformanceTruth::kRight;
-  std::string faults = "none";  ///< "amplitude+late"
+  std::string faults = "none";  ///< names of the faults, e.g. "amplitude+late"
 };
 
 /// The dancer in front of the coach.
@@ -61,13 +61,13 @@ struct LoggedWords {
 
 /// The record of a session.
 struct SessionLog {
-  std::vector<CoachMode> modes;  ///< per frame
+  std::vector<CoachMode> modes;  ///< the mode in each frame
   std::vector<LoggedPerformance> performances;
   std::vector<GivenCorrection> corrections;
-  std::vector<CoachRecord> records;  ///< frames count from the session's first
+  std::vector<CoachRecord> records;  ///< records whose frames count from the session's first frame
   std::vector<LoggedTransition> transitions;
-  std::vector<LoggedWords> words;     ///< one entry per change
-  std::vector<double> beat_errors_s;  ///< errors in the frames danced to music
+  std::vector<LoggedWords> words;     ///< one entry per change of the words
+  std::vector<double> beat_errors_s;  ///< timing errors in the frames danced to music
   std::vector<double> beats_s;        ///< times of the music's beats, seconds from the session's start
   BodyMotion coach;                   ///< the coach's motion as shown
   BodyMotion learner;                 ///< the learner's motion as danced

@@ -39,9 +39,10 @@ struct CoachWorld {
   Camera sensor;
   SkeletonSensorOptions errors;
   Occluders occluders;
-  std::optional<StudioOptions> cameras = {};  ///< if set, used instead of the skeleton sensor
+  /// Studio whose cameras replace the skeleton sensor; nullopt = the skeleton sensor.
+  std::optional<StudioOptions> cameras = {};
   MusicClockOptions music;
-  int frames = 0;  ///< length of the session
+  int frames = 0;  ///< length of the session, frames
   LearnerOptions learner;
   int test_after = 20;  ///< delay of the retention test, in durations of one performance
 };

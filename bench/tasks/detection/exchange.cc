@@ -100,7 +100,7 @@ Payload TaughtPayload(std::span<const std::string> names, std::span<const Taught
         const BodyMotion motion = MotionOf(PartOf(*first_right->stream, first_right->begin, first_right->end));
         move["rate_hz"] = motion.rate_hz;
         move["poses"] = EncodePoses(motion.poses);
-        move["file"] = fmt::format("{}.bvh", told.size());  // a label may be no file's name
+        move["file"] = fmt::format("{}.bvh", told.size());  // a label need not be a valid file name
         setting.files.push_back({move["file"].get<std::string>(), WriteBvh(ToClip(motion, name))});
       }
     }

@@ -22,7 +22,7 @@ Payload MovesPayload(std::span<const Move> moves);
 
 /// A performance that teaches a move, with its label and its person.
 struct ToldExample {
-  std::string move, person, fault;  ///< fault "" = right; person "" = unknown
+  std::string move, person, fault;  ///< fault "": the performance is right; person "": unknown
   const SkeletonStream* stream = nullptr;
   int begin = 0, end = 0;  ///< frames [begin, end) of the stream
 };

@@ -89,7 +89,6 @@ class PersonLeftOut {
   }
 
  private:
-  /// Evaluates the labelled parts of one stream.
   void TakeStream(const std::string& person, std::span<const LabelledPart> parts) {
     const auto is_theirs = [&](const LabelledPart& part) { return part.person == person; };
     if (std::ranges::none_of(parts, is_theirs)) return;
@@ -112,7 +111,8 @@ class PersonLeftOut {
         out_.detections.push_back({taught_[spotting.move].name, clock_s_ + spotting.frame / stream.rate_hz});
       }
     }
-    constexpr double kBetweenStreams = 10;  // seconds, so that no detection matches a point of the next stream
+    // Seconds between streams, so that no detection matches a point of the next stream.
+    constexpr double kBetweenStreams = 10;
     clock_s_ += static_cast<double>(stream.frames.size()) / stream.rate_hz + kBetweenStreams;
   }
 
@@ -125,7 +125,7 @@ class PersonLeftOut {
   double clock_s_ = 0;
 };
 
-constexpr double kMargin = 0.5;  // seconds, as in the windows of the detection task
+constexpr double kMargin = 0.5;  // seconds; the windows of the detection task have the same margin
 constexpr double kApart = 10;    // seconds between recordings, so that no detection matches a point of the next one
 
 double Rounded(double value) { return std::round(value * 1e4) / 1e4; }

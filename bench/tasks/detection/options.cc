@@ -4,7 +4,7 @@ namespace etude {
 namespace {
 
 constexpr Range kShare{0, 1};
-constexpr Range kThresholds{0.01, 1};  // 0 would call everything right
+constexpr Range kThresholds{0.01, 1};  // 0 would call every performance right
 constexpr Range kLengths{0, 1};        // metres
 
 using Method = DetectionMethod;
@@ -12,7 +12,6 @@ using MethodKey = Field<Method>;
 
 bool IsSensorFile(std::string_view reference) { return !FindSensorPreset(reference) && reference != kCameraSensor; }
 
-/// Returns the keys of the filters' settings.
 std::vector<MethodKey> FilterFields() {
   const auto holt = [](const std::string& key, double HoltOptions::*member, Range range, const std::string& meaning) {
     const auto value = Path(&Method::filter, &FilterOptions::holt, member);
@@ -75,7 +74,7 @@ FieldTable<DetectionOptions> MakeConditionFields() {
             "(each person is judged by what the other people teach)",
             "The moves that recognisers are taught, for recorded people."},
            [](Fields& condition, Options& o) { o.moves = condition.Text(kMovesKey, ""); }},
-       // The session and the performers.
+       // Keys of the session and the performers.
        Key::Number("events", Path(&Options::session, &SessionOptions::events), {1, 200},
                    "Number of performances in a session."),
        Key::Number("fault_share", Path(&Options::session, &SessionOptions::fault_share), kShare,
@@ -96,7 +95,7 @@ FieldTable<DetectionOptions> MakeConditionFields() {
        Key::Name("people", Path(&Options::session, &SessionOptions::people), PeopleNames(), FindPeople,
                  "The kind of people who dance, another person in every trial; `mixed`: toddlers, school children, "
                  "adults and experts."),
-       // The sensor and its view.
+       // Keys of the sensor and its view.
        Key::Number("noise", &Options::noise, {0, 10}, "Multiplies the measured errors of a Kinect-like sensor."),
        Key::Number("turn_deg", &Options::turn_deg, {-180, 180},
                    "Angle by which the performer is turned away from the sensor.")
@@ -118,7 +117,7 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                   {"chair", OccluderKind::kChair},
                   {"person", OccluderKind::kPerson}},
                  "What stands between the sensor and the performer."),
-       // The thresholds of methods that do not set one.
+       // Keys of the thresholds of methods that do not set one.
        Key::Number("threshold", &Options::threshold, kThresholds,
                    "Lowest evidence at which a move counts as performed; for all methods.")
            .WhenAbsent("(each recogniser's own)"),
@@ -171,7 +170,7 @@ std::span<const std::string_view> SensingKeys() {
 
 const FieldTable<DetectionMethod>& DetectionMethodFields() {
   static const FieldTable<Method> table = [] {
-    // The stages from the sensor to skeletons.
+    // Keys of the stages from the sensor to skeletons.
     std::vector<MethodKey> fields = {MethodKey::Name("filter", Path(&Method::filter, &FilterOptions::kind),
                                                      FilterNames(), FilterOf,
                                                      "How the sensed joints are smoothed first.")};
@@ -180,7 +179,7 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
         MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
                          "What is replaced by the truth: the sensed skeletons, to show what the sensor costs."));
     fields.push_back(CaptureField<Method>(&Method::capture));
-    // The stages from skeletons to verdicts.
+    // Keys of the stages from skeletons to verdicts.
     fields.push_back(MethodKey::Name("recogniser", Path(&Method::recogniser, &RecogniserOptions::kind),
                                      RecogniserNames(), FindRecogniser, "How a move is recognised."));
     const auto settings = Path(&Method::recogniser, &RecogniserOptions::settings);

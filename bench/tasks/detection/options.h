@@ -32,7 +32,7 @@ enum class OccluderKind { kNone, kTable, kChair, kPerson };
 /// because it says yes, or no, more often.
 struct OperatingPoint {
   double false_alarms_per_min = 1;
-  double recall = 0.9;  ///< recall of judging
+  double recall = 0.9;  ///< share of the right performances that each method calls right at its threshold
   int sessions = 24;    ///< number of sessions, each with another person
 };
 
@@ -54,13 +54,13 @@ struct MethodDecision {
 ///     turn_deg: 0      # the angle by which the performer is turned away from the sensor
 ///     occluder: none   # the object between the two: none, table, chair, person
 struct DetectionOptions {
-  std::string moves;  ///< only with recordings: a file of taught moves (etude teach)
+  std::string moves;  ///< a file of taught moves (etude teach); only for recordings
   SessionOptions session;
   double noise = 1;
   /// The sensor's options without the noise factor. The task sets them from the sensor that the condition names.
   SkeletonSensorOptions sensor = SensorV2();
   double turn_deg = 0;
-  std::optional<double> distance_m;  ///< if absent, drawn in each trial, 2.5–3 m
+  std::optional<double> distance_m;  ///< distance of the performer; if absent, drawn in each trial from 2.5 to 3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
   bool has_cameras = false;  ///< true with `sensor: cameras`; of the members above, only `session` is then used
@@ -79,7 +79,7 @@ struct DetectionMethod {
   /// If cameras are the sensor: the method by which pictures become skeletons; nullopt = the defaults of task capture.
   std::optional<CaptureMethod> capture = {};
   RecogniserOptions recogniser;
-  std::optional<double> threshold;  ///< nullopt = the recogniser's default
+  std::optional<double> threshold;  ///< the method's own threshold; nullopt = the recogniser's default
   double refractory_s = DecisionOptions{}.refractory_s;
 
   CaptureMethod Capture() const { return capture.value_or(CaptureMethod{}); }

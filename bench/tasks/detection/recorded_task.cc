@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-constexpr double kGrace = 0.5;  // seconds, as after a simulated performance
+constexpr double kGrace = 0.5;  // seconds, the same as after a simulated performance
 
 /// Appends recordings, with their labels, to a world.
 class RecordingAppender {

@@ -12,7 +12,8 @@ namespace etude {
 /// The results of a method in one session.
 struct SessionVerdict {
   SkeletonStream filtered;
-  std::vector<Judgement> events;  ///< one per event; frames count from the first of its window
+  /// One judgement per event; its frames count from the first frame of the event's window.
+  std::vector<Judgement> events;
   /// For each event, the index (in Repertoire::taught) of the move with the most evidence in the event's window. Empty
   /// for an outside method, which names no moves.
   std::vector<std::optional<std::size_t>> named = {};

@@ -21,7 +21,6 @@ struct Measured {
 /// Collects labelled bags of performances by key. Each bag keeps only its nearest performances.
 class BagMaker {
  public:
-  /// Adds a performance to the bag with this key.
   void Add(const std::array<int, 3>& key, bool is_right, const PerformanceMeasures& performance) {
     LabelledBag& bag = bags_[key];
     bag.is_right = is_right;
@@ -40,7 +39,6 @@ class BagMaker {
   std::map<std::array<int, 3>, LabelledBag> bags_;
 };
 
-/// Draws the condition of a session.
 DetectionOptions DrawCondition(const WorldKey& key) {
   RandomStream dice(key, "condition");
   constexpr std::array<double, 4> kNoises = {0.5, 1, 1, 2};

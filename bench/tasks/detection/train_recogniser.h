@@ -10,7 +10,8 @@
 namespace etude {
 
 struct RecogniserTraining {
-  int sessions = 800;  ///< each of another person with 16 performances; the first half also teaches spotting
+  /// Number of sessions, each with another person and 16 performances; the first half also teaches spotting.
+  int sessions = 800;
   std::uint64_t seed = 1;
   BoostingOptions asked{.trees = 300, .rate = 0.08, .takes_turns = true};
   BoostingOptions spotted{};

@@ -25,7 +25,7 @@ Cuboid BoxBefore(const SensorPlacement& sensor, double ahead, double aside, doub
 
 std::vector<BodyPose> Bystander(const SensorPlacement& sensor, std::size_t frames) {
   const auto sway = LoadBuiltinMove("sway");
-  assert(sway);  // a built-in move
+  assert(sway);  // sway is a built-in move
   const Cuboid place = BoxBefore(sensor, 1.2, 0.35, 0, glm::dvec3(1));
   const FloorMove move{.yaw = sensor.turn + Radians(90), .x = place.centre.x, .z = place.centre.z};
   std::vector<BodyPose> poses;
@@ -143,7 +143,7 @@ bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world
   for (const DetectionEvent& event : world.events) {
     windows.push_back({event.move, event.danced, event.window.begin, event.window.end});
   }
-  constexpr double kAboutPoints = 0.5;  // seconds
+  constexpr double kAboutPoints = 0.5;  // half of a point's window, seconds
   for (const ActionPoint& point : world.points) {
     const auto margin = static_cast<int>(kAboutPoints * world.stream.rate_hz);
     windows.push_back({point.move, point.move, point.frame - margin, point.frame + margin + 1});

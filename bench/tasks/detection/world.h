@@ -23,8 +23,8 @@ Occluders MakeOccluders(OccluderKind kind, const SensorPlacement& sensor, std::s
 
 /// The moves that may be performed, and the moves that recognisers were taught.
 struct Repertoire {
-  std::vector<Move> moves;         ///< as authored; empty if there are only recordings
-  std::vector<TaughtMove> taught;  ///< sorted by name
+  std::vector<Move> moves;         ///< the moves as authored; empty if there are only recordings
+  std::vector<TaughtMove> taught;  ///< taught moves, sorted by name
   std::vector<std::string> names;  ///< names of all moves that may be requested or taught, sorted
 
   /// Returns the index of a move in `names`, which must contain it.
@@ -41,8 +41,8 @@ class CameraTake;
 /// A performance that was requested, with its truth. Times are in seconds from the world's first frame.
 struct DetectionEvent {
   std::string move;                      ///< the requested move
-  std::vector<GradedFault> faults = {};  ///< faults of simulated people
-  std::string labelled_fault = {};           ///< of a recording: the fault that its label names
+  std::vector<GradedFault> faults = {};  ///< faults of a simulated person
+  std::string labelled_fault = {};       ///< the fault that a recording's label names
   std::string danced;                    ///< the move that was performed; "" if none was
   double start_s = 0, end_s = 0;         ///< time of the performance, from the first beat to the last
   FrameInterval performed;               ///< time of the performance, frames
@@ -71,9 +71,9 @@ struct DetectionWorld {
   /// The output of a skeleton sensor. If cameras are used instead, the stream has no bodies, because each method makes
   /// its own skeletons from the pictures.
   SkeletonStream stream;
-  std::string person = {};  ///< the person's name, for recordings
+  std::string person = {};                   ///< the person's name, for recordings
   std::vector<ActionPoint> points = {};      ///< labelled action points, for recordings
-  std::shared_ptr<CameraTake> cameras = {};  ///< null without cameras
+  std::shared_ptr<CameraTake> cameras = {};  ///< the cameras' take; null without cameras
   std::vector<int> starts = {};              ///< the first frames of all recordings except the first
 
   /// Returns the intervals that recognisers follow without interruption, one per recording.

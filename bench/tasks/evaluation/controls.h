@@ -7,17 +7,17 @@
 
 namespace etude {
 
-/// Returns foot contacts as RawMotion::contacts has them, found by height and speed. *(Ours.)* An ankle below 12 cm or
-/// toes below 5 cm touch while they are slower than 0.2 m/s along the floor, measured over 0.13 s. A motion without
-/// ankles and toes has none.
+/// Returns foot contacts as RawMotion::contacts has them, found by height and speed (Etude's own rule). An ankle below
+/// 12 cm or toes below 5 cm touch while they are slower than 0.2 m/s along the floor, measured over 0.13 s. A motion
+/// without ankles and toes has no contacts.
 std::vector<bool> ContactsByMotion(const RawMotion& motion);
 
 /// Returns `given`, completed by what the truth's own motion yields: its beats (MotionBeats), and the mean and
 /// deviation (at least 1 cm) of each judged joint.
 EvaluationSideData SideDataOf(const MatchedMotions& matched, EvaluationSideData given);
 
-/// Hides the share of the joints, over all frames, that are farthest from the truth's. Both have the same joints and
-/// frames.
+/// Hides `percent` per cent of the joints, over all frames: those farthest from the truth. Both motions have the same
+/// joints and frames.
 void HideWorst(RawMotion& answer, const RawMotion& truth, double percent);
 
 }  // namespace etude

@@ -41,15 +41,15 @@ std::vector<std::string> FilesIn(const std::string& folder) {
   return files;
 }
 
-/// Fails if one of the files that a folder or pattern stands for is a link, or is in a linked folder, because the
-/// sender of the answers may have linked them to the truth. A file that the scenario names itself may be a link.
+/// Fails if a file that a folder or pattern stands for is a link or lies in a linked folder, because the sender of the
+/// answers may have linked it to the truth. A file that the scenario names itself may be a link.
 Result<void> RefuseLinks(const std::string& reference, std::span<const std::string> files, const Place& place) {
   if (files.size() == 1 && files.front() == reference) return {};
   const fs::path pattern = Split(reference).path;
   const auto first = std::find_if(pattern.begin(), pattern.end(), [](const fs::path& part) {
     return part.string().find_first_of("*?[") != std::string::npos;
   });
-  const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);  // 1 for a folder
+  const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);  // one part for a folder
   std::error_code error;
   for (const std::string& file : files) {
     fs::path path = Split(file).path;
@@ -124,7 +124,6 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
   return named;
 }
 
-/// The columns of a CSV of pairs.
 struct PairColumns {
   std::size_t truth = 0;
   std::optional<std::size_t> name;

@@ -172,25 +172,26 @@ std::string SomeOf(const std::vector<std::string>& names) {
 /// Returns true if the rates, which files state with rounding, drift apart by less than a hundredth of a frame over the
 /// length of the truth.
 bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
-  constexpr double kMaxDrift = 0.01;  // frames
+  constexpr double kMaxDrift = 0.01;  // tolerance, frames
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
 }
 
-/// Where the answer's first frame lies after the truth's, by the clocks of the files.
+/// The time from the truth's first frame to the answer's, by the clocks that their files state.
 struct ClockOffset {
   double seconds = 0;
   std::string note;
 };
 
-/// Compares the clocks that both files state. If one states none, or the clocks never show the same time, the first
-/// frames belong together. Within a tenth of a frame of whole frames, the answer is a whole number of frames later.
+/// Compares the clocks that both files state. If a file states none, or if the clocks never show the same time, the
+/// first frames count as simultaneous. If the offset differs from whole frames by less than a tenth of a frame, it is
+/// rounded.
 ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
-  constexpr double kSame = 0.1;  // frames
+  constexpr double kSame = 0.1;  // tolerance, frames
   const double truth_s = truth.start_s.value_or(0), answer_s = answer.start_s.value_or(0);
   const double frames = (answer_s - truth_s) * truth.rate_hz;
   if (std::abs(frames) < kSame) return {};
   const auto told = [](const RawMotion& motion) {
-    // To the millisecond, also of times since 1970.
+    // Round to milliseconds. 13 digits are enough, even for times since 1970.
     return motion.start_s ? fmt::format("begins at {:.13g} s", std::round(1000 * *motion.start_s) / 1000)
                           : std::string("states no clock");
   };
@@ -206,7 +207,7 @@ ClockOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   return {frames / truth.rate_hz, both + ": judged by these clocks, and the answer is interpolated linearly"};
 }
 
-/// Returns "the answer is 40.2 ms late (39.8 to 40.6), taken out".
+/// Describes the lag, e.g. "the answer is 40.2 ms late (39.8 to 40.6), taken out".
 std::string NoteOn(const TimeShift& lag) {
   constexpr double kToMs = 1000;
   const double ms = kToMs * lag.shift_s;
@@ -286,7 +287,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
                   kMaxTimeShift_s);
     }
   }
-  // Sample the answer at the truth's times; frames of one rate are taken as they are.
+  // Sample the answer at the truth's times, unless it already has the truth's frames.
   const double start_s = (matched.lag ? matched.lag->shift_s : 0) - clock.seconds;
   RawMotion resampled;
   if (!is_same_rate || start_s != 0 || answer.FrameCount() != frames) {

@@ -11,7 +11,7 @@ namespace etude {
 
 /// A condition of task evaluation.
 struct EvaluationOptions {
-  std::vector<std::string> truth;  ///< files, patterns, folders
+  std::vector<std::string> truth;  ///< files, patterns or folders with the truths
   std::string pairs;               ///< the name of a CSV file; "" = pairs are made by name
   std::string joints = "roles";    ///< one of JointSetNames()
   double noise_mm = 0;             ///< standard deviation of the noise of all controls' answers
@@ -29,7 +29,7 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
 /// A method of task evaluation: answers from elsewhere, or a control that tests the metrics.
 struct EvaluationMethod {
   std::string name;
-  std::vector<std::string> answers;  ///< files, patterns, folders; empty if the condition's `pairs` name the files
+  std::vector<std::string> answers;  ///< files, patterns or folders; empty if the condition's `pairs` name the files
   bool is_control = false;           ///< true: its answer is the truth with the spoiler's faults
   Spoiler spoiler;                   ///< the faults of a control's answer
 };

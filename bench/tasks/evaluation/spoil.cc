@@ -34,7 +34,7 @@ void AddNoise(RawMotion& motion, double noisy_mm, const std::string& seed_name) 
   RandomStream dice({.suite_seed = 1, .scenario = seed_name, .trial = 0}, "noise of a control");
   ChangeEach(motion,
              [&](std::size_t, std::size_t, const glm::dvec3& p) { return p + noisy_mm / 1000 * dice.Normal3(); });
-  // Both ends of a segment move, each by the noise: it turns by √2 of it over its length.
+  // The noise moves both ends of a segment, so the segment turns by √2 times the noise, divided by its length.
   constexpr double kSegment_m = 0.42;
   RandomStream turns({.suite_seed = 1, .scenario = seed_name, .trial = 0}, "turns of a control");
   for (glm::dquat& rotation : motion.rotations) {
@@ -43,8 +43,8 @@ void AddNoise(RawMotion& motion, double noisy_mm, const std::string& seed_name) 
   }
 }
 
-/// Returns the mean direction of a joint's rotations over frames from `begin` to before `end`, which lie on the side of
-/// `near`.
+/// Returns the mean of a joint's rotations over the frames [begin, end). Each quaternion gets the sign that is nearer
+/// to `near`.
 glm::dquat MeanTurn(const RawMotion& motion, std::size_t joint, std::size_t begin, std::size_t end,
                     const glm::dquat& near) {
   glm::dquat sum(0, 0, 0, 0);
@@ -55,7 +55,7 @@ glm::dquat MeanTurn(const RawMotion& motion, std::size_t joint, std::size_t begi
   return glm::dot(sum, sum) > 0 ? glm::normalize(sum) : near;
 }
 
-/// Replaces each rotation by what `change` makes of the frame, the joint, and the rotation.
+/// Replaces each rotation by the result of `change(frame, joint, rotation)`.
 template <typename Change>
 void TurnEach(RawMotion& motion, Change change) {
   const std::size_t joints = motion.joints.size();
@@ -130,7 +130,8 @@ void Mirror(RawMotion& motion, std::size_t begin) {
     const glm::dvec3& q = before.At(f, other[j]);
     return f < begin ? p : glm::dvec3(2 * middle - q.x, q.y, q.z);
   });
-  // The reflected rotation from rest of the other side's joint, applied to this joint at rest.
+  // Reflect the rotation by which the joint on the other side differs from its rest, and apply it to this joint at
+  // rest.
   TurnEach(motion, [&](std::size_t f, std::size_t j, const glm::dquat& rotation) {
     if (f < begin) return rotation;
     const std::size_t k = other[j];

@@ -11,21 +11,22 @@ struct Spoiler {
   double smoothed_ms = 0;     ///< length of a centred moving mean
   double faded_percent = 0;   ///< reduction of every joint's distance from its mean position
   double scaled_percent = 0;  ///< enlargement about the world's origin
-  double moved_cm = 0;        ///< shift along X
+  double moved_cm = 0;        ///< shift along the world's X axis
   double lifted_cm = 0;
-  double gliding_cm_s = 0;    ///< speed along X
+  double gliding_cm_s = 0;    ///< speed along the world's X axis
   double feet_locked_cm = 0;  ///< ankles and toes are held at rest while the toes are below this height
-  double mirrored_share = 0;  ///< share at the take's end in which left and right are exchanged
-  int kept_frames = 1;        ///< only every n-th frame is kept, with linear interpolation in between
-  double late_ms = 0;         ///< delay; the first pose is held until then
-  double frozen_share = 0;    ///< share at the take's end in which the body stands still
-  double hidden_percent = 0;  ///< share of all joints that are hidden, those with the largest errors (HideWorst)
+  double mirrored_share = 0;  ///< share of the take, at its end, in which left and right are exchanged
+  int kept_frames = 1;        ///< n, if only every n-th frame is kept, with linear interpolation in between
+  double late_ms = 0;         ///< delay of the motion; the first pose is held until it begins
+  double frozen_share = 0;    ///< share of the take, at its end, in which the body stands still
+  double hidden_percent = 0;  ///< share of all joints that are hidden; these have the largest errors (HideWorst)
 
   bool operator==(const Spoiler&) const = default;
 };
 
-/// Returns a copy of a truth with these faults; no joint is hidden yet. The noise depends on `seed_name` alone. Rotations
-/// get the faults, too: noise of 10 mm turns each joint by 1.9° about each axis, as it would turn a segment of 42 cm.
+/// Returns a copy of a truth with these faults; HideWorst hides joints later. The noise depends on `seed_name` alone.
+/// Rotations get the faults, too: noise of 10 mm turns each joint by 1.9° about each axis, as it would turn a segment
+/// of 42 cm.
 RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::string& seed_name);
 
 }  // namespace etude

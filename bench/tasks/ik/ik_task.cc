@@ -10,7 +10,7 @@ namespace {
 
 /// The data that all worlds of one condition share.
 struct IkStudy {
-  KinematicTree tree = MakeBodyTree({});  ///< with the condition's limits
+  KinematicTree tree = MakeBodyTree({});  ///< the body, with the condition's limits
   IkCondition condition;
   std::vector<IkMethod> methods;
 };

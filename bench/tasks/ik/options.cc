@@ -53,7 +53,7 @@ void CheckMethod(Fields& method, IkMethod& options) {
 const FieldTable<IkCondition>& IkConditionFields() {
   using Key = Field<IkCondition>;
   static const FieldTable<IkCondition> table{
-      // The true pose, the start pose and the targets.
+      // Keys of the true pose, the start pose and the targets.
       {Key::Name("limit_set", Path(&IkCondition::trial, &IkTrialOptions::limit_set), LimitSetNames(), FindLimitSet,
                  "The joint limits: Etude's adult, or a source of paper B's table 3.1."),
        Key{PosesKey(), ReadPoses},
@@ -83,7 +83,7 @@ const FieldTable<IkCondition>& IkConditionFields() {
        Key{{"targets", NameKind(std::vector<std::string>{"both", "position", "orientation"}), "both",
             "Which parts of their targets effectors must meet for a world to be solved."},
            ReadTargets},
-       // The data that a cell keeps, and the goals at which solvers stop.
+       // Keys of the data that a cell keeps, and of the goals at which solvers stop.
        Key::Flags("record",
                   {{"effector_errors", Path(&IkCondition::records, &IkRecords::effector_errors)},
                    {"angle_changes", Path(&IkCondition::records, &IkRecords::angle_changes)},

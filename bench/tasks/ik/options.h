@@ -13,15 +13,15 @@
 namespace etude {
 
 enum class NoiseKind {
-  kGaussian,  ///< normal, with the standard deviation joint_noise_deg
-  kUniform,   ///< uniform within ± joint_noise_deg
+  kGaussian,  ///< normal distribution with the standard deviation joint_noise_deg
+  kUniform,   ///< uniform distribution within ± joint_noise_deg
 };
 
 /// The pose from which solvers start.
 enum class IkStart {
   kDisturbed,  ///< the truth plus noise
   kMiddle,     ///< the middle of every joint's range
-  kStretched,  ///< paper B, figure 3.8: stretched limbs, with the targets along them
+  kStretched,  ///< stretched limbs, with the targets along them (paper B, figure 3.8)
 };
 
 /// The difficulty of the trials of a condition.
@@ -46,7 +46,6 @@ struct IkRecords {
   bool motion = false;
 };
 
-/// A condition of an ik scenario.
 struct IkCondition {
   IkTrialOptions trial;
   IkRecords records;

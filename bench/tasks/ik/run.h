@@ -23,7 +23,7 @@ IkTargetParts AskedOf(const IkProblem& problem);
 
 /// The costs that a method reports, and the reason if it did not reach the targets.
 struct IkAccount {
-  std::optional<int> iterations, fk_evaluations;  ///< empty if the method does not report them
+  std::optional<int> iterations, fk_evaluations;  ///< costs; empty if the method does not report them
   int max_steps = 0;
   std::string why_not_met;  ///< the reason if the targets are not met
 };

@@ -73,8 +73,8 @@ void MakePoses(const KinematicTree& tree, const IkTrialOptions& options, const W
 /// Moves the target of one effector straight away from the root, until it is `beyond` metres farther than the border of
 /// the effector's reach in that direction. Bisection finds the border.
 void PullOutOfReach(const KinematicTree& tree, double beyond, RandomStream& dice, IkProblem& problem) {
-  constexpr double kFarOut = 100;  // metres
-  constexpr int kHalvings = 50;    // accurate to 10⁻¹³ m
+  constexpr double kFarOut = 100;  // metres, beyond every reach
+  constexpr int kHalvings = 50;    // number of bisections, for an accuracy of 10⁻¹³ m
   EffectorTarget& target = problem.targets[dice.IndexBelow(problem.targets.size())];
   const glm::dvec3 from = target.position, outward = glm::normalize(from - problem.start.root_position);
   double within = 0, without = kFarOut;

@@ -18,7 +18,7 @@ namespace etude {
 /// at 0.90 m.
 struct JudgedFile {
   double floor_m = 0;  ///< the 5th percentile, over the frames, of the lowest joint's height (hands do not count)
-  double scale = 1;    ///< factor from the file's body to the judged one
+  double scale = 1;    ///< factor from the size of the file's body to that of the judged body
   std::vector<double> natural_jumps_cm;
   double own_slide_cmps = 0;
   RealFrames frames;
@@ -29,8 +29,9 @@ struct HiddenWindow {
   TreeMotion motion;
   int first = 0, last = 0;  ///< the hidden frames, both inclusive; three or more frames are on either side
   std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1: none
-  std::vector<glm::dvec3> deviations;      ///< L2P's divisors: standard deviations of each joint's position in
-                                           ///< training, metres; empty: unknown
+  /// The divisors of L2P: the standard deviations of each joint's position in training, metres. Empty if they are
+  /// unknown.
+  std::vector<glm::dvec3> deviations;
   std::shared_ptr<const JudgedFile> file;  ///< shared by all windows of a file; they outlive the file's motion
 };
 

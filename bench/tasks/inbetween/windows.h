@@ -35,9 +35,9 @@ std::vector<TreePose> PlacedWindow(std::span<const TreePose> poses, int first, i
 
 /// Statistics of all training files that have the same joint tree.
 struct TrainingTree {
-  JointTree tree;                         ///< with the offsets of the first frame of the first file
-  std::vector<glm::dvec3> sums, squares;  ///< of each joint's coordinates (m, m²) over all training windows
-  double count = 0;                       ///< frames of these windows
+  JointTree tree;                         ///< the tree, with the offsets of the first frame of the first file
+  std::vector<glm::dvec3> sums, squares;  ///< sums of each joint's coordinates (m) and their squares (m²)
+  double count = 0;                       ///< number of frames of all training windows
 
   /// Returns the standard deviation of each joint's coordinates, metres; empty if there are no windows.
   std::vector<glm::dvec3> Deviations() const;

@@ -21,7 +21,7 @@ const FieldTable<PlausibilityOptions>& PlausibilityConditionFields();
 /// A method of task plausibility: motions from elsewhere.
 struct PlausibilityMethod {
   std::string name;
-  std::vector<std::string> answers;  ///< files, patterns, folders
+  std::vector<std::string> answers;  ///< files, patterns or folders
 };
 
 const FieldTable<PlausibilityMethod>& PlausibilityMethodFields();

@@ -23,7 +23,6 @@ std::vector<std::string> PoseDistanceNames();
 /// Returns the distance with this name. `name` must be one of PoseDistanceNames.
 PoseDistance FindPoseDistance(std::string_view name);
 
-/// A method of task pose-distance.
 struct PoseDistanceMethod {
   std::string name;
   PoseDistance distance = PoseDistance::kFuzzy;
@@ -35,7 +34,7 @@ struct PoseDistanceMethod {
 
 /// A method's verdicts on the pairs of a world, in the order of the pairs.
 struct PairVerdict {
-  std::vector<double> distances;  ///< larger = less alike; on any scale
+  std::vector<double> distances;  ///< distances on any scale; larger = less alike
   std::vector<bool> alike;
 };
 

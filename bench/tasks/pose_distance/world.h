@@ -17,7 +17,7 @@ namespace etude {
 /// Two poses that look clearly different but have a small fuzzy distance. Paper A's features measure how far a limb is
 /// raised but not in which direction, and their membership functions are flat in ranges that were thought unimportant.
 struct BlindSpot {
-  std::string_view name;  ///< "arm forward or sideways"
+  std::string_view name;  ///< what differs between the poses, e.g. "arm forward or sideways"
   Controls a, b;          ///< controls of the two poses, for the body of the built-in moves
 };
 
@@ -39,7 +39,7 @@ struct SeenPair {
 struct PairWorld {
   std::string name;             ///< name of the blind spot; empty for frames
   std::string clip_a, clip_b;   ///< identities of the clips of the poses; empty for a blind spot
-  std::vector<SeenPair> pairs;  ///< one or more
+  std::vector<SeenPair> pairs;  ///< at least one pair
 };
 
 /// The kind of pairs in a world.

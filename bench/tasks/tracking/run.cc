@@ -61,7 +61,7 @@ Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& 
 
 namespace {
 
-using Angles = std::vector<std::vector<double>>;  // [frame][angle]
+using Angles = std::vector<std::vector<double>>;  // indexed [frame][angle], radians
 
 /// The measurements of an answer, frame by frame.
 struct Outcome {

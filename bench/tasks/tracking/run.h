@@ -12,7 +12,7 @@ namespace etude {
 
 /// A method's answer for a motion, one entry per frame.
 struct TrackingAnswer {
-  std::vector<std::vector<double>> angles;  ///< radians
+  std::vector<std::vector<double>> angles;  ///< indexed [frame][angle], radians
   std::optional<std::vector<int>> iterations;
 };
 

@@ -62,8 +62,8 @@ std::vector<AngleRange> WithinReach(const KinematicTree& tree, const std::vector
   return ranges;
 }
 
-/// Changes the poses of a secret world, but keeps their targets. Even a program that recovers the disguised motion from
-/// its targets then does not know the angles that the targets leave open.
+/// Changes the poses of a secret world, but keeps their targets. A program that recovers the disguised motion from its
+/// targets then still does not know the angles that no target determines.
 class OpenAngles {
  public:
   OpenAngles(const KinematicTree& tree, const WorldKey& key) : tree_(tree), solver_(tree) {
@@ -72,8 +72,8 @@ class OpenAngles {
     for (int i = 0; i < tree.dof_count(); ++i) dice_.emplace_back(key, fmt::format("tracking/open-angle/{}", i));
   }
 
-  /// Returns a pose within `ranges` whose end effectors equal those of `state` and whose angles are near random ones.
-  /// If no such pose is found, returns the pose whose end effectors came closest.
+  /// Returns a pose within `ranges` whose end effectors equal those of `state` and whose angles are near randomly drawn
+  /// ones. If no such pose is found, returns the pose whose end effectors came closest.
   TreeState Slide(const TreeState& state, const std::vector<AngleRange>& ranges, double seconds) {
     IkProblem problem{state, TargetsMetBy(tree_, state), ranges};
     for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -86,8 +86,8 @@ class OpenAngles {
   }
 
  private:
-  static constexpr double kOpenAngle = Radians(35);  // standard deviation of the change that is drawn; the
-                                                     // solver then removes most of it to meet the targets
+  // Standard deviation of the change that is drawn. The solver then removes most of the change to meet the targets.
+  static constexpr double kOpenAngle = Radians(35);
 
   const KinematicTree& tree_;
   const GaussNewtonSolver solver_;

@@ -20,9 +20,9 @@ namespace etude {
 /// is nearer.
 struct TrackingWorld {
   KinematicTree tree;
-  std::vector<TreeState> truth;                      ///< one per frame; the root is given to solvers
-  std::vector<std::vector<EffectorTarget>> targets;  ///< [frame][effector]
-  std::vector<double> first_angles;                  ///< the start of the first frame, within the limits
+  std::vector<TreeState> truth;                      ///< one state per frame; solvers are given its root
+  std::vector<std::vector<EffectorTarget>> targets;  ///< indexed [frame][effector]
+  std::vector<double> first_angles;                  ///< the angles at which the first frame starts, within the limits
 };
 
 /// Makes the world of `key`. The window of the clip begins at a random frame. Clips that loop are repeated; other clips

@@ -19,11 +19,11 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMaxBetween = 300;  // ten seconds
+constexpr std::size_t kMaxBetween = 300;  // number of frames in ten seconds
 constexpr std::size_t kMaxThrough = 16;
 constexpr std::size_t kMaxReasonBytes = 300;
 constexpr Range kJoins_s{0, 5};
-constexpr double kLimbTolerance = 0.02;  // metres
+constexpr double kLimbTolerance = 0.02;  // tolerance of limb lengths, metres
 
 Result<void> CheckLimbs(const BodyPose& pose, const BodyProportions& character, const std::string& path) {
   for (const Bone& bone : AllBones()) {

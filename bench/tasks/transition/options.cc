@@ -41,7 +41,7 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
        Key::Flag("explain", &Options::explain,
                  "Whether every cell keeps the ten partial distances of its transition points and candidates as "
                  "series; the report always explains cells that have films."),
-       // The rules by which the library is prepared.
+       // Keys of the rules by which the library is prepared.
        Key::Name("asked_for", Path(&Options::stage, &StageRules::asks_for_acts), {{"any", false}, {"acts", true}},
                  "Which clips are requested: any other clip, or one of the coach's acts, if there are any, while other "
                  "clips play."),
@@ -88,7 +88,7 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
          Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "Maximum time from the request to the transition.")
              .Unit("seconds")
              .WhenAbsent("(the scenario's)")}};
-    // The settings of each choice and each join.
+    // Add the settings of each choice and each join.
     for (const Key& key : SettingFields<TransitionMethod>(
              "choice", AllChoices(), Path(&TransitionMethod::way, &TransitionWay::choice_settings))) {
       made.fields.push_back(key);

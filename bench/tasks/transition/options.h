@@ -20,10 +20,9 @@ struct TransitionMethod {
   /// The choice and the join. Its weights are paper A's, because learnt weights depend on the world.
   TransitionWay way = DefaultWay();
   WeightSource weights = WeightSource::kFixed;
-  double wait_s = 1;  ///< the longest wait of its requests, seconds
+  double wait_s = 1;  ///< the longest wait of the method's requests, seconds
 };
 
-/// A condition of a transition scenario.
 struct TransitionCondition {
   double threshold = kPaperThreshold;  ///< threshold of methods that do not set their own
   double wait_s = 1;                   ///< longest wait, seconds, of methods that do not set their own

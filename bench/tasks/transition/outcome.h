@@ -16,7 +16,7 @@ struct TransitionOutcome {
   bool matched = false;  ///< true: the frames that are left and entered were chosen because they are similar
   MatchRules rules;      ///< the rules by which the distances were computed
   TransitionRecord record;
-  Splice splice;  ///< empty if the record has no segments
+  Splice splice;  ///< the spliced motion; empty if the record has no segments
 };
 
 /// Carries out an outside method's answer, which must have segments: splices the clips, or inserts the method's own

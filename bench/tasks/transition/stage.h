@@ -26,7 +26,7 @@ struct Stage {
   MotionLibrary library;                ///< the clips, with the names that rows and videos show
   std::vector<std::string> identities;  ///< the source of each clip; equal for equal clips
   std::vector<std::vector<double>> natural_jumps_cm;
-  std::vector<double> natural_slides_cmps;  ///< foot slide over each clip
+  std::vector<double> natural_slides_cmps;  ///< foot slide over each clip, cm/s
   RealFrames real_frames;                   ///< the frames of all clips
   FuzzySystem fuzzy;                        ///< the fuzzy system by which the clips are tagged
   std::vector<int> playing;                 ///< clips that may play at a request: all, or all except the acts
@@ -43,7 +43,6 @@ std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
 /// Returns the smaller of the natural limits of two clips, centimetres.
 double CalmerLimitCm(const Stage& stage, int from, int to);
 
-/// Prepares the clips of a library.
 Stage SetStage(const ClipLibrary& library, const StageRules& rules = {});
 
 }  // namespace etude
