@@ -26,11 +26,11 @@ struct Turn {
 /// after it. It begins early because dancers think ahead and a move's first key pose may come early.
 constexpr double kBlendBeatsBefore = 1, kBlendBeatsAfter = 0.5;
 
-/// Returns the body at a beat of the music. In the blend between two turns both are danced, the first beyond its last
-/// beat and the second before its first beat; the weight of the second grows. Feet are not blended: they change from
-/// one turn to the next exactly at beat 0 of the second. In every move the feet are at home at beat 0, so a standing
-/// foot does not move. `turns` (at least one) must follow each other without gaps; the body is at rest before the first
-/// and after the last.
+/// Returns the body at a beat of the music. In the blend between two turns both are danced: the first turn beyond its
+/// last beat, and the second before its first beat, with growing weight. Feet are not blended: they change from the
+/// first turn to the second exactly at beat 0 of the second. In every move the feet are at home at beat 0, so a
+/// standing foot does not move. `turns` (at least one) must follow each other without gaps. The body is at rest before
+/// the first turn and after the last.
 Controls SequenceAt(std::span<const Turn> turns, double beat);
 
 /// One part of a song, in which one move is danced `times` times in a row.
@@ -42,7 +42,7 @@ struct SongPart {
   double beats = 0;        ///< in beats of the music, for all repetitions
 };
 
-/// A choreography for a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), authored
+/// A choreography for a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), written
 /// in scenarios/choreography/songs/*.yaml. Every move must suit the tempo: agile moves are for fast songs, warm-up
 /// moves for slow songs or for fast ones in half time.
 struct Song {

@@ -16,7 +16,8 @@ struct MusicClockOptions {
 };
 
 /// A simulated music player at 30 Hz: it gives the position in the song at every frame of a session. It draws one
-/// number per frame, whatever it plays. Its stutters are therefore on the same frames of the session for every coach.
+/// number per frame, also while it is paused. Its stutters are therefore on the same frames of the session for every
+/// coach.
 class MusicClock {
  public:
   MusicClock(const MusicClockOptions& options, const WorldKey& world);

@@ -26,11 +26,12 @@ struct RoomTexture {
 /// Draws the random patterns of a room. They depend only on `seed`.
 RoomTexture MakeRoomTexture(std::uint64_t seed);
 
-/// The maximum side of a tile, pixels. Small tiles follow shadows closely, but every tile is tested against every body.
+/// The maximum side of a tile, pixels. Smaller tiles fit shadows more closely, but every tile is tested against every
+/// body.
 constexpr int kRoomTileSize = 16;
 
-/// A tile of the picture, and the directions (unit vectors) from the lamp to the points of the empty room that the tile
-/// shows.
+/// A tile of the picture. Its directions are the unit vectors from the lamp to the points of the empty room that the
+/// tile shows.
 struct RoomTile {
   PixelRect pixels;
   glm::dvec3 middle{0};  ///< mean direction, unit
@@ -63,8 +64,8 @@ struct KeptRoom {
 /// used pictures are kept.
 class KeptRooms {
  public:
-  /// The two programs draw the studio and interiors (shaders.h). The programs, and `empty_vertices`, a vertex array
-  /// without attributes, must outlive this object.
+  /// `studio_program` draws the studio, and `interior_program` draws interiors (shaders.h). Both programs and
+  /// `empty_vertices`, a vertex array without attributes, must outlive this object.
   KeptRooms(const GlFunctions& gl, GLuint studio_program, GLuint interior_program, GLuint empty_vertices)
       : gl_(gl),
         studio_program_(studio_program),
@@ -95,7 +96,7 @@ class KeptRooms {
 };
 
 /// Fills `view` with `rows` of the empty room at `brightness`, `width` pixels each. The bytes are exactly those that GL
-/// would draw (round to nearest even). Pictures in `view` with another size are reallocated.
+/// would draw (round to nearest even). Pictures in `view` are reallocated if their size differs.
 void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view);
 

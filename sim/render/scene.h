@@ -14,8 +14,8 @@
 namespace etude {
 
 /// The pattern of two colours on a surface. Patterns from kPlanks on are for rooms only; figures show the first colour
-/// instead. Positions are in metres in the surface's own space: the body at rest for clothes (their patterns therefore
-/// move with them), the plane of a wall or floor, the box of a piece of furniture.
+/// instead. Positions are in metres in the surface's own space: the body at rest for clothes, whose patterns therefore
+/// move with the body; the plane of a wall or floor; the box of a piece of furniture.
 enum class Pattern {
   kPlain,      ///< the first colour
   kBands,      ///< horizontal bands with period `size`
@@ -51,11 +51,11 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<Part> parts;                              ///< one per triangle: its label
   Rgb8 colour;
-  std::optional<PartColours> by_part{};  ///< the colour of each triangle's part, instead of `colour`
-  std::optional<SurfacePaint> paint{};   ///< instead of `colour`
+  std::optional<PartColours> by_part{};  ///< replaces `colour` by the colour of each triangle's part
+  std::optional<SurfacePaint> paint{};   ///< replaces `colour`
   bool is_closed = false;                ///< true if no back side is ever visible, which makes drawing faster
   std::vector<glm::vec3> rest{};         ///< for `paint`: each position's place on the body at rest, metres
-  SharedTexture texture{};               ///< instead of `colour`, unless there is a paint
+  SharedTexture texture{};               ///< replaces `colour`, unless there is a paint
   std::vector<glm::vec2> on_texture{};   ///< for `texture`: each position's texture coordinates
 };
 
@@ -66,9 +66,9 @@ struct Figure {
   std::vector<Surface> surfaces{};
   /// Invisible capsules that cast the figure's shadow in furnished rooms, because surfaces cast no shadow there.
   std::vector<Capsule> shadow{};
-  /// If set, the label of all pixels of the figure, kBystander or kClutter, replaces the labels of its parts.
+  /// If set, this label, kBystander or kClutter, replaces the part labels of all pixels of the figure.
   std::optional<Part> seen_as{};
-  bool is_hooded = false;  ///< true: neither hair nor a face is drawn on the head's capsules
+  bool is_hooded = false;  ///< true: no hair and no face on the head's capsules
 };
 
 /// The maximum number of painted surfaces in one picture.
@@ -89,13 +89,13 @@ struct FurnitureBox {
 
 /// A picture or a window: a painted rectangle on a wall. Its pixels have the wall's label.
 struct WallPicture {
-  enum class Wall { kBack, kLeft, kRight };  ///< planes z = low.z, x = low.x, x = high.x
+  enum class Wall { kBack, kLeft, kRight };  ///< in order: the planes z = low.z, x = low.x, x = high.x
   Wall wall = Wall::kBack;
   glm::dvec2 centre{0};     ///< metres: along the wall (x, or z for a side wall), above the floor
   glm::dvec2 half_size{0};  ///< metres, including the frame
   SurfacePaint paint;
   Rgb8 frame{};
-  double glow = 0;  ///< light of its own; 1 = a window at noon, whose paint does not depend on lamps
+  double glow = 0;  ///< emitted light; 1 = a window at noon, whose paint does not depend on lamps
 };
 
 /// The lights of an interior in linear RGB, relative to the studio's lamp and ambient light.
@@ -120,7 +120,7 @@ struct Interior {
   glm::dvec3 high{4, 3.3, 5};
   SurfacePaint floor, wall, ceiling;
   Rgb8 skirting{};
-  double studio = 0;  ///< share of the studio's paint on walls and floor: 1 = all
+  double studio = 0;  ///< share of the studio's paint on walls and floor; 1 = only the studio's
   glm::dvec4 rug{0};  ///< x, z of the centre, half sizes along x and z; 0: none
   SurfacePaint rug_paint;
   Lights lights;
@@ -142,7 +142,7 @@ struct Room {
   std::uint64_t texture_seed = 1;  ///< determines the spots of the wall and floor
   double brightness = 1.0;         ///< multiplies the light (exposure, lamp drift), ≥ 0; does not change hues
   bool casts_shadows = true;
-  const Interior* interior = nullptr;  ///< null: the studio. Must live until the picture is drawn.
+  const Interior* interior = nullptr;  ///< null: the studio. Must exist until the picture is drawn.
 };
 
 struct View {

@@ -21,7 +21,7 @@ struct PlacedBoard {
 };
 
 /// Returns the boards on a cube of 1.2 m that stands on a stand: one on each of the four sides and one on the top.
-/// Every camera around the cube sees at least two sides, which are "different planes" (paper B, section 2.2). No code
+/// Every camera around the cube sees at least two faces, that is "different planes" (paper B, section 2.2). No code
 /// appears on two boards.
 std::vector<PlacedBoard> CalibrationTarget(const glm::dvec3& middle);
 

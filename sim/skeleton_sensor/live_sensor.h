@@ -24,7 +24,7 @@ class MotionWindow {
  public:
   static constexpr std::size_t kAhead = 7;
 
-  /// `rate_hz` must be > 0.
+  /// `rate_hz` must be positive.
   explicit MotionWindow(double rate_hz) : rate_hz_(rate_hz) {}
 
   /// Adds the next frame of the stream.

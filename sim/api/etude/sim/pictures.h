@@ -46,7 +46,8 @@ class ETUDE_API Studio {
 
   /// Takes the picture of a frame of the motion. Throws BadInput if the camera or the frame does not exist.
   Picture Shoot(std::size_t camera, std::size_t frame) const;
-  /// Takes a picture of the room before the person enters it. Its moving objects have other positions than in `Shoot`.
+  /// Takes a picture of the room before the person enters it. The room's moving objects have other positions than in
+  /// `Shoot`.
   Picture ShootEmpty(std::size_t camera) const;
 
  private:
