@@ -243,7 +243,7 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
   const auto tell = [&clip_facts](const std::string& key) {
     return [&clip_facts, key](const std::string& value) { clip_facts += key + ": " + value + "\n"; };
   };
-  // The help of each option names its default, which comes from the scenario or from the clip.
+  // The help of each option names its default. Scenarios and clips give these defaults.
   return {
       AddSeed(command, seed, "Seed of all worlds (default: the scenario's, else 1)"),
       command.add_option("--trials", trials, "Trials per condition (default: the scenario's)")

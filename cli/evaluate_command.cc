@@ -138,7 +138,7 @@ void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreemen
   if (angles.empty() || std::ranges::none_of(summary.headline_metrics, is_of_angles)) return;
   fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  units\n", "angle, degrees", "RMSE", "bias (95 %)",
              "limits of agreement", "ICC");
-  const auto shown = [](double value) -> std::string {  // a small value keeps its sign
+  const auto shown = [](double value) -> std::string {  // a small value is not shown as 0.00
     if (std::abs(value) < 1e-9) return "0.00";
     return std::abs(value) < 0.005 ? fmt::format("{:.1g}", value) : fmt::format("{:.2f}", value);
   };
@@ -206,13 +206,13 @@ void PrintTable(const ScenarioSummary& summary) {
   }
 }
 
-/// What rows say of pairs, lines "METHOD, PAIR: reason".
+/// The notes on pairs in a run's rows, as lines "METHOD, PAIR: reason".
 struct PairNotes {
-  std::vector<std::string> judged;  ///< once for each method and condition: what was judged, how answers were changed
-  std::vector<std::string> not_judged;  ///< every pair that could not be judged
+  std::vector<std::string> judged;      ///< one per method and condition: what was judged, how answers were changed
+  std::vector<std::string> not_judged;  ///< one for every pair that could not be judged
 };
 
-/// Reads the rows one by one.
+/// Collects the notes, row by row.
 Result<PairNotes> ReadNotes(const std::filesystem::path& folder) {
   PairNotes notes;
   std::vector<std::string> told;

@@ -34,7 +34,7 @@ struct VerifyCommandOptions {
   ReplayOptions replay;
   std::string sample = kDefaultSample;  ///< a number, or "all"
   std::string key_file;               ///< file with the key of secret worlds, "" = none
-  std::string sign, check;            ///< key files, "" = none
+  std::string sign, check;            ///< key files for signing and for checking a signature, "" = none
   bool as_json = false;
 };
 

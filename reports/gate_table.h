@@ -15,7 +15,7 @@ struct GateTableRow {
   std::string difference;     ///< the median (or mean) of the paired differences, now − baseline, with its interval
   std::string p;              ///< p-value after Holm's correction; kNoValue if nothing was tested
   std::string worlds;         ///< "12 of 60", with the numbers of lost values, gained values and far worse worlds
-  std::string verdict;        ///< MovementWords; "worse in 5 worlds" if the tail rule decided
+  std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the tail rule decided
   bool fails = false;
 };
 
@@ -36,7 +36,7 @@ std::vector<std::string> GateSentences(const GateReport& report);
 /// Returns one line for each answer whose verdict became worse since the baseline. If `only_flipped` is true, returns
 /// only the answers that fell from better to worse, which fail the gate.
 std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped = false);
-/// Returns how many metrics moved which way: "170 comparisons: 2 worse, 3 better, 165 same".
+/// Returns the number of metrics that moved in each direction: "170 comparisons: 2 worse, 3 better, 165 same".
 std::string CompareSentence(const SnapshotComparison& comparison);
 
 /// A line of text about a world that is far worse than in the baseline.

@@ -79,13 +79,13 @@ struct OpenOptions {
 /// allocated.
 constexpr std::uintmax_t kMaxClipFileBytes = 500'000'000;
 
-/// Reads a motion file; the content decides the format, not the name. Known are BVH, glTF, GLB, FBX, DeepMimic's
-/// motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy; JointsOfArray explains
-/// `layout`), and markers in C3D, TRC, Motive's CSV or joint CSV (FindMarkerBodies). The buffers of a .gltf are read
-/// only from its own folder and below; links that lead out of that folder are refused. The skeleton of an AMC is the
-/// ASF file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` supplies facts that marker
-/// files do not state. `options.recorded` reads the recordings of runs; if it is null, recordings are refused as files
-/// without motion.
+/// Reads a motion file; the content decides the format, not the name. The known formats are BVH, glTF, GLB, FBX,
+/// DeepMimic's motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy; JointsOfArray
+/// explains `layout`), and markers in C3D, TRC, Motive's CSV or joint CSV (FindMarkerBodies). The buffers of a .gltf
+/// are read only from its own folder and below; links that lead out of that folder are refused. The skeleton of an AMC
+/// is the ASF file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` supplies facts that
+/// marker files do not state. `options.recorded` reads the recordings of runs; if it is null, recordings are refused as
+/// files without motion.
 Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout = std::nullopt,
                               const OpenOptions& options = {});
 

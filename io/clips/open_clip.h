@@ -32,9 +32,9 @@ struct SourceClip {
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all
-/// animations of a glTF, or the animation named after '#'. The name may omit the prefix that exporters write ("Jump"
-/// for "Armature|Jump"). Fails if the animation does not exist, and lists the animations of the file. `options` may
-/// override the frame rate, and helps to find the ground.
+/// animations of a glTF, or the animation named after '#'. The animation's name may omit the prefix that exporters
+/// write ("Jump" for "Armature|Jump"). If the animation does not exist, the error lists the animations of the file.
+/// `options` may override the frame rate, and helps to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
 /// Reads the only clip that a reference names. Fails if the reference names several clips, and lists them.
 Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& options);

@@ -51,7 +51,7 @@ class FilmWorkers {
     /// The socket carries single bytes. The drawing process sends a byte for "drawn"; this process sends a byte for
     /// "data is there", or without a feed for "a slot is free".
     std::optional<ForkedCopy> copy;
-    int fed = 0, taken = 0;  ///< frames of this process: how many have got their data, and how many were returned
+    int fed = 0, taken = 0;  ///< numbers of this process's frames that got their data, and that were returned
   };
   struct Unmap {
     std::size_t bytes;
@@ -75,7 +75,7 @@ class FilmWorkers {
 
   int frames_, width_, height_;
   FrameFeed feed_;
-  int chunk_, slots_;  ///< consecutive frames that one process draws; how many frames it may be ahead
+  int chunk_, slots_;  ///< frames per chunk; number of frames that a process may be ahead
   int next_ = 0, fed_ = 0;
   std::vector<Worker> workers_;
   std::unique_ptr<std::uint8_t, Unmap> memory_{nullptr, Unmap{0}};  ///< `slots_` slots for each process

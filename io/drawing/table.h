@@ -12,7 +12,7 @@ struct TableColumn {
   std::string head = {};
   bool is_number = false;    ///< true: cells are numbers, aligned to the right
   bool is_row_head = false;  ///< its cells are the headings of their rows
-  bool is_detail = false;    ///< for experts: the page shows the column only on request
+  bool is_detail = false;    ///< only for experts: the page shows the column on request
   bool is_sortable = false;  ///< the page sorts its cells by their numbers
   std::string latex = {};    ///< the heading in LaTeX, if it differs from the text
   std::string over = {};     ///< a second heading above this one, shared with neighbouring columns
@@ -33,7 +33,7 @@ struct TableCell {
 
   std::string text;              ///< plain text: each writer escapes it
   std::optional<double> number;  ///< written to CSV instead of the text; the page sorts by it
-  std::string html;              ///< shown on the page instead of the text, unless ""
+  std::string html;              ///< if not "", shown on the page instead of the text
   std::string_view latex_sign;   ///< LaTeX code that follows the text
   bool is_strong = false;        ///< bold in Markdown
 };

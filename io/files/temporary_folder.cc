@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kPrefix = "etude-temporary-";  // unlikely for a folder of results
+constexpr const char* kPrefix = "etude-temporary-";  // a prefix that is unlikely for a folder of results
 constexpr const char* kKeptPrefix = "etude-kept-";
 constexpr std::size_t kSuffixLength = 7;  // "-XXXXXX", replaced by mkdtemp
 

@@ -109,12 +109,12 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   return frame;
 }
 
-/// Counts the people of a file whose ninth of 25 keypoints lies midway between the tenth and the thirteenth, and all
-/// others. In `body_25` these three are the mid-hip and the hips; in `body_25b` the right elbow, the left wrist and the
-/// right hip.
+/// Counts the people of a file with 25 keypoints: in `between` if the ninth keypoint lies midway between the tenth and
+/// the thirteenth, otherwise in `elsewhere`. In `body_25` these three are the mid-hip and the hips; in `body_25b` the
+/// right elbow, the left wrist and the right hip.
 void CountMidHips(const Json& json, const Place& place, int& between, int& elsewhere) {
   constexpr std::size_t kCount = 25, kMidHip = 8, kRightHip = 9, kLeftHip = 12;
-  constexpr double kMaxShare = 0.03;  // share of the person's height
+  constexpr double kMaxShare = 0.03;  // tolerance as a share of the person's height
   const Json* people = json.is_object() ? Member(json, "people") : nullptr;
   if (people == nullptr || !people->is_array()) return;
   for (const Json& person : *people) {

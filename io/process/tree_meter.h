@@ -30,8 +30,8 @@ struct ElapsedTime {
   double wall_s = 0;
 };
 
-/// Returns true if a tree of processes starves the process that measures it: an expensive measurement has spent most of
-/// its time waiting, while the tree used more than half of all cores.
+/// Returns true if a tree of processes starves the process that measures it: a long measurement has spent most of its
+/// time waiting, while the tree used more than half of all cores.
 bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores);
 
 /// Measures the resources of a tree of processes by repeated sampling, for machines without control groups: it counts
@@ -98,7 +98,7 @@ class TreeMeter {
   std::vector<double> bounds_mb_;  ///< the private memory of each process, shared pages included
   TreeLoad load_;
   double page_tables_mb_ = 0, tcp_mb_ = 0;
-  /// The memory of shared pages of the process that maps the most, MB: now, and the minimum and maximum since
+  /// The shared pages of the process that maps the most of them, MB: now, and the minimum and maximum since
   /// SampleMappings.
   double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
   std::size_t mappings_ = 0;                      ///< number of mappings that were read

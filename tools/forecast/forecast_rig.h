@@ -74,7 +74,7 @@ struct RigForecast {
   double median_mm = 0, p95_mm = 0;   ///< median and 95th percentile of the error over the places that are seen
   ForecastPlace worst;                ///< the place with the largest error
   double bodies = 0;  ///< share of places on the floor at which two cameras see each joint of a standing body
-  /// One per role, averaged over those places on the floor; empty if there are none.
+  /// One per role, averaged over the places that `bodies` counts; empty if there are none.
   std::vector<ForecastJoint> joints;
   std::vector<RigWorth> worths;       ///< the rig itself, then each change
 };
