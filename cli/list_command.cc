@@ -196,7 +196,7 @@ Result<int> ListCommand(Listing what, const std::string& scenario_folder) {
 }
 
 enum class KeysFormat {
-  kText,      ///< for people at a terminal
+  kText,      ///< a text for people at a terminal
   kMarkdown,  ///< docs/reference/keys.md
   kSchema,    ///< docs/schemas/scenario.schema.json
 };

@@ -205,7 +205,7 @@ std::string ManualPage(const CLI::App& command, const std::string& words) {
   // Write the options and the examples.
   text += ".SH OPTIONS\n";
   for (const auto& [option, names] : OptionsOf(command)) {
-    const std::string type = option->get_type_name();  // "INT:INT in [1 - 1024]"
+    const std::string type = option->get_type_name();  // for example "INT:INT in [1 - 1024]"
     const bool takes_value = option->get_items_expected_max() > 0;
     text += fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", Troff(Join(names)),
                         takes_value ? " \\fI" + Troff(type.substr(0, type.find(':'))) + "\\fR" : "",

@@ -14,7 +14,7 @@ struct GateTableRow {
   std::string before, after;  ///< the metric's aggregate over all worlds, in the baseline and now
   std::string difference;     ///< the median (or mean) of the paired differences, now − baseline, with its interval
   std::string p;              ///< p-value after Holm's correction; kNoValue if nothing was tested
-  std::string worlds;         ///< "12 of 60", with the numbers of lost values, gained values and far worse worlds
+  std::string worlds;         ///< differing worlds: "12 of 60", with the numbers of lost, gained and far worse ones
   std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the tail rule decided
   bool fails = false;
 };
@@ -43,7 +43,7 @@ std::string CompareSentence(const SnapshotComparison& comparison);
 struct TailLine {
   std::string
       world;  ///< "ik-weights, joint_noise_deg=5, trial 7, fixed: ok → unsolved; orientation error 0.05° → 60.1°"
-  std::string replay;  ///< "etude replay out/now --cell …", quoted for a shell; "" for the line that counts the rest
+  std::string replay;  ///< command "etude replay out/now --cell …" for a shell; "" for the line that counts the rest
 };
 
 /// Returns one line for each of the first `most` far worse worlds of one method under one condition. `moves` are the

@@ -23,7 +23,7 @@ constexpr std::string_view kAllNumbers = "the CSV file in report/tables";
 struct OverviewCell {
   std::string value;
   std::string interval = {};             ///< interval of the value; "" if it has none
-  std::string counted = {};              ///< "10 of 12" if some cells have no value, else ""
+  std::string counted = {};              ///< number of cells with a value, "10 of 12", if some have none; else ""
   std::optional<double> sorted_by = {};  ///< the median or mean that `value` shows, as a number by which the page sorts
   const Comparison* baseline = nullptr;  ///< comparison with the baseline; may be null
   const Comparison* rival = nullptr;     ///< comparison with the strongest other method; may be null

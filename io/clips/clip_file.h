@@ -56,7 +56,7 @@ struct ClipFile {
   Character figure;                       ///< a skeleton, and meshes if the file has any
   /// Clips on that skeleton; some glTF files have none, a marker file has one per person.
   std::vector<Clip> clips;
-  std::vector<MadeBody> bodies = {};      ///< one for each clip if the clips are bodies already; else empty
+  std::vector<MadeBody> bodies = {};      ///< one entry per clip if the clips are bodies already; else empty
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
   /// MarkerBody::shown of each clip that was made from markers; filled only if `keeps_shown` is set.
@@ -70,7 +70,7 @@ struct OpenOptions {
   BodyOptions body;
   /// For marker files: the marker set to use (MarkerSetKeys); "" = the set that fits best.
   std::string marker_set = "";
-  bool keeps_shown = false;  ///< for marker files: also fill SourceClip::shown
+  bool keeps_shown = false;  ///< if true, SourceClip::shown is also filled for marker files
   /// Reads "RUN#CELL@NAME"; null = a reference of this form is treated as a file.
   const RecordedMotions* recorded = nullptr;
 };

@@ -18,7 +18,7 @@ namespace {
 /// path of one machine.
 struct PackagedClips {
   std::string_view prefix;   ///< the prefix of references to these clips
-  std::string_view package;  ///< the Debian package
+  std::string_view package;  ///< name of the Debian package
   std::string_view folder;
   std::string_view ending;
 };

@@ -106,7 +106,7 @@ struct Picture {
 
 /// A picture from a camera of the run, with its caption.
 struct Still {
-  std::string jpeg_base64;  ///< only letters of the base64 alphabet
+  std::string jpeg_base64;  ///< bytes of a JPEG in base64, so no character needs escaping
   std::string caption;
 };
 

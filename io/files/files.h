@@ -15,8 +15,8 @@ namespace etude {
 /// The time at which a finished file and its name are synchronised to disk (fsync). They survive a power cut only after
 /// that.
 enum class OnDisk {
-  kAtOnce,  ///< before the call returns
-  kLater,   ///< when the caller calls SyncTree on the folder, or never for temporary files
+  kAtOnce,  ///< synchronised before the call returns
+  kLater,   ///< synchronised by the caller with SyncTree, or never for temporary files
 };
 
 /// Writes a file completely or not at all: first under a temporary name beside `path`, which is then renamed. The

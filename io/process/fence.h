@@ -15,7 +15,7 @@ namespace etude {
 struct FencedCommand {
   std::vector<std::string> words;                 ///< a path and arguments
   std::vector<std::string> inherited_texts = {};  ///< for ChildOptions::inherited_texts
-  std::vector<std::string> environment = {};      ///< for ChildOptions::environment, of bubblewrap and of the program
+  std::vector<std::string> environment = {};      ///< for ChildOptions::environment: set for bubblewrap and the program
 };
 
 /// The memory of temporary files in scratch folders (tmpfs).

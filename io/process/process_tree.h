@@ -46,7 +46,7 @@ class HeldTree {
  private:
   struct Process {
     pid_t number;
-    Descriptor handle;  ///< a pidfd
+    Descriptor handle;  ///< a pidfd of the process
   };
   /// Adds descendants started since; returns true if there were any.
   bool Grow();

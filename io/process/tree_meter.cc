@@ -125,7 +125,8 @@ std::size_t CountLocks(const std::vector<pid_t>& processes) {
     if ((size = ::read(file, chunk.data(), chunk.size())) <= 0) break;
     read += static_cast<std::size_t>(size);
     text.append(chunk.data(), static_cast<std::size_t>(size));
-    // "1: POSIX  ADVISORY  WRITE 1234 fe:00:5678 0 EOF"; a waiting lock begins with "1: ->"
+    // A line looks like "1: POSIX  ADVISORY  WRITE 1234 fe:00:5678 0 EOF"; the line of a waiting lock begins with "1:
+    // ->".
     std::size_t at = 0;
     for (std::size_t end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
       const std::string line = text.substr(at, end - at);

@@ -49,7 +49,7 @@ struct PairedWorld {
 
 /// The paired values behind one comparison, of at most kMaxPlottedWorlds worlds.
 struct PairedDots {
-  std::vector<PairedWorld> worlds;  ///< in order of their trials
+  std::vector<PairedWorld> worlds;  ///< worlds in the order of their trials
   std::vector<std::string> units;   ///< names of the sampling units, sorted; empty if every world is its own unit
   std::size_t total = 0;            ///< number of all paired worlds, of which `worlds` holds every n-th
 };

@@ -21,7 +21,7 @@ struct RecordedWorld {
   /// Path of the script file with the world's motions, relative to `report`: "motions/capture-1.js". The path needs no
   /// escaping in HTML or URLs.
   std::string file;
-  std::vector<RecordedCell> cells;  ///< in the order of the scenario's methods; never empty
+  std::vector<RecordedCell> cells;  ///< recorded cells in the order of the scenario's methods; never empty
 
   /// Returns the name of the world: "joint_noise_deg=5, trial 3"; for a pair of files, the name of the pair.
   std::string Name() const;

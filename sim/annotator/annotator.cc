@@ -65,7 +65,7 @@ constexpr double kReferenceErrorPx = 2;  // the `error_px` at which annotator.h 
 struct Pair {
   std::size_t left, right;
 };
-constexpr std::array<Pair, 2> kPairs = {{{6, 9}, {0, 3}}};  // arms, legs
+constexpr std::array<Pair, 2> kPairs = {{{6, 9}, {0, 3}}};  // arms and legs
 constexpr std::size_t kStrokesOfLimb = 3;
 
 std::optional<glm::dvec2> MiddleOf(const PictureEvidence& seen, std::size_t first) {

@@ -159,7 +159,7 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
 
 /// Returns true if the ray misses the capsule's bounding sphere by more than any rounding error. Most rays do.
 bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
-  constexpr double kAir = 1e-6;  // metres, larger than any rounding error
+  constexpr double kAir = 1e-6;  // a margin larger than any rounding error, metres
   const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
   const double radius = 0.5 * glm::length(capsule.b - capsule.a) + capsule.radius + kAir;
   const double along = glm::dot(from, direction), outside = glm::dot(from, from) - radius * radius;

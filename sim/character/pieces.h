@@ -34,7 +34,7 @@ struct Blob {
   Role joint;
   glm::dvec3 centre_cm;    ///< relative to the joint
   glm::dvec3 half_cm;      ///< half sizes along the three axes, before the tilt
-  glm::dvec3 tilt_deg{0};  ///< about left, then up, then forward
+  glm::dvec3 tilt_deg{0};  ///< rotation about the axes left, then up, then forward
   /// The minimum height of vertices above the floor: it gives a foot a flat sole.
   double sole_cm = -std::numeric_limits<double>::infinity();
   int around = 16;  ///< number of corners of the equator; half as many rings from pole to pole
@@ -52,7 +52,7 @@ struct Tube {
   };
   std::string name;
   std::vector<Role> chain;  ///< the joints along the tube; from a single joint, the tube goes straight up
-  std::vector<Ring> rings;  ///< in ascending order of `along_cm`
+  std::vector<Ring> rings;  ///< rings in ascending order of `along_cm`
   double blend_cm = 0;      ///< half the length over which the skin is blended between two joints
   double first_cap_cm = 0;  ///< lengths of the round ends beyond the first and last ring
   double last_cap_cm = 0;

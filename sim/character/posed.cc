@@ -20,7 +20,7 @@ constexpr std::array<Part, kRoleCount> kPartOfRole = {
     Part::kRightHand,   Part::kRightHand,  Part::kLeftThigh,  Part::kLeftShank,     Part::kLeftFoot,
     Part::kLeftFoot,    Part::kRightThigh, Part::kRightShank, Part::kRightFoot,     Part::kRightFoot};
 
-using MaybeParts = std::vector<std::optional<Part>>;  // one per joint
+using MaybeParts = std::vector<std::optional<Part>>;  // the part that each joint moves, if any
 
 std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
   std::vector<Part> parts;

@@ -30,7 +30,7 @@ double LegLength(const BodyDimensions& body) { return body.thigh + body.shank; }
 /// The target position of a foot, and the direction in which its knee points.
 struct FootGoal {
   glm::dvec3 ankle;
-  glm::dvec3 to_toe;        // from the ankle to the toe
+  glm::dvec3 to_toe;        // vector from the ankle to the toe
   glm::dvec3 knee_forward;  // the knee lies on this side of the hip–ankle line
 };
 

@@ -29,7 +29,7 @@ constexpr double kAny = 1e9;
 /// The words for one feature, and the part of the body that the feature describes. Features with an empty word are left
 /// out of the hint.
 struct Vocabulary {
-  std::string_view feature;  ///< without the prefix R or L
+  std::string_view feature;  ///< name of the feature, without the prefix R or L
   std::string_view part;     ///< the part of the body, without its side
   std::vector<Word> words;
 };

@@ -112,7 +112,7 @@ class MoveCurves {
  private:
   Style style_;
   double last_beat_ = 0;               // used if the performance does not loop
-  std::vector<PeriodicCurve> curves_;  // one per control
+  std::vector<PeriodicCurve> curves_;  // one curve per control
 };
 
 }  // namespace etude

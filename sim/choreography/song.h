@@ -17,7 +17,7 @@ namespace etude {
 /// A section of the music in which one dancer repeats one move or waits.
 struct Turn {
   double start_beat = 0;
-  double beats = 2;            ///< at least as long as both blends together
+  double beats = 2;            ///< length; at least as long as both blends together
   const Move* move = nullptr;  ///< null: waits in the ready stance, with the knees giving between the beats
   double pace = 1;             ///< beats of the move per beat of the music
 };
@@ -38,8 +38,8 @@ struct SongPart {
   std::string move;
   int times = 2;
   bool half_time = false;  ///< each beat of the move takes two beats of the music
-  double start_beat = 0;   ///< in beats of the music, which begins with the song
-  double beats = 0;        ///< in beats of the music, for all repetitions
+  double start_beat = 0;   ///< beat of the music, which begins with the song, at which the part begins
+  double beats = 0;        ///< length of all repetitions together, in beats of the music
 };
 
 /// A choreography for a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), written

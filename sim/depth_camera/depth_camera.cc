@@ -76,7 +76,7 @@ class Row {
   int y_;
   const DepthImage& depth_;
   std::vector<Pixel> pixels_;
-  double max_disparity_ = 0;  ///< the largest disparity
+  double max_disparity_ = 0;  ///< the largest disparity of the row
 };
 
 constexpr double kRightAngle = std::numbers::pi / 2;

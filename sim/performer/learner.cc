@@ -19,7 +19,7 @@ namespace {
 // knowledge of results teaches much: this is the first finding of Salmoni, Schmidt and Walter (1984).
 constexpr double kPractice = 0.25;
 constexpr double kDemonstration = 1;
-constexpr double kCorrection = 4;  // per fault of the corrected performance
+constexpr double kCorrection = 4;  // units per fault of the corrected performance
 constexpr double kWrongPraise = 0.5;
 
 // Guidance (Winstein and Schmidt 1990): feedback makes errors rarer in the next performances, but not permanently.
@@ -100,7 +100,7 @@ Sway DrawSway(const WorldKey& key) {
 }  // namespace
 
 struct Learner::MoveState {
-  std::vector<Skill> skills;  // in the order of Fault
+  std::vector<Skill> skills;  // skills in the order of Fault
   Proneness proneness{};      // probability of each fault without any skill
   std::unique_ptr<Style> style;
   int attempts = 0;
@@ -278,7 +278,7 @@ void Learner::End() {
   LearnerPerformance& performance = performances_.back();
   const Move& move = moves_[static_cast<std::size_t>(performance.move)];
   MoveState& known = known_[static_cast<std::size_t>(performance.move)];
-  constexpr double kLastBeats = 0.25;  // longer than one frame, so that a performance shown to its end is not cut
+  constexpr double kLastBeats = 0.25;  // beats; more than a frame, so a performance shown to its end is not cut
   performance.is_over = true;
   performance.is_cut = before_.beat < move.beats - kLastBeats;
   performance.event.end_s = time_s_ + performance.event.chance.lag_s;

@@ -94,7 +94,7 @@ class Learner {
 
  private:
   struct Layer;      // one action of the body, blended over the one before
-  struct MoveState;  // the skills of one move, and what was practised of it
+  struct MoveState;  // the skills of one move and the history of its performances
 
   void Notice(const Shown& shown);
   void Begin(const Shown& shown);
@@ -123,7 +123,7 @@ class Learner {
   Shown before_;  // what the coach showed in the previous frame
   std::vector<LearnerPerformance> performances_;
   std::optional<std::size_t> latest_;  // index of the latest performance that is over and was not cut
-  std::vector<MoveState> known_;       // per move
+  std::vector<MoveState> known_;       // skills and history of each move
   std::vector<Layer> layers_;          // later layers are blended over earlier ones
   BodyPose pose_;
 };

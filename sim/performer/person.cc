@@ -12,7 +12,7 @@ namespace {
 /// The sizes of one preset. Fields named `spread` are standard deviations. The sizes are ours, except for the statures
 /// of school children, which come from growth charts for six to fourteen years.
 struct Preset {
-  double min_m, max_m;         // stature, drawn uniformly
+  double min_m, max_m;         // range of the stature, which is drawn uniformly
   double lag_s, lag_spread_s;  // mean over people; spread between the performances of one person
   double tempo, tempo_spread;  // typical value; spread of its logarithm between people
   double own_tempo_spread, drift;

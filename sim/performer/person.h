@@ -38,7 +38,7 @@ constexpr std::array<double, kControlCount> AllGains(double gain) {
 /// The traits of a person that stay the same from move to move. The defaults are those of the canonical body that
 /// dances exactly as taught.
 struct Person {
-  People kind = People::kExpert;  ///< never kMixed
+  People kind = People::kExpert;  ///< the kind of person, never kMixed
   double stature_m = 1.7;
   BodyDimensions body = {};
   FloorMove place = {};  ///< position and heading on the floor; the coach is at the origin and faces +Z

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// Up to this distance from the body, the surface on which it stands is darkened by the contact shadow, metres.
+// The distance from the body, metres, up to which its contact shadow darkens the surface below it.
 constexpr float kContactReach = 0.12f;
 // A margin for the rounding of pixels' positions, which are computed in single precision.
 constexpr double kFloatMargin = 1e-3;

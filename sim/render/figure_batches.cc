@@ -26,7 +26,7 @@ const Capsule* FindSkull(const std::vector<Capsule>& shape) {
 
 // The capsule on which a face is drawn, and the direction of the face.
 struct Face {
-  const Capsule* head = nullptr;  // null: no face
+  const Capsule* head = nullptr;  // the capsule of the head; null: no face
   glm::dvec3 up{0};
   glm::dvec3 front{0};
 };

@@ -23,7 +23,7 @@ std::vector<CapsuleInstance> MakeInstances(const std::vector<Figure>& figures, c
 /// One corner of a triangle as input of the surface shaders. Frame E has the world's axes and its origin at the
 /// camera's centre.
 struct SurfaceCorner {
-  glm::vec3 place;  ///< in E
+  glm::vec3 place;  ///< position in E
   glm::vec3 normal;
   glm::vec4 paint_and_label;  ///< RGB 0…1; A = the triangle's label
   glm::vec4

@@ -33,7 +33,7 @@ struct SurfacePaint {
   Rgb8 first{};
   Rgb8 second{};
   Pattern pattern = Pattern::kPlain;
-  double size = 0.1;         ///< metres
+  double size = 0.1;         ///< period, width or side, as the pattern defines, metres
   glm::dvec2 patch{0};       ///< x and y of the centre of a patch of the second colour, in front (z > 0)
   glm::dvec2 patch_half{0};  ///< half its width and height; 0: no patch
   bool is_cloth = false;     ///< true: drawn with seams and creases

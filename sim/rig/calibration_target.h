@@ -14,8 +14,8 @@ namespace etude {
 struct PlacedBoard {
   Board board;
   glm::dvec3 p_WO{0};           ///< the top left corner
-  glm::dvec3 right_W{1, 0, 0};  ///< unit
-  glm::dvec3 down_W{0, -1, 0};  ///< unit, perpendicular to `right_W`
+  glm::dvec3 right_W{1, 0, 0};  ///< unit vector
+  glm::dvec3 down_W{0, -1, 0};  ///< unit vector, perpendicular to `right_W`
 
   glm::dvec3 At(const glm::dvec2& point) const { return p_WO + point.x * right_W + point.y * down_W; }
 };

@@ -44,8 +44,8 @@ class BurstNoise {
 /// The correlation lengths of a joint's error: the distances, metres, that joints must move until the error has
 /// changed.
 struct PoseLengths {
-  double own = 0.25;  ///< for movement of the joint itself or of the next joint of its limb
-  double far = 0.8;   ///< for movement of the arms, in errors of trunk and legs
+  double own = 0.25;  ///< length for movement of the joint itself or of the next joint of its limb
+  double far = 0.8;   ///< length for movement of the arms, in errors of trunk and legs
 };
 
 /// A smooth random function of the pose for one joint, with a standard normal distribution along each axis. It is a sum
@@ -114,7 +114,7 @@ class ContinuousErrors {
   Camera sensor_;
   SkeletonSensorOptions options_;
   RandomStream wander_dice_, pose_dice_, fast_dice_, rest_dice_;
-  std::vector<JointNoise> noises_;  ///< by role
+  std::vector<JointNoise> noises_;  ///< one entry per role
 };
 
 }  // namespace etude

@@ -58,7 +58,7 @@ struct GroupErrors {
   double size = 0;         ///< the pose-dependent and the fast part together, in motion, at the reference distance
   double depth_ratio = 1;  ///< ratio of errors along the line of sight to errors along each axis across it
   double still = 0;        ///< the slow drift of a body that stands still
-  double white = 0;        ///< the uncorrelated part
+  double white = 0;        ///< the uncorrelated part of the errors
 };
 
 /// The law by which errors along the line of sight grow with the distance z from the sensor (metres along its axis).

@@ -34,7 +34,7 @@ HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders
 /// The sensor's guess for a joint that is not clearly seen.
 struct Guess {
   bool inferred = false;
-  glm::dvec3 offset{0};  ///< metres, from the position that would be reported if the joint were seen
+  glm::dvec3 offset{0};  ///< offset from the position that would be reported if the joint were seen, metres
 };
 using FrameGuesses = std::array<Guess, kRoleCount>;
 
@@ -51,7 +51,7 @@ class OcclusionGuesses {
   /// The current guess for the hidden joints of one limb. It is randomly right or wrong.
   struct Episode {
     int age = 0;
-    int length = 0;  ///< 0: no episode
+    int length = 0;  ///< length of the episode, frames; 0: no episode
     bool wrong = false;
     double size_m = 0;
     glm::dvec3 direction{0};

@@ -216,7 +216,7 @@ std::string PaperFor(const Board& board) {
     const char* name;
     double narrow_mm, wide_mm;
   };
-  constexpr Paper kPapers[] = {{"fits on A4 or Letter", 210, 279},  // as wide as A4, as high as Letter
+  constexpr Paper kPapers[] = {{"fits on A4 or Letter", 210, 279},  // the width of A4 and the height of Letter
                                {"needs A3 paper", 297, 420},
                                {"needs A2 paper", 420, 594},
                                {"needs A1 paper", 594, 841},

@@ -37,11 +37,11 @@ struct CameraResiduals {
 /// The content of the page of `etude capture`.
 struct CapturePage {
   std::string title;
-  std::string verdict;  ///< one or two sentences
+  std::string verdict;  ///< the result in one or two sentences
   double rate_hz = 30;
   std::string mp4;                         ///< the bytes of the overlay film; "" if it is too large for a page
   std::string film;                        ///< the path of the overlay film, "" = none is written
-  Picture still;                           ///< the middle frame
+  Picture still;                           ///< picture of the middle frame
   std::vector<std::string> told;           ///< findings, repairs and doubts, one line each
   std::vector<CameraResiduals> residuals;  ///< one entry for keypoints, one for silhouettes, or both
   std::vector<TakeCurve> feet_cm;          ///< heights above the floor, cm

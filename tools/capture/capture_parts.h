@@ -47,8 +47,8 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options);
 
 /// The cameras and the keypoints from which a person is recovered.
 struct SeenFilms {
-  std::vector<ProjectionMatrix> cameras;  ///< without lens distortion, because the keypoints have none
-  std::vector<SeenPeople> people;         ///< at the times of the first film's frames
+  std::vector<ProjectionMatrix> cameras;  ///< cameras without lens distortion, because the keypoints have none
+  std::vector<SeenPeople> people;         ///< people at the times of the first film's frames
   std::vector<FilmClock> clocks;          ///< the clock of each film
   MessageLog told;
 };

@@ -46,7 +46,7 @@ struct ClipFacts {
   std::size_t frames = 0;
   double rate_hz = 0;
   double duration_s = 0;
-  std::size_t joints = 0;  ///< without end sites
+  std::size_t joints = 0;  ///< number of joints, without end sites
   std::size_t end_sites = 0;
   FigureFacts figure;
   std::optional<BodyFacts> body;

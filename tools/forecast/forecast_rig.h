@@ -66,10 +66,10 @@ struct ForecastJoint {
 };
 
 struct RigForecast {
-  std::vector<NamedCamera> cameras;   ///< metres, Y up
+  std::vector<NamedCamera> cameras;   ///< cameras in the world, metres, Y up
   std::optional<KeypointNoise> measured;  ///< measured from the take's keypoints; absent without a take
   glm::dvec2 middle_m{0};                 ///< middle of the volume on the floor (x, z)
-  std::vector<ForecastPlace> places;  ///< by height, then z, then x, each ascending
+  std::vector<ForecastPlace> places;  ///< places sorted by height, then z, then x
   double seen = 0;                    ///< share of places in the pictures of at least two cameras
   double median_mm = 0, p95_mm = 0;   ///< median and 95th percentile of the error over the places that are seen
   ForecastPlace worst;                ///< the place with the largest error
