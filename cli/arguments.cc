@@ -324,7 +324,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineGate(app, action);
   DefineCompare(app, action);
   DefineCheckMethod(app, action);
-  // Define the commands that list what scenarios can name, and those that work on motion clips.
+  // Define the commands that list names for scenarios, and the commands for motion clips.
   DefineList(app, action);
   DefineClip(app, action);
   DefineBridge(app, action);

@@ -244,8 +244,8 @@ void PrintNotes(const PairNotes& notes) {
 
 constexpr const char* kScenarioFile = "evaluate.yaml";
 
-/// Replaces the place of an error in the generated scenario `text` by the command-line argument that caused it, because
-/// the user never wrote that text.
+/// Replaces the place of an error in the generated scenario `text`, which the user did not write, by the command-line
+/// argument that caused the error.
 Error AboutArguments(Error error, const std::string& text) {
   constexpr std::pair<std::string_view, std::string_view> kArguments[] = {
       {"truth", "the truth"},  {"pairs", "--pairs"},      {"joints", "--joints"},
@@ -294,7 +294,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  // With limits, a clip that cannot be judged counts as a clip that exceeds them.
+  // With limits, a clip that cannot be judged counts as exceeding them.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();

@@ -125,7 +125,7 @@ std::string FishCompletion(const CLI::App& app) {
   std::string text = "# Completion of etude for fish, made by `etude completion fish`.\n";
   std::vector<std::string> helped;
   ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
-    // Write the condition under which fish offers the words that may follow.
+    // Write the condition for fish to offer the words that may follow.
     std::string when = "__fish_use_subcommand";
     if (!words.empty()) {
       when.clear();

@@ -81,7 +81,7 @@ std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, co
   return map ? FindGround(file.clips, *map, told) : std::nullopt;
 }
 
-/// Removes scales that the frames have but the rest pose does not, and adds a remark that says so. A skeleton without
+/// Removes scales that exist in the frames but not in the rest pose, and adds a remark about them. A skeleton without
 /// roles is left unchanged.
 void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& options) {
   const auto has_scales = [](const Clip& clip) {

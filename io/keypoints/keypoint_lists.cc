@@ -264,7 +264,7 @@ void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
     if (!(steps.back() > 0)) return;
   }
   if (steps.empty()) return;
-  // Scale the times so that the median step between frames is that of 30 Hz.
+  // Scale the times so that the median step between frames is 1/30 s.
   const double usual = UpperMedian(std::move(steps)) * kJudgedRateHz;
   std::vector<double> scaled;
   for (const double time : times) scaled.push_back((time - times.front()) / usual);

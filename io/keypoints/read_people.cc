@@ -63,8 +63,8 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   return files;
 }
 
-/// Replaces bare NaN by null. Python writes NaN for missing numbers, which estimators use for points that they did not
-/// see, but JSON does not allow it.
+/// Replaces bare NaN by null, because JSON does not allow NaN. Python writes NaN for missing numbers, such as points
+/// that an estimator did not see.
 std::string WithNullForNan(std::string text) {
   constexpr std::string_view kNan = "NaN";
   bool in_string = false;

@@ -88,8 +88,8 @@ struct ExecPlan {
   std::vector<std::pair<const char*, std::string>> user_limits;
 };
 
-/// Forks into new user, PID and mount namespaces, where the child has the privileges that bubblewrap needs, and into a
-/// control group (−1 = none).
+/// Forks into new user, PID and mount namespaces, and into a control group (−1 = none). In its namespaces, the child
+/// has the privileges that bubblewrap needs.
 pid_t ForkContained(int control_group) {
   clone_args how{};
   how.flags = CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNS;

@@ -35,7 +35,8 @@ ProcessUsage MeasureProcess(pid_t process);
 /// Gives all threads of a process, and all that they start from now on, the lowest priority.
 void LowerPriority(pid_t process);
 
-/// A process and its descendants, held by pidfds, so that Kill cannot hit a process that has reused one of their IDs.
+/// A process and its descendants, held by pidfds. If another process gets the ID of one that has ended, Kill does not
+/// hit it.
 class HeldTree {
  public:
   explicit HeldTree(pid_t root);

@@ -63,8 +63,8 @@ struct SessionMistakes {
 /// Returns the sessions in which the method made mistakes; the session with the largest share of mistakes comes first.
 std::vector<SessionMistakes> WorstSessions(std::span<const JudgedPerformance> performances);
 
-/// Returns, per condition, tables of the faults that each method found, of the sessions with most mistakes of the
-/// method in question, and of confused moves. Returns "" if methods judge no performances.
+/// Returns tables for each condition: the faults that each method found, the sessions in which the method in question
+/// made most mistakes, and the confused moves. Returns "" if methods judge no performances.
 std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns the share of faulty performances that a method found (did not call right) for each fifth of the severity

@@ -33,8 +33,8 @@ inline bool JudgesFiles(std::string_view task) { return task == "evaluation" || 
 /// Lists the worlds whose motions a run recorded, in the order of the run's rows. The run must outlive the result.
 std::vector<RecordedWorld> RecordedWorlds(const RunData& run);
 
-/// Returns the JSON element from which the viewer learns which script file holds the motions of which cells; "" for a
-/// run without recorded motions.
+/// Returns a JSON element for the viewer: the script files with motions, and the cells in each file; "" for a run
+/// without recorded motions.
 std::string ViewerIndexHtml(const RunData& run);
 
 /// Returns buttons that open the recorded worlds of a scenario in the viewer. The buttons are hidden until the page's

@@ -121,8 +121,8 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                      CountVerdicts(VerdictsOf(judged), judged.size()), range);
 }
 
-// Returns a sentence that counts the worlds in which only one method has a value. If these worlds were not mentioned, a
-// method that fails in hard worlds would look better.
+// Returns a sentence with the number of worlds in which only one method has a value. If these worlds were not
+// mentioned, a method that fails in hard worlds would look better.
 std::string UnpairedWords(const std::vector<Judged>& judged) {
   int only_baseline = 0, only_method = 0;
   for (const Judged& j : judged) {

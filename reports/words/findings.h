@@ -88,7 +88,7 @@ struct ScenarioFindings {
   std::vector<SuccessFinding> successes;         ///< one per success metric (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< reasons of all cells that are not ok, the most frequent first
 };
-/// Returns true if the strongest other method is not the baseline. Only then does the comparison with it add
+/// Returns true if the strongest other method is not the baseline. Otherwise the comparison with it adds no
 /// information.
 bool HasOtherRival(const ScenarioFindings& findings);
 
@@ -99,7 +99,7 @@ struct RunFindings {
   int cells = 0;
   int ok = 0;        ///< cells that were measured; their status does not say whether they reached a goal
   int unsolved = 0;  ///< cells that were measured, but ended before they reached the goal
-  int skipped = 0;   ///< cells that were not run, because the world lacked something that the task needs
+  int skipped = 0;   ///< cells that were not run, because their world lacked something for the task
   int broken = 0;    ///< cells that failed, crashed, timed out or gave an invalid answer
   int met = 0, unmet = 0, undecided = 0;
   std::string sentence;

@@ -114,7 +114,7 @@ double HighestHip(const Controls& controls, const BodyDimensions& body, Side sid
   const double sideways = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
   const double reach = kReach * LegLength(body);
   const double height = std::sqrt(std::max(0.0, reach * reach - sideways * sideways));
-  // For a free leg, add up to one metre, which is more than any leg's length, so that it does not limit the hips.
+  // For a free leg, add up to one metre, more than any leg's length: a free leg must not limit the hips.
   return ankle.y + height + Freedom(controls, side);
 }
 

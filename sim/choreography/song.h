@@ -38,7 +38,7 @@ struct SongPart {
   std::string move;
   int times = 2;
   bool half_time = false;  ///< each beat of the move takes two beats of the music
-  double start_beat = 0;   ///< beat of the music, which begins with the song, at which the part begins
+  double start_beat = 0;   ///< beat of the song's music at which the part begins
   double beats = 0;        ///< length of all repetitions together, in beats of the music
 };
 

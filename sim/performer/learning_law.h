@@ -26,8 +26,8 @@ struct LearningRates {
   /// The exponent of the power law: after n units, the error is multiplied by (1 + n·rate/exponent)^−exponent (Newell
   /// and Rosenbloom report exponents of 0.2–0.6).
   double exponent = 0.5;
-  // For each of the two states: the share that is kept from one performance to the next, and the share of an error that
-  // is learnt (Smith et al., table 1).
+  // For each of the two states: the share that is kept from one performance to the next, and the learnt share of an
+  // error (Smith et al., table 1).
   double fast_kept = 0.59, fast_learnt = 0.21;
   double slow_kept = 0.992, slow_learnt = 0.02;
 };

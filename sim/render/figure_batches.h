@@ -30,8 +30,8 @@ struct SurfaceCorner {
       rest_and_paint;  ///< position on the body at rest, or RG = position on the texture; A = the paint's index or −1
 };
 
-/// Triangles as three indices of corners each. Triangles of one part that share a vertex also share its corner, which
-/// GL then shades only once.
+/// Triangles as three indices of corners each. If triangles of one part share a vertex, they share its corner, and GL
+/// shades this corner only once.
 struct Triangles {
   std::vector<SurfaceCorner> corners;
   std::vector<std::uint32_t> indices;

@@ -107,7 +107,7 @@ class Dropouts {
   bool Next();
 
  private:
-  double chance_;  ///< probability that a dropout starts in a frame in which the body is seen
+  double chance_;  ///< probability that a dropout starts in a frame with the body in sight
   RandomStream dice_;
   std::uint64_t left_ = 0;
 };

@@ -61,8 +61,8 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options);
 /// the findings. Every complaint names the file or the option.
 Result<Calibrated> CalibrateRig(const CalibrateOptions& options);
 
-/// Writes the first of `boards` to `print` as a PNG of 16 pixels per module that states its size in print, and reports
-/// which paper size it fits on.
+/// Writes the first of `boards` to `print`, as a PNG of 16 pixels per module that states its size in print. Reports the
+/// paper size on which the board fits.
 Result<void> PrintBoard(const CalibrateOptions& options);
 
 }  // namespace etude

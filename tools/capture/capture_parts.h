@@ -148,8 +148,8 @@ struct KeypointSupport {
 Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureFilmsOptions& options, double rate_hz,
                                          const KeypointSupport& beside = {});
 
-/// Returns the joints of a reference, which has them by name or from which they are computed as an estimator's
-/// landmarks. Joints that landmarks determine only by rules of thumb are left out.
+/// Returns the joints of a reference: those that it names, or those computed from an estimator's landmarks. Joints that
+/// landmarks determine only by rules of thumb are left out.
 MarkerMotion JointsOfReference(const MarkerMotion& reference);
 
 /// `CaptureKeypoints` captures from keypoints or marks. `CaptureUnmarked` captures the only moving person of the films

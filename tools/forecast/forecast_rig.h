@@ -80,8 +80,8 @@ struct RigForecast {
 };
 
 /// Computes the expected errors of a rig, prints them, and writes the files that `options` name. Fails before anything
-/// is written if the rig has too few (fewer than two) or too many cameras, if `middle_m` is absent and all cameras look
-/// in parallel, and if two cameras see no place of the volume.
+/// is written if the rig has fewer than two or too many cameras, if `middle_m` is absent and all optical axes are
+/// parallel, or if no place of the volume is seen by two cameras.
 Result<RigForecast> ForecastRig(const ForecastOptions& options);
 
 /// Draws a heat map for each height and a plan of the cameras. Returns the bytes of a PNG file.
