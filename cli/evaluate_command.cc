@@ -43,7 +43,7 @@ struct EvaluateOptions {
   std::string command_line;
 };
 
-/// Returns the columns of a CSV file of pairs that name methods.
+/// Returns the methods that the columns of a CSV file of pairs name.
 Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
   std::vector<NamedResult> results;

@@ -79,7 +79,7 @@ std::string Cases(const CLI::App& app,
 }
 
 /// The code for bash and zsh that finds the command's words before the cursor: words without a dash that lead to a
-/// known command. `help` is not one of them, so commands are also offered after it.
+/// known command. `help` is no such word, so commands are also offered after `help`.
 constexpr std::string_view kFindCommand = R"(  local at="" word
   for word in "${before[@]}"; do
     case "${at:+$at }$word" in

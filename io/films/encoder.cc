@@ -53,7 +53,8 @@ Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int 
   ASSIGN_OR_RETURN(auto film, PartialFile::Claim(path));
   Log log(std::tmpfile(), std::fclose);
   if (!log) return FailOfMachine("no temporary file can be made: {}", std::strerror(errno));
-  // A socket instead of a pipe: writing to a closed socket returns an error, writing to a closed pipe raises a signal.
+  // Use a socket and not a pipe: writing to a closed socket returns an error, but writing to a closed pipe raises a
+  // signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
     return FailOfMachine("no connection to {}: {}", program, std::strerror(errno));

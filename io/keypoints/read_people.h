@@ -40,8 +40,8 @@ Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std:
 /// person each. Fails if their sizes differ.
 Result<PeopleOfFilm> ReadMarkedPictures(const std::filesystem::path& folder);
 
-/// Finds the one entry of a folder that belongs to a film: its name is the film's, or begins with it and continues with
-/// a character that is neither letter nor digit ("cam01", "cam01_json", "cam01.json"). Fails if there is none or more
+/// Finds the one entry of a folder that belongs to a film: its name is the film's name, alone or followed by a
+/// character that is neither letter nor digit ("cam01", "cam01_json", "cam01.json"). Fails if there is none or more
 /// than one.
 Result<std::filesystem::path> EntryOfFilm(const std::filesystem::path& folder, const std::string& film);
 

@@ -65,7 +65,7 @@ class Fence {
   void Hide(const std::filesystem::path& path) { hidden_.push_back(path); }
   const std::vector<std::filesystem::path>& hidden() const { return hidden_; }
   /// Returns the system's paths that are hidden unless shown explicitly: sockets, named pipes, and, if this process is
-  /// root, what only root can read.
+  /// root, files that only root can read.
   const std::vector<std::filesystem::path>& kept() const { return kept_; }
 
   ScratchUse MeasureScratch(pid_t inside) const;

@@ -38,7 +38,7 @@ bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores);
 /// each page once, however many processes share it, and adds the kernel's memory for the processes.
 ///
 /// A sample reads two small files per process, about 30 µs. They give an upper bound on memory, which usually suffices.
-/// Expensive files are read only if the bound is near the limit, or less often. A tree that starves us gets the lowest
+/// Expensive files are read less often, or only if the bound is near the limit. A tree that starves us gets the lowest
 /// priority for good.
 class TreeMeter {
  public:

@@ -23,14 +23,14 @@ inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
 /// The comparison of `method` with another method by one metric, over all conditions.
 struct MethodFinding {
   std::string method;
-  /// The other method of the comparison. If the strongest other method differs between conditions, the one of the first
+  /// The other method of the comparison. If the strongest other method differs between conditions, that of the first
   /// condition.
   std::string baseline;
   SamplingUnit unit = SamplingUnit::kWorld;
   bool is_compared = false;             ///< false if the method was not compared by this metric
   std::optional<Verdict> verdict = {};  ///< verdict on the run's worlds; nullopt if conditions differ
   BeyondFinding beyond = {};            ///< verdicts generalised to other clips, people or libraries
-  std::string others = {};    ///< all methods with which `method` is compared, over the conditions: “a” or “b”
+  std::string others = {};    ///< names of the methods that `method` is compared with: “a” or “b”
   std::string sentence = {};  ///< states the comparison in words, with the numbers behind the verdicts
   std::string why_open = {};  ///< why the verdict is inconclusive; set only if there is one condition
 

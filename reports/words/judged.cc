@@ -153,7 +153,7 @@ std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
 }
 
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
-  // Without metrics, no method is compared. None then counts as a yardstick.
+  // Without metrics, no methods are compared, and no method counts as a yardstick.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
   // A compared method is compared under every condition, so it suffices to look at the first one.

@@ -75,7 +75,7 @@ bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role,
 /// Metres.
 struct Cuboid {
   glm::dvec3 centre{0};
-  glm::dvec3 half_size{0.5};  ///< along its own axes, each positive
+  glm::dvec3 half_size{0.5};  ///< half sizes along the box's own axes, each positive
   double heading = 0;         ///< radians: its own +Z points to (sin heading, 0, cos heading)
 };
 

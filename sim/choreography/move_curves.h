@@ -13,7 +13,7 @@ namespace etude {
 /// The timing of the motion from one key to the next.
 enum class Ease {
   kSmooth,  ///< evenly, passing through the key
-  kLinger,  ///< most of the way early, then ever slower: hovers before it arrives
+  kLinger,  ///< fast at first, then ever slower: hovers before it arrives
   kRush,    ///< starts slowly and arrives fast: a blow, a clap
   kSnap,    ///< waits, covers the way in the second half of the time, and stops abruptly
   kStep,    ///< waits, moves, waits: a foot between leaving the floor and landing

@@ -50,7 +50,7 @@ struct Song {
   double tempo_bpm = 120;
   std::vector<SongPart> parts;
   std::vector<MusicTag> tags;  ///< the frame nearest to the start of every repetition, in order
-  BodyMotion motion;           ///< 30 Hz, from ready stance to ready stance, with moves that flow into each other
+  BodyMotion motion;           ///< the whole dance at 30 Hz, from ready stance to ready stance
 
   /// Returns the number of frames of `motion`. It is known even if `motion` has not been computed.
   std::size_t CountFrames() const;

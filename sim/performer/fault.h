@@ -51,9 +51,9 @@ std::string FaultNames(const std::vector<GradedFault>& faults);
 /// the same habits and the same random variation, but without faults. The motion of other people, taught clips and
 /// recognisers are not used.
 struct Stray {
-  /// For each limb, the angle between its danced and its meant direction, as root mean square over the performance; the
-  /// largest value over the limbs, degrees. Poses are compared at equal shares of the performance, independently of
-  /// timing.
+  /// The largest error of a limb, degrees. A limb's error is the root mean square, over the performance, of the angle
+  /// between its danced and its meant direction. Poses are compared at equal shares of the performance, independently
+  /// of timing.
   double limb_deg = 0;
   /// The difference between the danced and the meant timing: root mean square over the performance, beats.
   double timing_beats = 0;

@@ -168,7 +168,7 @@ struct Overlay {
   enum Seen : std::uint8_t { kBody = 0, kShadow = 128, kNothing = 255 };
 
   int width = 0, height = 0;
-  std::vector<std::uint8_t> bytes;  ///< four per pixel: red, green and blue of a body, then Seen
+  std::vector<std::uint8_t> bytes;  ///< four bytes per pixel: red, green and blue of a body, then Seen
   PixelRect drawn{};                ///< every pixel outside is kNothing
 };
 

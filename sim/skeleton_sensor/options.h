@@ -93,7 +93,7 @@ struct SkeletonSensorOptions {
   /// lengths nearly constant.
   double arm_stretch = 1;       ///< factor for shoulders, elbows and wrists along upper arm and forearm
   double hand_stretch = 1;      ///< factor for hands along the hand
-  double shoulder_stretch = 1;  ///< factor for shoulders towards each other
+  double shoulder_stretch = 1;  ///< factor for shoulders along the line between them
   /// The `size` of an ankle or foot at rest on the floor, whose noise has the time constant `rest_time_s`. In motion,
   /// the group's size applies.
   double planted_feet = 0.003;
