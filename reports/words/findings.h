@@ -30,7 +30,7 @@ struct MethodFinding {
   bool is_compared = false;             ///< false if the method was not compared by this metric
   std::optional<Verdict> verdict = {};  ///< verdict on the run's worlds; nullopt if conditions differ
   BeyondFinding beyond = {};            ///< verdicts generalised to other clips, people or libraries
-  std::string others = {};    ///< names of all methods that `method` is compared with under any condition: “a” or “b”
+  std::string others = {};    ///< all methods with which `method` is compared under any condition: “a” or “b”
   std::string sentence = {};  ///< states the comparison in words, with the numbers behind the verdicts
   std::string why_open = {};  ///< why the verdict is inconclusive; set only if there is one condition
 
