@@ -343,7 +343,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineScore(app, command_line, action);
   DefineOptionTree(app, action);
   CLI::App* worker = app.add_subcommand("worker", "For internal use");
-  worker->group("");  // hidden
+  worker->group("");  // hidden in the help
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });
   GroupCommands(app);
   RefuseEmptyValues(app);

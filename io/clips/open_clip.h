@@ -24,7 +24,7 @@ struct SourceClip {
   /// The file's figure, if the file has meshes. The clip uses its skeleton, and all clips of the file share the figure.
   std::shared_ptr<const Character> character;
   std::optional<Ground> ground = {};  ///< the ground shared by all clips of the file; only if the file holds several
-  std::optional<MadeBody> made = {};  ///< set if the clip is a body already: it is in metres, with Y up
+  std::optional<MadeBody> made = {};  ///< the body, if the clip is a body already: in metres, with Y up
   /// Repairs made while reading the file; UnderstandClip appends them to the body's note.
   std::vector<std::string> remarks = {};
   std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; those in OpenOptions have priority

@@ -32,7 +32,7 @@ struct TableCell {
   TableCell(int value) : number(value) {}
 
   std::string text;              ///< plain text: each writer escapes it
-  std::optional<double> number;  ///< written to CSV instead of the text; the page sorts by it
+  std::optional<double> number;  ///< the number that CSV holds instead of the text, and by which the page sorts
   std::string html;              ///< markup that the page shows instead of the text, unless ""
   std::string_view latex_sign;   ///< LaTeX code that follows the text
   bool is_strong = false;        ///< true: the cell is bold in Markdown

@@ -45,7 +45,7 @@ class Decoder {
 
   std::filesystem::path path_;
   FilmFacts facts_;
-  pid_t child_;  ///< −1 after the process has ended
+  pid_t child_;  ///< process ID of ffmpeg; −1 after the process has ended
   File frames_;  ///< the pipe with ffmpeg's output
   File log_;     ///< a file with ffmpeg's standard error
 };

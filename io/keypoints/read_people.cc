@@ -89,7 +89,7 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   std::vector<SeenPerson> frame;
-  if (json.is_array()) {  // MMPose: a list of people
+  if (json.is_array()) {  // MMPose writes a list of people
     ASSIGN_OR_RETURN(auto people, PeopleOfList(json, layout, {}, place));
     std::ranges::copy_if(people, std::back_inserter(frame), IsAnySeen);
     return frame;
@@ -100,7 +100,7 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   if (people->size() > kMaxPeople) return Fail(place, "{} people; allowed: {}", people->size(), kMaxPeople);
   for (const Json& person : *people) {
     const Json* list = Member(person, "pose_keypoints_2d");
-    if (list == nullptr) list = Member(person, "pose_keypoints");  // OpenPose 1.0
+    if (list == nullptr) list = Member(person, "pose_keypoints");  // OpenPose 1.0 uses this name
     ASSIGN_OR_RETURN(const auto points, Triples(list, place));
     if (points.empty()) continue;
     ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(points, layout, {}, place));

@@ -30,7 +30,7 @@ struct ProgramLimits {
   static constexpr std::size_t kProcesses = 256;
   static constexpr std::size_t kThreads = 4096;
   static constexpr std::size_t kDescriptors = 4096;
-  static constexpr std::size_t kSockets = 1024;  ///< counted only in a fence
+  static constexpr std::size_t kSockets = 1024;  ///< sockets, which are counted only in a fence
   static constexpr std::size_t kFileLocks = 16384;
 
   // Kernel limits per user are divided among `programs`, the programs that run at the same time: half of the 128
@@ -125,7 +125,7 @@ class ChildProcess {
   int exit_code_ = -1;
   std::string unsent_;
   std::size_t sent_ = 0;        ///< bytes of `unsent_` already written
-  std::string buffer_;          ///< received output
+  std::string buffer_;          ///< output received so far
   std::size_t line_start_ = 0;  ///< start of the next line in `buffer_`
   std::size_t scanned_ = 0;     ///< end of the part, from line_start_ on, that has no line end
 };

@@ -14,13 +14,13 @@ namespace etude {
 /// can read its command line, which must not contain the names of our folders.
 struct FencedCommand {
   std::vector<std::string> words;                 ///< a path and arguments
-  std::vector<std::string> inherited_texts = {};  ///< for ChildOptions::inherited_texts
+  std::vector<std::string> inherited_texts = {};  ///< texts for ChildOptions::inherited_texts
   std::vector<std::string> environment = {};      ///< for ChildOptions::environment: set for bubblewrap and the program
 };
 
 /// The memory of temporary files in scratch folders (tmpfs).
 struct ScratchUse {
-  double mb = 0;  ///< size of their contents
+  double mb = 0;  ///< size of the files' contents
   /// Estimated kernel memory of the files' names (which control groups count as reclaimable) and of their inodes.
   double names_mb = 0, inodes_mb = 0;
 

@@ -15,7 +15,7 @@ struct ProcessUsage {
   double resident_mb = 0;     ///< shared pages count in full
   double cpu_s = 0;           ///< includes ended child processes that the process has waited for
   std::uint64_t faults = 0;   ///< minor page faults: pages touched for the first time, or copied on write
-  std::size_t processes = 0;  ///< 1; 0 if the process no longer exists
+  std::size_t processes = 0;  ///< number of processes: 1, or 0 if the process no longer exists
   double own_cpu_s = 0;       ///< processor time without that of child processes
 };
 

@@ -119,7 +119,7 @@ std::size_t CountLocks(const std::vector<pid_t>& processes) {
   const int file = ::open("/proc/locks", O_RDONLY | O_CLOEXEC);
   if (file < 0) return 0;
   std::size_t count = 0, read = 0;
-  std::string text;  // read, but not yet counted
+  std::string text;  // text that was read but not yet counted
   std::array<char, 4096> chunk;
   for (ssize_t size; count < kEnoughLocks && read < kMaxLockBytes;) {
     if ((size = ::read(file, chunk.data(), chunk.size())) <= 0) break;

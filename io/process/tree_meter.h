@@ -18,7 +18,7 @@ struct TreeLoad {
   double cpu_s = 0;  ///< includes ended processes that they have waited for
   std::size_t processes = 0, threads = 0;
   std::size_t descriptors = 0;  ///< open files of all processes
-  std::size_t pipes = 0;        ///< counted only if there are more than 256 descriptors
+  std::size_t pipes = 0;        ///< pipes, which are counted only if there are more than 256 descriptors
   /// Sockets in the tree's network namespace, and sockets in transit over other sockets; 0 without a namespace.
   std::size_t sockets = 0;
   std::size_t file_locks = 0;

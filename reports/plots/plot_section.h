@@ -55,8 +55,8 @@ struct PairedDots {
 };
 inline constexpr std::size_t kMaxPlottedWorlds = 400;
 
-/// Returns the paired worlds of a comparison. The result is empty if no world has values of both methods, or if the
-/// method is compared with two methods, each of which was the strongest other method on one half of the worlds.
+/// Returns the paired worlds of a comparison. The result is empty if no world has values of both methods. It is also
+/// empty if the other method is one of two, each the strongest on one half of the worlds.
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
 
 /// Draws one comparison as an estimation plot (Gardner & Altman 1986; paired as in Ho et al. 2019). The first panel

@@ -49,8 +49,8 @@ MoveConfusion ConfusionOf(std::span<const JudgedPerformance> performances);
 struct FaultCount {
   int all = 0, found = 0;
 };
-/// Returns, by the name of the worst fault, two counts: of performances with a slight fault (severity up to ½), and of
-/// performances with a bad fault.
+/// Returns two counts for each worst fault, by its name: performances in which it is slight (severity up to ½), and
+/// performances in which it is worse.
 std::map<std::string, std::pair<FaultCount, FaultCount>> FoundByFault(std::span<const JudgedPerformance> performances);
 
 /// A person's session and its mistakes: right performances that were not called right, and wrong performances that were

@@ -17,7 +17,7 @@ struct RecordedCell {
 
 /// A world with the recorded cells of all methods in it.
 struct RecordedWorld {
-  std::size_t scenario = 0;  ///< index in RunData::scenarios
+  std::size_t scenario = 0;  ///< index of the scenario in RunData::scenarios
   /// Path of the script file with the world's motions, relative to `report`: "motions/capture-1.js". The path needs no
   /// escaping in HTML or URLs.
   std::string file;

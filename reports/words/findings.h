@@ -44,7 +44,7 @@ struct MethodFinding {
 struct KeyFigures {
   struct Method {
     std::string name;
-    std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has no such value
+    std::vector<std::string> values;  ///< one value per label, with its unit; "" if the method has no such value
   };
   /// Names of the key numbers that are known: headline metric, success, processor time, worlds in which a method
   /// loses to the method in question.
@@ -85,7 +85,7 @@ struct ScenarioFindings {
   std::vector<std::string> yardsticks;
   int cells = 0;
   std::vector<std::pair<Status, int>> statuses;  ///< number of cells in each status that occurs, in the order of Status
-  std::vector<SuccessFinding> successes;         ///< one per success metric (MetricInfo::is_success)
+  std::vector<SuccessFinding> successes;         ///< one finding per success metric (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< reasons of all cells that are not ok, the most frequent first
 };
 /// Returns true if the strongest other method is not the baseline. Otherwise the comparison with it adds no

@@ -51,7 +51,7 @@ Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const 
 /// A picture as the annotator sees it. All three images have the same size.
 struct AnnotatedPicture {
   const LabelImage& labels;    ///< the part that each pixel shows, because annotators can distinguish limbs
-  const ColourImage& colours;  ///< used only for the contrast of limbs
+  const ColourImage& colours;  ///< the picture's colours, used only for the contrast of limbs
   const Mask& person;          ///< the segmented person; the annotator does not see the rest
 };
 

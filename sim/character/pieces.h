@@ -21,7 +21,7 @@ struct Piece {
     std::array<double, 2> weights{1, 0};  ///< the weights of both joints, with sum 1
   };
   std::vector<Vertex> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three vertices each, counter-clockwise seen from outside
 };
 
 /// Returns the mirror image of a piece for the body's other side.
@@ -32,7 +32,7 @@ Piece MirrorImage(const Piece& piece);
 struct Blob {
   std::string name;
   Role joint;
-  glm::dvec3 centre_cm;    ///< relative to the joint
+  glm::dvec3 centre_cm;    ///< position relative to the joint
   glm::dvec3 half_cm;      ///< half sizes along the three axes, before the tilt
   glm::dvec3 tilt_deg{0};  ///< rotation about the axes left, then up, then forward
   /// The minimum height of vertices above the floor: it gives a foot a flat sole.
@@ -63,7 +63,7 @@ Piece MakePiece(const Tube& tube, const BodyPose& rest);
 /// A thin oval sheet on the front of a tube. Its edge lies inside the tube, and the sheet moves with the tube's skin.
 struct Patch {
   std::string name;
-  double along_cm;        ///< centre, along the tube
+  double along_cm;        ///< position of the centre along the tube
   double half_along_cm;   ///< half the length
   double half_angle_deg;  ///< half the angle that it covers around the tube
   double lift_cm;         ///< height above the tube's skin

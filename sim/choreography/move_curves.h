@@ -54,7 +54,7 @@ class PeriodicCurve {
     double at, value, slope, bend;
     Ease ease;
   };
-  std::vector<Knot> knots_;  // closed: the last knot is the first one, one period later
+  std::vector<Knot> knots_;  // knots of the closed curve: the last knot is the first one, one period later
   double period_;
 };
 
@@ -111,7 +111,7 @@ class MoveCurves {
 
  private:
   Style style_;
-  double last_beat_ = 0;               // used if the performance does not loop
+  double last_beat_ = 0;               // beat of the last pose; used if the performance does not loop
   std::vector<PeriodicCurve> curves_;  // one curve per control
 };
 

@@ -18,7 +18,7 @@ namespace etude {
 struct Turn {
   double start_beat = 0;
   double beats = 2;            ///< length; at least as long as both blends together
-  const Move* move = nullptr;  ///< null: waits in the ready stance, with the knees giving between the beats
+  const Move* move = nullptr;  ///< the move; null: waits in the ready stance, with knees that give between beats
   double pace = 1;             ///< beats of the move per beat of the music
 };
 

@@ -32,10 +32,10 @@ struct DepthCameraOptions {
   double largest_angle = 1.396;
 
   // Strengths, each ≥ 0: 1 is the sensor's value, and 0 switches the fault off.
-  double axial_noise = 1;    ///< multiplies σ_z
-  double lateral_noise = 1;  ///< multiplies the standard deviation of edge positions, along both axes of the picture
-  double steps = 1;          ///< multiplies disparity_step_px; 0: depth is not rounded
-  double shadows = 1;        ///< multiplies the shadows' width
+  double axial_noise = 1;    ///< factor on σ_z
+  double lateral_noise = 1;  ///< factor on the standard deviation of edge positions, along both axes of the picture
+  double steps = 1;          ///< factor on disparity_step_px; 0: depth is not rounded
+  double shadows = 1;        ///< factor on the shadows' width
   double range = 1;          ///< no depth is measured below range · near_m or above far_m / range
   double grazing = 1;        ///< at most 1: moves the angle limit from a right angle (0) to largest_angle (1)
 };

@@ -117,7 +117,7 @@ struct Learner::MoveState {
 };
 
 struct Learner::Layer {
-  std::optional<Rendition> rendition;  // empty: the body stands
+  std::optional<Rendition> rendition;  // the performance; empty: the body stands
   double seen_s = 0;                   // time at which the person saw the action begin
   double lag_s = 0;
   double blend_s = kBlendSeconds;

@@ -15,10 +15,10 @@ namespace etude {
 
 /// The kinds of people who dance.
 enum class People {
-  kMixed,        ///< drawn from toddlers, school children, adults and experts
-  kToddler,      ///< 1.0–1.1 m tall; follows late and loosely, tires soon
-  kSchoolChild,  ///< 1.1–1.6 m tall
-  kAdult,        ///< 1.5–1.9 m tall
+  kMixed,        ///< a person drawn from toddlers, school children, adults and experts
+  kToddler,      ///< a child, 1.0–1.1 m tall, who follows late and loosely and tires soon
+  kSchoolChild,  ///< a child, 1.1–1.6 m tall
+  kAdult,        ///< an adult, 1.5–1.9 m tall
   kExpert,       ///< an adult who dances nearly as taught
   kAbsent,       ///< an adult who stands still and does not take part
 };

@@ -29,7 +29,7 @@ inline double EasedTime(double time, double length) {
 /// The random variation of one performance, without its faults. It differs between the performances of one person.
 struct Chance {
   double lag_s = 0;        ///< delay behind the coach
-  double tempo = 1;        ///< multiplies the move's tempo
+  double tempo = 1;        ///< factor on the move's tempo
   double unevenness = 0;   ///< unevenness of the timing from the first beat to the last, as a share of the performance
   std::uint64_t ways = 0;  ///< key of the random numbers of the performance's offsets
 };

@@ -27,7 +27,7 @@ struct SessionOptions {
 /// One event of a session: a scripted performance of a move. All times are in seconds from the session's first frame.
 struct SessionEvent {
   std::string move;                      ///< the requested move, which the person means to dance
-  std::vector<GradedFault> faults = {};  ///< empty if performed as meant
+  std::vector<GradedFault> faults = {};  ///< faults; empty if performed as meant
   std::string danced;                    ///< the move that is danced, fully or in part; empty if none
   double start_s = 0;                    ///< time of the first requested beat
   double end_s = 0;                      ///< time of the last beat as this person means to dance it

@@ -53,10 +53,10 @@ struct LampView {
 struct KeptRoom {
   GLuint room = 0;                   ///< texture: RGB = colour, A = depth
   GLuint extra = 0;                  ///< texture: RGB = the lamp's share of the light, A = label
-  std::vector<float> colours;        ///< RGB, three per pixel
+  std::vector<float> colours;        ///< RGB, three numbers per pixel
   std::vector<float> lamp_shares;    ///< three per pixel: share of the lamp in the light
   std::vector<float> depths;         ///< metres
-  std::vector<std::uint8_t> labels;  ///< one per pixel
+  std::vector<std::uint8_t> labels;  ///< one label per pixel
   LampView lamp;
 };
 
@@ -92,7 +92,7 @@ class KeptRooms {
   const GlFunctions& gl_;
   GLuint studio_program_, interior_program_;
   GLuint empty_vertices_;
-  std::deque<Kept> kept_;  // most recently used first
+  std::deque<Kept> kept_;  // pictures, the most recently used first
 };
 
 /// Fills `view` with `rows` of the empty room at `brightness`, `width` pixels each. The bytes are exactly those that GL

@@ -111,7 +111,7 @@ class FrameTargets {
   GLuint buffers_[4] = {};  // colour, labels, depth, hidden surfaces
   int capacity_width_ = 0, capacity_height_ = 0;
   Targets drawn_ = Targets::kAll;    ///< the attachments in use
-  std::vector<std::uint8_t> bytes_;  // reused from picture to picture
+  std::vector<std::uint8_t> bytes_;  // memory reused from picture to picture
   std::vector<float> depths_;
 };
 

@@ -47,15 +47,15 @@ using PartColours = std::array<Rgb8, 16>;
 /// corner or normal is not finite or a corner is 1000 km away. Parts nearer to the camera than 1 cm are clipped.
 struct Surface {
   std::vector<glm::dvec3> positions;                    ///< metres
-  std::vector<glm::dvec3> normals;                      ///< unit, one per position
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
-  std::vector<Part> parts;                              ///< one per triangle: its label
+  std::vector<glm::dvec3> normals;                      ///< unit vectors, one per position
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three positions each, counter-clockwise seen from outside
+  std::vector<Part> parts;                              ///< one part per triangle: its label
   Rgb8 colour;
-  std::optional<PartColours> by_part{};  ///< replaces `colour` by the colour of each triangle's part
-  std::optional<SurfacePaint> paint{};   ///< replaces `colour`
+  std::optional<PartColours> by_part{};  ///< colours of the parts, which replace `colour`
+  std::optional<SurfacePaint> paint{};   ///< the paint, which replaces `colour`
   bool is_closed = false;                ///< true if no back side is ever visible, which makes drawing faster
   std::vector<glm::vec3> rest{};         ///< for `paint`: each position's place on the body at rest, metres
-  SharedTexture texture{};               ///< replaces `colour`, unless there is a paint
+  SharedTexture texture{};               ///< the texture, which replaces `colour` unless there is a paint
   std::vector<glm::vec2> on_texture{};   ///< for `texture`: each position's texture coordinates
 };
 
@@ -82,7 +82,7 @@ PartColours PerformerColours();
 /// kFurniture.
 struct FurnitureBox {
   glm::dvec3 centre{0};     ///< metres
-  glm::dvec3 half_size{0};  ///< along its own axes
+  glm::dvec3 half_size{0};  ///< half sizes along the box's own axes
   double heading = 0;       ///< radians: its own +Z points to (sin heading, 0, cos heading)
   SurfacePaint paint;
 };
@@ -139,10 +139,10 @@ constexpr glm::dvec3 kLamp{-1.8, 2.9, 4.0};
 /// The room: either the studio, which has a floor at y = 0 and a wall behind it, both textured and lit by one lamp that
 /// casts shadows; or an interior.
 struct Room {
-  std::uint64_t texture_seed = 1;  ///< determines the spots of the wall and floor
-  double brightness = 1.0;         ///< multiplies the light (exposure, lamp drift), ≥ 0; does not change hues
+  std::uint64_t texture_seed = 1;  ///< seed of the spots on wall and floor
+  double brightness = 1.0;         ///< factor on the light (exposure, lamp drift), ≥ 0; does not change hues
   bool casts_shadows = true;
-  const Interior* interior = nullptr;  ///< null: the studio. Must exist until the picture is drawn.
+  const Interior* interior = nullptr;  ///< the interior; null: the studio. Must exist until the picture is drawn.
 };
 
 struct View {

@@ -30,7 +30,7 @@ struct RigOptions {
   double distance_m = 3.8;       ///< distance from the middle of the performer's motion; less if the room is too small
   double baseline_m = 0.6;       ///< kStereo: distance between the two cameras
   int cameras = 4;               ///< kRing: number of cameras
-  std::vector<Camera> own = {};  ///< kFile: metres, Y up
+  std::vector<Camera> own = {};  ///< kFile: the user's cameras, metres, Y up
 };
 
 constexpr std::size_t kMaxCameras = 8;

@@ -21,7 +21,7 @@ enum class JointGroup {
   kHands,
   kHips,
   kKnees,
-  kFeet,  ///< ankles and feet
+  kFeet,  ///< the joints ankle and foot
 };
 constexpr std::size_t kJointGroupCount = 8;
 constexpr std::size_t Index(JointGroup group) { return static_cast<std::size_t>(group); }
@@ -32,14 +32,14 @@ std::span<const JointGroup, kJointGroupCount> AllJointGroups();
 
 /// The kinds of bones along which errors are correlated. Left and right bones have the same kind.
 enum class BoneKind {
-  kLowerSpine,  ///< hip centre – spine
-  kUpperSpine,  ///< spine – shoulder centre
-  kNeck,        ///< shoulder centre – head
-  kCollar,      ///< shoulder centre – shoulder
+  kLowerSpine,  ///< bone from hip centre to spine
+  kUpperSpine,  ///< bone from spine to shoulder centre
+  kNeck,        ///< bone from shoulder centre to head
+  kCollar,      ///< bone from shoulder centre to shoulder
   kUpperArm,
   kForearm,
   kHand,
-  kPelvis,  ///< hip centre – hip
+  kPelvis,  ///< bone from hip centre to hip
   kThigh,
   kShank,
   kFoot,

@@ -20,7 +20,7 @@ struct CalibrateOptions {
   std::string method = "refined";                 ///< for point pairs: a name of CalibrationNames()
   std::string lens = "radial2";                   ///< lens model: none, radial2 or radial3
   bool skew = false;
-  std::string size;             ///< "1920x1080", the size of the pictures if the point pairs are CSV
+  std::string size;             ///< size of the pictures, "1920x1080", if the point pairs are CSV
   std::string world = "floor";  ///< "floor" or "wall": the plane in which the first board lies
   /// Every n-th frame of a film is searched; 0 = every 30th, or for OpenCV's boards about 200 frames.
   int every = 0;

@@ -133,7 +133,7 @@ struct ReducedTake {
   std::vector<double> reductions;  ///< for each film: pixels of its reduced picture per pixel of the rig's camera
   std::vector<std::vector<ColourImage>> pictures;
   std::vector<ColourImage> rooms;
-  std::vector<std::vector<Mask>> masks;  ///< used instead of `pictures` if not empty
+  std::vector<std::vector<Mask>> masks;  ///< masks, used instead of `pictures` if not empty
 };
 Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                              const std::vector<FilmClock>& clocks, MessageLog& told);

@@ -42,7 +42,7 @@ struct BodyFacts {
 struct ClipFacts {
   std::string name;
   std::string source;
-  std::optional<ClipFormat> format;  ///< absent if the file could not be read
+  std::optional<ClipFormat> format;  ///< the file's format; absent if the file could not be read
   std::size_t frames = 0;
   double rate_hz = 0;
   double duration_s = 0;

@@ -67,7 +67,7 @@ struct ForecastJoint {
 
 struct RigForecast {
   std::vector<NamedCamera> cameras;   ///< cameras in the world, metres, Y up
-  std::optional<KeypointNoise> measured;  ///< measured from the take's keypoints; absent without a take
+  std::optional<KeypointNoise> measured;  ///< noise measured from the take's keypoints; absent without a take
   glm::dvec2 middle_m{0};                 ///< middle of the volume on the floor (x, z)
   std::vector<ForecastPlace> places;  ///< places sorted by height, then z, then x
   double seen = 0;                    ///< share of places in the pictures of at least two cameras

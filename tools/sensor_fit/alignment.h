@@ -27,7 +27,7 @@ struct TwinAlignment {
 /// The alignment of a recording, and the twin's joints at the recording's frames.
 struct TwinMatch {
   TwinAlignment alignment;
-  std::vector<RolePositions> truth;  ///< one per frame of the recording, in the sensor's frame
+  std::vector<RolePositions> truth;  ///< positions, one entry per frame of the recording, in the sensor's frame
 };
 
 /// Finds time shift, rotation, translation and offsets by least squares over all joints. The shift is first found by

@@ -17,12 +17,12 @@ struct StudioOptions {
   /// How furnished the room is, 0 to 1. At 0 it is a bare studio with a person of capsules in warm colours; at 1 it is
   /// a lived-in room with a dressed person.
   double scene = 0;
-  std::uint64_t seed = 1;  ///< determines the room, its objects and the person's clothes
+  std::uint64_t seed = 1;  ///< seed of the room, its objects and the person's clothes
 };
 
 struct Picture {
   ColourImage colour;
-  Mask person;  ///< 1 where the person is visible
+  Mask person;  ///< mask that is 1 where the person is visible
 };
 
 /// Returns two cameras side by side, placed as a person would place them in front of a body that performs this motion:
