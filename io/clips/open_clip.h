@@ -16,7 +16,7 @@ namespace etude {
 
 /// A clip as its file stores it.
 struct SourceClip {
-  /// "01_01", "Med_General#Dance": the file's name without folder and extension, and the animation; "builtin:clap".
+  /// The file's name without folder and extension, and the animation: "01_01", "Med_General#Dance"; or "builtin:clap".
   std::string name;
   std::string source;  ///< the reference that opens the clip again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
   ClipFormat format = ClipFormat::kBvh;

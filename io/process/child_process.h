@@ -108,7 +108,7 @@ class ChildProcess {
   int broken_by() const { return broken_by_; }
   /// Closes the child's input, waits up to `patience_ms` for the child to end, then kills it and all its descendants.
   /// Returns how it ended: "exit code 2", "signal 11 (Segmentation fault)". Exit code 128 + n is reported as signal n,
-  /// because shells and bubblewrap report a signal so.
+  /// because shells and bubblewrap report a signal in this way.
   std::string Finish(int patience_ms = 50);
   /// Returns the exit code after Finish; 128 + n if signal n ended it; −1 before Finish.
   int exit_code() const { return exit_code_; }

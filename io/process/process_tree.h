@@ -41,7 +41,7 @@ class HeldTree {
  public:
   explicit HeldTree(pid_t root);
 
-  /// Kills all processes of the tree, and all descendants started since.
+  /// Kills all processes of the tree, and all descendants that were started meanwhile.
   void Kill();
 
  private:
@@ -49,7 +49,7 @@ class HeldTree {
     pid_t number;
     Descriptor handle;  ///< a pidfd of the process
   };
-  /// Adds descendants started since; returns true if there were any.
+  /// Adds descendants that were started since the last call; returns true if there were any.
   bool Grow();
   void AddTree(pid_t root);
   void SignalAll(int signal) const;

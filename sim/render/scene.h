@@ -178,7 +178,7 @@ struct RowRange {
   int end = 0;
 };
 
-/// The pictures that a caller requests. Colour alone is the fastest; the others stay empty.
+/// The pictures that a caller requests. Colour alone is the fastest. Pictures that are not requested stay empty.
 enum class Targets { kColour, kColourAndLabels, kAll };
 
 /// The maximum side of a picture, pixels.
