@@ -243,7 +243,7 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
   const auto tell = [&clip_facts](const std::string& key) {
     return [&clip_facts, key](const std::string& value) { clip_facts += key + ": " + value + "\n"; };
   };
-  // The help of each option names its default, which comes from the scenario or from the clip.
+  // The help of each option names its default. Scenarios and clips give these defaults.
   return {
       AddSeed(command, seed, "Seed of all worlds (default: the scenario's, else 1)"),
       command.add_option("--trials", trials, "Trials per condition (default: the scenario's)")
@@ -324,7 +324,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineGate(app, action);
   DefineCompare(app, action);
   DefineCheckMethod(app, action);
-  // Define the commands that list what scenarios can name, and those that work on motion clips.
+  // Define the commands that list names for scenarios, and the commands for motion clips.
   DefineList(app, action);
   DefineClip(app, action);
   DefineBridge(app, action);
@@ -343,7 +343,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineScore(app, command_line, action);
   DefineOptionTree(app, action);
   CLI::App* worker = app.add_subcommand("worker", "For internal use");
-  worker->group("");  // hidden
+  worker->group("");  // hidden in the help
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });
   GroupCommands(app);
   RefuseEmptyValues(app);

@@ -74,7 +74,7 @@ Json FactsOf(const Preferences& found) {
 void Print(const Preferences& found) {
   fmt::print("{}, {}, {} ({} “no difference”); {} not answered\n\n", Plural(found.raters, "rater"),
              Plural(found.pairs, "pair"), Plural(found.answers, "answer"), found.same, found.without);
-  // The methods.
+  // Print one row for each method.
   std::size_t width = 24;
   for (const PreferredMethod& method : found.methods) width = std::max(width, method.method.size());
   fmt::print("{:<{}}  {:>9}  {:>16}  {:>10}\n", "method", width, "preferred", "95 % interval", "answers");
@@ -88,7 +88,7 @@ void Print(const Preferences& found) {
       found.raters < kMinSample
           ? fmt::format("Intervals over raters need {} of them.", kMinSample)
           : "Intervals are over raters (bootstrap, 95 %), on these films.");
-  // The metrics.
+  // Print one row for each metric.
   fmt::print("{:<{}}  {:>9}  {:>16}  {:>10}\n", "metric", width, "agrees", "95 % interval", "pairs");
   for (const MetricAgreement& metric : found.metrics) {
     if (metric.decided == 0) continue;

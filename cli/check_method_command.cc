@@ -22,7 +22,7 @@ namespace {
 /// Recordings of people, with which the check replaces simulated people.
 struct RecordedPeople {
   std::vector<std::string> streams;
-  std::string labels;  ///< "" = each recording is one move
+  std::string labels;  ///< a file of labels; "" = each recording is one move
   StreamArguments reading;
 };
 

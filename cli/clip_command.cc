@@ -73,8 +73,8 @@ void DefineInfo(CLI::App& clip, Action& action) {
 
 struct ClipConvertOptions {
   std::string input, output;
-  double rate_hz = 0;  ///< 0 = the clip's own rate, or 30 Hz for bodies
-  std::string trim;    ///< "1.5:4"; "" = the whole clip
+  double rate_hz = 0;  ///< frames per second; 0 = the clip's own rate, or 30 Hz for bodies
+  std::string trim;    ///< the part FROM:TO in seconds, "1.5:4"; "" = the whole clip
   std::string character;
   bool mirror = false, retarget = false, ground = false, overwrite = false, as_json = false;
   ClipReading reading;

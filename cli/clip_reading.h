@@ -18,11 +18,11 @@ namespace etude {
 /// Options with facts that a motion file may not state; "" = the file decides.
 struct ClipReading {
   std::string joint_map;  ///< the name of a joint-map file
-  std::string unit;       ///< "m", "cm", … or metres per unit as a number
-  std::string up;         ///< "y" or "z"
+  std::string unit;       ///< the unit: "m", "cm", …, or metres per unit as a number
+  std::string up;         ///< the axis that points up: "y" or "z"
   std::optional<double> rate_hz = {};
   bool keep_floor = false;
-  std::string marker_set = "";  ///< "" = the marker set that fits the file best
+  std::string marker_set = "";  ///< name of a marker set; "" = the set that fits the file best
 };
 
 /// Adds --joint-map, --unit, --up, --keep-floor and --marker-set, for every command that opens clips directly. Also

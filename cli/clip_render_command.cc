@@ -19,11 +19,11 @@ struct ClipRenderOptions {
   std::vector<std::string> clips;
   std::string output;
   std::string trim;
-  std::string character;  ///< "" = chosen for each clip
+  std::string character;  ///< the performing figure; "" = chosen for each clip
   std::string view = "three-quarter";
-  std::string size;  ///< "200x260"; "" = 200 × 260 for pictures of a sheet, 720 × 720 for films
+  std::string size;  ///< picture size, "200x260"; "" = 200 × 260 on a sheet, 720 × 720 in a film
   int frames = 0;    ///< pictures per clip; 0 = 12 for one clip, 8 for several
-  int columns = 0;   ///< 0 = 6 for one clip, one row per clip for several
+  int columns = 0;   ///< pictures per row; 0 = 6 for one clip, one row per clip for several
   int jobs = 0;
   bool overwrite = false;
   ClipReading reading;

@@ -39,7 +39,7 @@ struct CoachCommandOptions {
   std::string click;              ///< a WAV to write, "" = none
   std::string format;             ///< the stream's format, "" = recognised by content
   std::optional<double> rate_hz;  ///< frame rate of streams without a clock
-  std::string recogniser;         ///< one of RecogniserNames(), "" = the recommended recogniser
+  std::string recogniser;         ///< a name of RecogniserNames(); "" = the recommended recogniser
   /// Minimum evidence for the verdict "right"; default: the recogniser's own threshold.
   std::optional<double> right_from;
   std::string policy = "at-first-mistake";

@@ -25,7 +25,7 @@ Result<std::string> ScenarioOfMotions(const std::vector<std::string>& files, con
 /// The clips of a run of motions without a truth, sorted by outcome.
 struct Triage {
   std::size_t clips = 0, fault_free = 0;     ///< judged clips, and those of them without a fault
-  std::map<std::string, std::size_t> kinds;  ///< for each kind of fault (its word), the number of clips that show it
+  std::map<std::string, std::size_t> kinds;  ///< number of clips that show a fault, by the word for its kind
   bool has_limits = false;
   // Lines have the form "METHOD, CLIP: why". A clip beyond its limits is in `beyond_limits` only; any other clip with
   // faults is in `faulty`.

@@ -43,7 +43,7 @@ struct EvaluateOptions {
   std::string command_line;
 };
 
-/// Returns the columns of a CSV file of pairs that name methods.
+/// Returns the methods that the columns of a CSV file of pairs name.
 Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
   std::vector<NamedResult> results;
@@ -138,7 +138,7 @@ void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreemen
   if (angles.empty() || std::ranges::none_of(summary.headline_metrics, is_of_angles)) return;
   fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  units\n", "angle, degrees", "RMSE", "bias (95 %)",
              "limits of agreement", "ICC");
-  const auto shown = [](double value) -> std::string {  // a small value keeps its sign
+  const auto shown = [](double value) -> std::string {  // a small value is not shown as 0.00
     if (std::abs(value) < 1e-9) return "0.00";
     return std::abs(value) < 0.005 ? fmt::format("{:.1g}", value) : fmt::format("{:.2f}", value);
   };
@@ -206,13 +206,13 @@ void PrintTable(const ScenarioSummary& summary) {
   }
 }
 
-/// What rows say of pairs, lines "METHOD, PAIR: reason".
+/// The notes on pairs in a run's rows, as lines "METHOD, PAIR: reason".
 struct PairNotes {
-  std::vector<std::string> judged;  ///< once for each method and condition: what was judged, how answers were changed
-  std::vector<std::string> not_judged;  ///< every pair that could not be judged
+  std::vector<std::string> judged;      ///< one per method and condition: what was judged, how answers were changed
+  std::vector<std::string> not_judged;  ///< one for every pair that could not be judged
 };
 
-/// Reads the rows one by one.
+/// Collects the notes, row by row.
 Result<PairNotes> ReadNotes(const std::filesystem::path& folder) {
   PairNotes notes;
   std::vector<std::string> told;
@@ -244,8 +244,8 @@ void PrintNotes(const PairNotes& notes) {
 
 constexpr const char* kScenarioFile = "evaluate.yaml";
 
-/// Replaces the place of an error in the generated scenario `text` by the command-line argument that caused it, because
-/// the user never wrote that text.
+/// Replaces the place of an error in the generated scenario `text`, which the user did not write, by the command-line
+/// argument that caused the error.
 Error AboutArguments(Error error, const std::string& text) {
   constexpr std::pair<std::string_view, std::string_view> kArguments[] = {
       {"truth", "the truth"},  {"pairs", "--pairs"},      {"joints", "--joints"},
@@ -294,7 +294,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  // With limits, a clip that cannot be judged counts as a clip that exceeds them.
+  // With limits, a clip that cannot be judged counts as exceeding them.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();

@@ -51,7 +51,7 @@ struct ForecastCommandOptions {
 Json TripleOf(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
 Json FactsOf(const RigForecast& forecast, const ForecastOptions& options) {
-  // Write one list each of cameras, joints and changes.
+  // Write three lists: cameras, joints and changes.
   Json cameras = Json::array(), joints = Json::array(), changes = Json::array();
   for (const auto& [name, camera] : forecast.cameras) {
     cameras.push_back({{"camera", name}, {"place_m", TripleOf(camera.p_WC)}});

@@ -196,9 +196,9 @@ Result<int> ListCommand(Listing what, const std::string& scenario_folder) {
 }
 
 enum class KeysFormat {
-  kText,      ///< for people at a terminal
-  kMarkdown,  ///< docs/reference/keys.md
-  kSchema,    ///< docs/schemas/scenario.schema.json
+  kText,      ///< a text for people at a terminal
+  kMarkdown,  ///< the page docs/reference/keys.md
+  kSchema,    ///< the schema docs/schemas/scenario.schema.json
 };
 
 int ListKeysCommand(KeysFormat format) {
@@ -221,7 +221,7 @@ int ListKeysCommand(KeysFormat format) {
 enum class MetricsFormat {
   kTable,     ///< one line for each metric, for people at a terminal
   kJson,      ///< complete definitions with test vectors (docs/schemas/metrics.schema.json)
-  kMarkdown,  ///< docs/reference/metrics.md
+  kMarkdown,  ///< the page docs/reference/metrics.md
 };
 
 int PrintTable() {

@@ -79,7 +79,7 @@ std::string Cases(const CLI::App& app,
 }
 
 /// The code for bash and zsh that finds the command's words before the cursor: words without a dash that lead to a
-/// known command. `help` is not one of them, so commands are also offered after it.
+/// known command. `help` is no such word, so commands are also offered after `help`.
 constexpr std::string_view kFindCommand = R"(  local at="" word
   for word in "${before[@]}"; do
     case "${at:+$at }$word" in
@@ -125,7 +125,7 @@ std::string FishCompletion(const CLI::App& app) {
   std::string text = "# Completion of etude for fish, made by `etude completion fish`.\n";
   std::vector<std::string> helped;
   ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
-    // Write the condition under which fish offers the words that may follow.
+    // Write the condition for fish to offer the words that may follow.
     std::string when = "__fish_use_subcommand";
     if (!words.empty()) {
       when.clear();
@@ -205,7 +205,7 @@ std::string ManualPage(const CLI::App& command, const std::string& words) {
   // Write the options and the examples.
   text += ".SH OPTIONS\n";
   for (const auto& [option, names] : OptionsOf(command)) {
-    const std::string type = option->get_type_name();  // "INT:INT in [1 - 1024]"
+    const std::string type = option->get_type_name();  // for example "INT:INT in [1 - 1024]"
     const bool takes_value = option->get_items_expected_max() > 0;
     text += fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", Troff(Join(names)),
                         takes_value ? " \\fI" + Troff(type.substr(0, type.find(':'))) + "\\fR" : "",

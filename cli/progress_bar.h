@@ -36,7 +36,7 @@ class ProgressBar {
   /// For logs: the time of the next line, unless the work reaches the next tenth earlier, and the pause after that
   /// line, seconds.
   double next_s_ = 2, pause_s_ = 2;
-  bool is_writing_ = false;  ///< true while it shows the writing of a run's results
+  bool is_writing_ = false;  ///< true while the bar shows the writing of a run's results
 };
 
 /// Returns a callback that shows the progress of some work and the estimated remaining time, once the work takes long:

@@ -28,10 +28,10 @@ struct RecogniseCommandOptions {
   std::vector<std::string> streams;  ///< a single "-" = standard input, live
   std::string moves;
   std::string labels;
-  std::string recogniser;  ///< "" = the recommended recogniser
+  std::string recogniser;  ///< a name of RecogniserNames(); "" = the recommended recogniser
   std::string filter = "none", weights = "fixed";
   std::optional<double> threshold;
-  std::vector<std::string> settings;  ///< "tolerance_scale=1.2"
+  std::vector<std::string> settings;  ///< entries like "tolerance_scale=1.2"
   bool leave_one_person_out = false;
   bool as_json = false;
   StreamArguments reading;

@@ -15,7 +15,7 @@ namespace etude {
 /// The options for reading recordings (--format, --rate, --body, --level, --reflect) and clips (--joint-map, --unit,
 /// --up, and also --rate).
 struct StreamArguments {
-  std::string format;  ///< "" = recognised by content
+  std::string format;  ///< name of the format; "" = recognised by content
   std::string level = "auto";
   bool reflect = false;
   std::optional<double> rate_hz;

@@ -20,7 +20,7 @@ namespace {
 
 struct TeachCommandOptions {
   std::vector<std::string> streams;
-  std::string labels;                ///< "" = each file is one move
+  std::string labels;                ///< a file of labels; "" = each file is one move
   std::vector<std::string> without;  ///< moves to leave out
   std::string output;
   bool overwrite = false, as_json = false;

@@ -36,8 +36,8 @@ namespace {
 struct TrainOptions {
   std::vector<std::string> clips;
   std::string output;              ///< a fuzzy system file
-  std::string method = "genetic";  ///< "genetic" or "adaptive"
-  bool memberships = false;        ///< also tune the membership functions
+  std::string method = "genetic";  ///< the method of learning: "genetic" or "adaptive"
+  bool memberships = false;        ///< true: the membership functions are also tuned
   std::uint64_t seed = 1;
   int population = 40, generations = 60;
   /// Learn the recogniser `learnt` instead of a fuzzy system, from simulated people who dance the clips.

@@ -34,7 +34,7 @@ struct VerifyCommandOptions {
   ReplayOptions replay;
   std::string sample = kDefaultSample;  ///< a number, or "all"
   std::string key_file;               ///< file with the key of secret worlds, "" = none
-  std::string sign, check;            ///< key files, "" = none
+  std::string sign, check;            ///< key files for signing and for checking a signature, "" = none
   bool as_json = false;
 };
 
@@ -48,7 +48,7 @@ std::string CheckSample(const std::string& text) {
   return fmt::format("'{}' is not a sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
 }
 
-/// Draws an unpredictable seed of 53 bits, which JSON readers that use doubles keep exactly.
+/// Draws an unpredictable seed of 53 bits, because JSON readers that use doubles keep such a seed exactly.
 Result<std::uint64_t> FreshDice() {
   std::uint64_t dice = 0;
   if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("did not return random numbers");
@@ -62,7 +62,7 @@ std::string ShareInWords(double chance) {
   return fmt::format("{:.3g} %", 100 * chance);
 }
 
-/// Returns sentences with the probability that the sample misses a forgery, and with the seed by which it was drawn.
+/// Returns two sentences: the probability that the sample misses a forgery, and the seed of the sample.
 std::string SampleInWords(const CellChoice& choice) {
   std::vector<std::string> missed;
   for (const MissedForgery& one : WhatIsMissed(choice)) {

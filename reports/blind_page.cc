@@ -22,7 +22,7 @@ namespace etude {
 namespace {
 
 // A film begins one second before the request and ends two seconds after the last transition point of either path. The
-// film is shorter if the recordings are.
+// film is shorter if the recordings are shorter.
 constexpr int kBefore = kFilmRate, kAfter = 2 * kFilmRate, kLongest = 20 * kFilmRate;
 constexpr int kSide = 480, kGap = 16;
 

@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// A page on which people compare transitions without knowing the methods, and the key that says which side shows which
-/// method.
+/// A page on which people compare transitions without knowing the methods, and a key that names the method of each
+/// side.
 struct BlindTrial {
   std::string page_html;
   BlindKey key;

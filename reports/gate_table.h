@@ -14,8 +14,8 @@ struct GateTableRow {
   std::string before, after;  ///< the metric's aggregate over all worlds, in the baseline and now
   std::string difference;     ///< the median (or mean) of the paired differences, now − baseline, with its interval
   std::string p;              ///< p-value after Holm's correction; kNoValue if nothing was tested
-  std::string worlds;         ///< "12 of 60", with the numbers of lost values, gained values and far worse worlds
-  std::string verdict;        ///< MovementWords; "worse in 5 worlds" if the tail rule decided
+  std::string worlds;         ///< differing worlds: "12 of 60", with the numbers of lost, gained and far worse ones
+  std::string verdict;        ///< text of MovementWords, or "worse in 5 worlds" if the tail rule decided
   bool fails = false;
 };
 
@@ -36,14 +36,14 @@ std::vector<std::string> GateSentences(const GateReport& report);
 /// Returns one line for each answer whose verdict became worse since the baseline. If `only_flipped` is true, returns
 /// only the answers that fell from better to worse, which fail the gate.
 std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped = false);
-/// Returns how many metrics moved which way: "170 comparisons: 2 worse, 3 better, 165 same".
+/// Returns the number of metrics that moved in each direction: "170 comparisons: 2 worse, 3 better, 165 same".
 std::string CompareSentence(const SnapshotComparison& comparison);
 
 /// A line of text about a world that is far worse than in the baseline.
 struct TailLine {
   std::string
       world;  ///< "ik-weights, joint_noise_deg=5, trial 7, fixed: ok → unsolved; orientation error 0.05° → 60.1°"
-  std::string replay;  ///< "etude replay out/now --cell …", quoted for a shell; "" for the line that counts the rest
+  std::string replay;  ///< command "etude replay out/now --cell …" for a shell; "" for the line that counts the rest
 };
 
 /// Returns one line for each of the first `most` far worse worlds of one method under one condition. `moves` are the

@@ -23,8 +23,8 @@ constexpr std::string_view kAllNumbers = "the CSV file in report/tables";
 struct OverviewCell {
   std::string value;
   std::string interval = {};             ///< interval of the value; "" if it has none
-  std::string counted = {};              ///< "10 of 12" if some cells have no value, else ""
-  std::optional<double> sorted_by = {};  ///< the median or mean that `value` shows, as a number by which the page sorts
+  std::string counted = {};              ///< number of cells with a value, "10 of 12", if some have none; else ""
+  std::optional<double> sorted_by = {};  ///< the median or mean in `value` as a number, by which the page sorts
   const Comparison* baseline = nullptr;  ///< comparison with the baseline; may be null
   const Comparison* rival = nullptr;     ///< comparison with the strongest other method; may be null
 
@@ -168,7 +168,7 @@ Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string
   return table;
 }
 
-/// Returns a list that says how many values are missing for which reason.
+/// Returns a list of the numbers of missing values with their reasons.
 std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
   std::map<std::string, std::vector<std::string>> metrics_of;
   for (const ConditionSummary& condition : scenario.conditions) {

@@ -124,7 +124,7 @@ std::string HowToRead() {
                      kHowToRead, kSigns, kComparisonLegend);
 }
 
-/// Returns a sentence that says which part of a large run the pictures show; "" if they show the whole run.
+/// Returns a sentence about the part of a large run that the pictures show; "" if they show the whole run.
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(

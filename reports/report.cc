@@ -98,7 +98,7 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     if (found != text) check.differences.push_back((folder / path).string() + kOtherwise);
   }
   // Compare the page. The rows of real films do not belong to the run and are not compared. One empty take makes the
-  // new page contain their section.
+  // new page contain the section of real films.
   bool has_media = false;
   if (const FilePath page = folder / kPage; Exists(page)) {
     ++check.files;

@@ -43,8 +43,7 @@ struct ReportCheck {
 /// pictures, films and captures of real films.
 Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder);
 
-/// Compares the files that `etude gate` wrote beside the report with the files that a gate without a baseline would
-/// write.
+/// Compares the files that `etude gate` wrote beside the report with the output of a gate without a baseline.
 Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::path& run_folder);
 
 }  // namespace etude

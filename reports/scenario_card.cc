@@ -287,7 +287,7 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
 }
 
 /// Returns the verdicts and the sentence about the comparison with the baseline. If the strongest other method is not
-/// the baseline, also returns those about the comparison with it, folded away.
+/// the baseline, adds the same about the comparison with that method, folded away.
 std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;

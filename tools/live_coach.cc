@@ -141,7 +141,7 @@ Result<void> LiveCoach::Take(const SensedFrame& frame, const StreamRecording& me
 }
 
 void LiveCoach::Begin(const StreamRecording& meaning) {
-  // The origin of a device's coordinates is the device, so the sensor is at the origin. In Etude's own format, the
+  // Recordings of a device have the device as their origin, so the sensor is at the origin. In Etude's own format, the
   // sensor's position is unknown.
   if (!meaning.is_level) options_.coach.sensor = {0, 0, 0};
   coach_ = std::make_unique<Coach>(transitions_, options_.coach, Coach::PolicyChoice{FindPolicy(options_.policy), {}});

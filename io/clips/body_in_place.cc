@@ -6,8 +6,8 @@
 namespace etude {
 namespace {
 
-/// Returns, for each frame, the joints that the file does not show and that the reader placed by a rule; empty if the
-/// file shows every joint in every frame.
+/// Returns, for each frame, the joints that the reader placed by a rule because the file does not show them; empty if
+/// the file shows every joint in every frame.
 std::vector<JointSet> UnseenIn(const OpenedClip& opened) {
   const std::size_t frames = opened.body.motion.poses.size();
   std::vector<JointSet> unseen(frames);

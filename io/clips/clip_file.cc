@@ -80,7 +80,7 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
   return file;
 }
 
-/// Makes a clip file of a motion that is a body already; `notes` says where the motion comes from and what was changed.
+/// Makes a clip file of a motion that is a body already. `notes` states the motion's source and every change to it.
 ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path,
                     std::vector<std::string> notes) {
   ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
@@ -118,7 +118,7 @@ Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, Capped
   return ReadAcclaimMotion(bytes, skeleton, path, &remarks);
 }
 
-/// Returns the roles that the bones of a VRM file play. The usual search finds spine, hands, feet and the crown.
+/// Returns the roles that the bones of a VRM file play. Spine, hands, feet and crown are left to FindJointMap.
 std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
   constexpr std::pair<const char*, Role> kBones[] = {
       {"leftUpperArm", Role::kLeftShoulder}, {"rightUpperArm", Role::kRightShoulder},
@@ -138,7 +138,7 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
   return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
 }
 
-/// Reads the rate and the writing of missing values from the _motion.json of Motion-BIDS.
+/// Reads the rate, and the text that stands for a missing value, from the _motion.json of Motion-BIDS.
 Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
   ASSIGN_OR_RETURN(const auto text, reader.Read(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(text, file));
@@ -153,11 +153,11 @@ Result<BidsFacts> ReadBidsFacts(const std::string& file, CappedReader& reader) {
 }
 
 /// Makes a clip file from an array of joints; the array itself states no frame rate. `said` describes how the array was
-/// turned to Y up; the note ends with it.
+/// turned to Y up, and becomes the end of the note.
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                              const std::string& path, const OpenOptions& options, const std::string& said = "") {
   std::string note;
-  // Do not rotate an array twice: the search for the up axis would turn a handstand into a stance.
+  // If the array was turned, its up axis is known. A search for the up axis could turn a handstand into a stance.
   const auto up = said.empty() ? ToldUp(options) : std::optional(UpAxis::kY);
   ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, up));
   joints.remark = said.empty() ? note : note + "; " + said;

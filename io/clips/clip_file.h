@@ -56,7 +56,7 @@ struct ClipFile {
   Character figure;                       ///< a skeleton, and meshes if the file has any
   /// Clips on that skeleton; some glTF files have none, a marker file has one per person.
   std::vector<Clip> clips;
-  std::vector<MadeBody> bodies = {};      ///< one for each clip if the clips are bodies already; else empty
+  std::vector<MadeBody> bodies = {};      ///< one entry per clip if the clips are bodies already; else empty
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
   /// MarkerBody::shown of each clip that was made from markers; filled only if `keeps_shown` is set.
@@ -70,7 +70,7 @@ struct OpenOptions {
   BodyOptions body;
   /// For marker files: the marker set to use (MarkerSetKeys); "" = the set that fits best.
   std::string marker_set = "";
-  bool keeps_shown = false;  ///< for marker files: also fill SourceClip::shown
+  bool keeps_shown = false;  ///< if true, SourceClip::shown is also filled for marker files
   /// Reads "RUN#CELL@NAME"; null = a reference of this form is treated as a file.
   const RecordedMotions* recorded = nullptr;
 };
@@ -79,13 +79,13 @@ struct OpenOptions {
 /// allocated.
 constexpr std::uintmax_t kMaxClipFileBytes = 500'000'000;
 
-/// Reads a motion file; the content decides the format, not the name. Known are BVH, glTF, GLB, FBX, DeepMimic's
-/// motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy; JointsOfArray explains
-/// `layout`), and markers in C3D, TRC, Motive's CSV or joint CSV (FindMarkerBodies). The buffers of a .gltf are read
-/// only from its own folder and below; links that lead out of that folder are refused. The skeleton of an AMC is the
-/// ASF file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` supplies facts that marker
-/// files do not state. `options.recorded` reads the recordings of runs; if it is null, recordings are refused as files
-/// without motion.
+/// Reads a motion file; the content decides the format, not the name. The known formats are BVH, glTF, GLB, FBX,
+/// DeepMimic's motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy; JointsOfArray
+/// explains `layout`), and markers in C3D, TRC, Motive's CSV or joint CSV (FindMarkerBodies). The buffers of a .gltf
+/// are read only from its own folder and below; links that lead out of that folder are refused. The skeleton of an AMC
+/// is the ASF file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` supplies facts that
+/// marker files do not state. `options.recorded` reads the recordings of runs; if it is null, recordings are refused as
+/// files without motion.
 Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout = std::nullopt,
                               const OpenOptions& options = {});
 

@@ -18,7 +18,7 @@ class RecordedFigure;  // defined in sim/character
 
 /// A motion from which worlds can be made, at 30 Hz, in metres, with Y up and the feet on the floor.
 struct LibraryClip {
-  std::string name;    ///< "builtin:clap", "01_01" (the file's name without folder and extension), "dance#Jump"
+  std::string name;    ///< name: "builtin:clap", "01_01" (the file's name without folder and extension), "dance#Jump"
   std::string source;  ///< the reference that opens the clip again: "builtin:clap", a path, or "path.glb#Jump"
   BodyMotion motion;
   std::optional<Move> move;  ///< the authored move, with its key poses; absent unless the clip is a built-in move

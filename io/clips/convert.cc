@@ -25,7 +25,7 @@ namespace etude {
 namespace {
 
 bool ParseSeconds(std::string_view text, double& seconds) {
-  if (text.empty()) return true;  // an open end
+  if (text.empty()) return true;  // the end is left open
   const auto value = ParseFinite(text);
   seconds = value.value_or(-1);
   return seconds >= 0;
@@ -79,7 +79,7 @@ void AddEdits(double from_hz, const ConvertOptions& options, std::vector<std::st
   if (options.mirror) changes.emplace_back("mirrored: left is right");
 }
 
-/// Finds the unit of a BVH file and the axis that points up. Without roles, `options` must give the unit.
+/// Finds the unit of a BVH file and its up axis. Without roles, `options` must give the unit.
 Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& options) {
   auto opened = UnderstandClip(source, options);
   if (opened) return std::move(opened->body);
@@ -114,14 +114,14 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
     }
     clips.push_back(std::move(*edited));
   }
-  // Say what its reader found, and what looks wrong if the body is understood.
+  // Report what the file's reader found, and, if the body is understood, doubts about it.
   const auto say = [&](const std::vector<std::string>& texts) {
     converted.changes.insert(converted.changes.end(), texts.begin(), texts.end());
   };
   if (sources.front().made) say(sources.front().made->changes);
   say(sources.front().remarks);
   if (const auto opened = UnderstandClip(sources.front(), options.open)) say(opened->body.doubts);
-  // Write BVH, or GLB with the file's own meshes where they still fit the skeleton.
+  // Write BVH; or write GLB, with the file's own meshes if they still fit the skeleton.
   AddEdits(sources.front().clip.rate_hz, options, converted.changes);
   if (format == MotionFormat::kBvh) {
     converted.bytes = WriteBvh(std::move(clips.front()));

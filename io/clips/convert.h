@@ -45,8 +45,8 @@ struct ConvertOptions {
 /// A converted file, and a description of the conversion for users.
 struct Converted {
   std::string bytes;
-  BidsFiles files = {};  ///< for kBids, instead of `bytes`
-  std::string note;      ///< "own skeleton", "as a body: Plug-in Gait", …
+  BidsFiles files = {};  ///< the result for kBids, instead of `bytes`
+  std::string note;      ///< the kind of conversion: "own skeleton", "as a body: Plug-in Gait", …
   /// Every change that was made to the file's content. A change that concerns several clips is listed once.
   std::vector<std::string> changes;
 };

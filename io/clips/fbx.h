@@ -28,11 +28,11 @@ struct FbxMotion {
 inline constexpr std::string_view kReaderCrashed = "a damaged FBX file: its reader ended with signal";
 
 /// Reads the motion of FBX files, one after the other; meshes, materials, cameras and lights are left out. Files may be
-/// hostile, so assimp reads them in a child process with limited memory and processor time. If a file ends the child,
-/// the next one starts a new child.
+/// hostile, so assimp reads them in a child process with limited memory and processor time. If the child dies on a
+/// file, the next file gets a new child.
 class FbxReader {
  public:
-  /// Fails if the module is missing, and if the file is damaged, too large or ends the child.
+  /// Fails if the module is missing, if the file is damaged or too large, or if the child dies on it.
   Result<FbxMotion> Read(std::string_view bytes, const std::string& path);
 
  private:

@@ -26,14 +26,14 @@ std::optional<UpRule> UpRuleOf(ClipFormat format);
 /// Returns true for the formats of markers, and for files of joint positions that are read like markers.
 bool IsOfMarkers(ClipFormat format);
 
-/// Finds every body that the markers show, and makes a clip of each. `rule` says how the up axis is found if the user
-/// gives none.
+/// Finds every body that the markers show, and makes a clip of each. `rule` determines the up axis if the user gives
+/// none.
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
                                const OpenOptions& options, UpRule rule);
 
 /// Makes a clip of the body in a motion whose joints may have any names. The positions are in metres with Y up and stay
-/// on their own floor: the reader of arrays has already applied the options for unit and up axis, so they are ignored
-/// here. The notes of `motion` are added to the clip's changes.
+/// on their own floor. The options for unit and up axis are ignored here, because the reader of arrays has already
+/// applied them. The notes of `motion` are added to the clip's changes.
 Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path, OpenOptions options);
 
 /// Reads a file of markers (C3D, TRC, Motive's CSV, joint CSV); returns nullopt if the file is of another kind.

@@ -69,8 +69,8 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
   clip = WithRootAt(clip, root);
 }
 
-/// Finds the ground shared by the clips of a file that holds several. Returns nullopt if the skeleton has no roles;
-/// UnderstandClip then reports which are missing.
+/// Finds the ground shared by the clips of a file that holds several clips. Returns nullopt if the skeleton has no
+/// roles; UnderstandClip then reports which roles are missing.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
   const auto map =
@@ -81,7 +81,7 @@ std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, co
   return map ? FindGround(file.clips, *map, told) : std::nullopt;
 }
 
-/// Removes scales that the frames have but the rest pose does not, and adds a remark that says so. A skeleton without
+/// Removes scales that exist in the frames but not in the rest pose, and adds a remark about them. A skeleton without
 /// roles is left unchanged.
 void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& options) {
   const auto has_scales = [](const Clip& clip) {
@@ -115,7 +115,8 @@ std::string DescribeSecondBody(const Skeleton& skeleton, const JointMap& map) {
   }
   const int top = static_cast<int>(std::ranges::find(below | std::views::reverse, wanted).base() - below.begin()) - 1;
   if (top < 0) return "";
-  // Collect the joints outside the subtree of `top`, with the file's own names: readers number equal names ("Hips#2").
+  // Collect the joints outside the subtree of `top`. Readers number equal names ("Hips#2"), so restore the file's own
+  // names.
   constexpr std::size_t kMinJoints = 12;
   Skeleton others;
   std::vector<int> place(skeleton.joints.size(), -1);
@@ -152,7 +153,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   } else {
     opened.body.changes.emplace_back("the canonical body");
   }
-  // Markers were already rotated and scaled by the user's options; our own arrays and angles are rotated here.
+  // The user's options have already turned and scaled markers. Our own arrays and angles are turned here.
   const bool is_turned = options.up == UpAxis::kZ && !is_ours && !IsOfMarkers(opened.source.format);
   if (is_turned) {
     opened.body.found_up = {.axis = AxisOf(UpAxis::kZ), .evidence = UpEvidence::kTold};
@@ -162,7 +163,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     opened.body.changes.emplace_back(is_ours ? "the file's own unit and up axis are used, not the given ones"
                                              : "the file's own unit is used, not the given one");
   }
-  constexpr double kSameRate = 1e-6;  // relative; a rate that was computed from a column of times is rounded
+  constexpr double kSameRate = 1e-6;  // relative, because a rate that was computed from times is rounded
   const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
   if (std::string said = DescribeResampling(opened.source.clip.rate_hz, options.rate_hz); !said.empty()) {
     opened.body.changes.push_back(std::move(said));
@@ -174,7 +175,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   for (const LocalPose& frame : clip.frames) {
     ComputeGlobals(clip.skeleton, frame, globals);
     BodyPose pose = Evaluate(opened.map, globals);
-    // The hip centre of a sensor need not lie midway between its hips, where Evaluate puts it.
+    // A sensor's hip centre need not lie midway between its hips, but Evaluate puts it there.
     if (opened.source.format != ClipFormat::kBuiltin) {
       pose[Role::kHipCentre] = globals[opened.map[Role::kHipCentre].joint].position;
     }
@@ -204,7 +205,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
     for (MarkerMotion& shown : file.shown) {
       shown.rate_hz = *options.roles->rate_hz;
-      shown.start_s.reset();  // the file's clock runs at another rate
+      shown.start_s.reset();  // the file's clock has another rate
     }
   } else if (!file.has_rate) {
     say(fmt::format("the file states no rate; {:g} Hz is assumed", file.clips.front().rate_hz));
@@ -227,7 +228,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
                   FormatName(file.format), *wanted.animation);
     }
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
-    std::vector<SourceClip> only;  // moved into: an initializer list would copy the frames
+    std::vector<SourceClip> only;  // filled by a move, because an initializer list would copy the frames
     only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
                     file.bodies.empty() ? std::nullopt : std::optional(file.bodies.front()), file.remarks, file.roles,
                     shown_of(0)});

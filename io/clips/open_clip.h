@@ -16,7 +16,7 @@ namespace etude {
 
 /// A clip as its file stores it.
 struct SourceClip {
-  /// "01_01", "Med_General#Dance": the file's name without folder and extension, and the animation; "builtin:clap".
+  /// The file's name without folder and extension, and the animation: "01_01", "Med_General#Dance"; or "builtin:clap".
   std::string name;
   std::string source;  ///< the reference that opens the clip again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
   ClipFormat format = ClipFormat::kBvh;
@@ -24,7 +24,7 @@ struct SourceClip {
   /// The file's figure, if the file has meshes. The clip uses its skeleton, and all clips of the file share the figure.
   std::shared_ptr<const Character> character;
   std::optional<Ground> ground = {};  ///< the ground shared by all clips of the file; only if the file holds several
-  std::optional<MadeBody> made = {};  ///< set if the clip is a body already: it is in metres, with Y up
+  std::optional<MadeBody> made = {};  ///< the body, if the clip is a body already: in metres, with Y up
   /// Repairs made while reading the file; UnderstandClip appends them to the body's note.
   std::vector<std::string> remarks = {};
   std::optional<JointMapOverrides> roles = {};     ///< roles that the file assigns; those in OpenOptions have priority
@@ -32,9 +32,9 @@ struct SourceClip {
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all
-/// animations of a glTF, or the animation named after '#'. The name may omit the prefix that exporters write ("Jump"
-/// for "Armature|Jump"). Fails if the animation does not exist, and lists the animations of the file. `options` may
-/// override the frame rate, and helps to find the ground.
+/// animations of a glTF, or the animation named after '#'. The animation's name may omit the prefix that exporters
+/// write ("Jump" for "Armature|Jump"). If the animation does not exist, the error lists the animations of the file.
+/// `options` may override the frame rate, and helps to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
 /// Reads the only clip that a reference names. Fails if the reference names several clips, and lists them.
 Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& options);

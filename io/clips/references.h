@@ -24,8 +24,8 @@ Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place)
 
 /// The maximum number of clips that a reference may stand for.
 constexpr std::size_t kMaxClips = 1000;
-/// The same where clips are read one by one: 288 hours in clips of ten seconds. A limit is needed only against patterns
-/// that match a disk.
+/// The same maximum where clips are read one by one: 278 hours in clips of ten seconds. It only guards against patterns
+/// that match a whole disk.
 constexpr std::size_t kMaxLibraryClips = 100'000;
 
 /// Lists the clips that a reference stands for, in order; each can be opened on its own. A reference is a built-in clip

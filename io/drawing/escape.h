@@ -18,15 +18,15 @@ std::string EscapeScriptJson(std::string_view json);
 /// number.
 std::string EscapeMarkdown(std::string_view text);
 
-/// Makes text safe in LaTeX outside of mathematics, for pdflatex without packages. A character that its fonts do not
-/// have becomes its number, "[U+4E2D]", so that a table with a foreign name still compiles.
+/// Makes text safe in LaTeX outside of mathematics, for pdflatex without packages. A character outside pdflatex's fonts
+/// becomes its number, "[U+4E2D]". A table with a foreign name therefore still compiles.
 std::string EscapeLatex(std::string_view text);
 
 /// Returns the file name, without an extension, for scenario number `index` of a run. The name comes from a user's
 /// file, so only harmless characters reach a path; no two scenarios of a run share a file name.
 std::string FileNameOf(const std::string& scenario, std::size_t index);
 
-/// Returns the name of the file that holds the motion that a cell recovered.
+/// Returns the name of the file with a cell's recovered motion.
 std::string MotionFileOf(const std::string& cell);
 
 /// Writes a relative path as the target of a link: every character that is not plain becomes "%XX".

@@ -34,8 +34,9 @@ class FilmWorkers {
   /// Draws a frame, 0 … `frames` − 1, from its data; all canvases have one size with even sides.
   using Draw = std::function<Canvas(int frame, std::span<const std::uint8_t> fed)>;
 
-  /// Draws the first frame in this process, so that data which every frame needs are computed only once. Then starts
-  /// `jobs` processes (0 = one per processor). Other threads of this process must not hold a lock that `draw` needs.
+  /// Draws the first frame in this process, so that all processes get the data that the first frame computes. Then
+  /// starts `jobs` processes (0 = one per processor). Other threads of this process must not hold a lock that `draw`
+  /// needs.
   static Result<FilmWorkers> Start(int frames, int jobs, const Draw& draw, FrameFeed feed = {});
   FilmWorkers(FilmWorkers&&) noexcept = default;
   FilmWorkers& operator=(FilmWorkers&&) = delete;
@@ -51,7 +52,7 @@ class FilmWorkers {
     /// The socket carries single bytes. The drawing process sends a byte for "drawn"; this process sends a byte for
     /// "data is there", or without a feed for "a slot is free".
     std::optional<ForkedCopy> copy;
-    int fed = 0, taken = 0;  ///< frames of this process: how many have got their data, and how many were returned
+    int fed = 0, taken = 0;  ///< number of this process's frames that have their data; number that were returned
   };
   struct Unmap {
     std::size_t bytes;
@@ -75,7 +76,7 @@ class FilmWorkers {
 
   int frames_, width_, height_;
   FrameFeed feed_;
-  int chunk_, slots_;  ///< consecutive frames that one process draws; how many frames it may be ahead
+  int chunk_, slots_;  ///< frames per chunk; number of frames that a process may be ahead
   int next_ = 0, fed_ = 0;
   std::vector<Worker> workers_;
   std::unique_ptr<std::uint8_t, Unmap> memory_{nullptr, Unmap{0}};  ///< `slots_` slots for each process
@@ -106,7 +107,7 @@ struct Picture {
 
 /// A picture from a camera of the run, with its caption.
 struct Still {
-  std::string jpeg_base64;  ///< only letters of the base64 alphabet
+  std::string jpeg_base64;  ///< bytes of a JPEG in base64, so no character needs escaping
   std::string caption;
 };
 

@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr double kLogarithmicFrom = 100;
-constexpr double kAxisMargin = 0.04;  // a share of the range, so that no mark at an end is cut in half
+constexpr double kAxisMargin = 0.04;  // share of the range added at each end, so that no mark there is cut in half
 constexpr double kMaxTicks = 6;
 
 double RoundStep(double range) {

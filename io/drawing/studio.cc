@@ -140,7 +140,7 @@ void Studio::PaintFloor(const FloorMove& placement) {
   // Express the floor point in the figure's original frame by inverting the placement.
   const float cosine = static_cast<float>(std::cos(placement.yaw)), sine = static_cast<float>(std::sin(placement.yaw));
   const float move_x = static_cast<float>(placement.x), move_z = static_cast<float>(placement.z);
-  // A local copy: pixels that are written might alias it, and the loop would not vectorise.
+  // Copy the width: the member might alias the written pixels, and then the loop would not vectorise.
   const int width = floor_.seen.Width();
   for (int y = floor_.seen.top; y < floor_.seen.bottom; ++y) {
     const std::size_t first = static_cast<std::size_t>(y) * lit_.width + floor_.seen.left;

@@ -11,8 +11,8 @@ namespace etude {
 struct TableColumn {
   std::string head = {};
   bool is_number = false;    ///< true: cells are numbers, aligned to the right
-  bool is_row_head = false;  ///< its cells are the headings of their rows
-  bool is_detail = false;    ///< for experts: the page shows the column only on request
+  bool is_row_head = false;  ///< true: the column's cells are the headings of their rows
+  bool is_detail = false;    ///< true: the column is for experts, and the page shows it on request
   bool is_sortable = false;  ///< the page sorts its cells by their numbers
   std::string latex = {};    ///< the heading in LaTeX, if it differs from the text
   std::string over = {};     ///< a second heading above this one, shared with neighbouring columns
@@ -32,14 +32,14 @@ struct TableCell {
   TableCell(int value) : number(value) {}
 
   std::string text;              ///< plain text: each writer escapes it
-  std::optional<double> number;  ///< written to CSV instead of the text; the page sorts by it
-  std::string html;              ///< shown on the page instead of the text, unless ""
+  std::optional<double> number;  ///< the number that CSV holds instead of the text, and by which the page sorts
+  std::string html;              ///< markup that the page shows instead of the text, unless ""
   std::string_view latex_sign;   ///< LaTeX code that follows the text
-  bool is_strong = false;        ///< bold in Markdown
+  bool is_strong = false;        ///< true: the cell is bold in Markdown
 };
 
 struct TableRow {
-  std::vector<TableCell> cells = {};  ///< as many as the table has columns; none in a row that begins a group
+  std::vector<TableCell> cells = {};  ///< one cell per column; none in a row that begins a group
   /// The heading of the rows that follow, across all columns; "" in every other row.
   std::string group = {};
   /// An HTML comment that the page holds instead of the row; other writers leave it out.
@@ -51,8 +51,8 @@ struct TableRow {
 struct Table {
   /// The table's name for screen readers, if the page may scroll the table sideways; "" = the table does not scroll.
   std::string label = {};
-  std::string style = {};    ///< its CSS class on the page
-  std::string caption = {};  ///< "" = no caption
+  std::string style = {};    ///< CSS class of the table on the page
+  std::string caption = {};  ///< caption above the table; "" = none
   std::vector<TableColumn> columns = {};
   std::vector<TableRow> rows = {};
 };

@@ -11,7 +11,7 @@ struct ToolPage {
   std::string title;
   std::string verdict;  ///< the result in one or two sentences
   std::string version;
-  std::string command;          ///< "" = not shown
+  std::string command;          ///< the command as typed; "" = not shown
   std::string_view script = {};  ///< runs when the page is open; "" = the page allows no scripts
 };
 

@@ -66,7 +66,7 @@ tl::unexpected<Error> WhyNot(const Walk& walk, const FilePath& path, bool makes)
 }
 
 Result<void> MakeGiven(const fs::path& folder) {
-  if (folder.empty()) return {};  // a file in the working folder
+  if (folder.empty()) return {};  // the path names a file in the working folder
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return CannotWrite(folder.string(), "cannot make this folder", error.value());

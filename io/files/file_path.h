@@ -57,7 +57,7 @@ class FileSpot {
   const std::string& name() const { return name_; }
 
  private:
-  Descriptor folder_;  ///< none = the working folder
+  Descriptor folder_;  ///< the open folder; none = the working folder
   std::string name_;
 };
 

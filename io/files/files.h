@@ -12,11 +12,11 @@
 
 namespace etude {
 
-/// The time at which a finished file and its name are synchronised to disk (fsync). Only then do they survive a power
-/// cut.
+/// The time at which a finished file and its name are synchronised to disk (fsync). They survive a power cut only after
+/// that.
 enum class OnDisk {
-  kAtOnce,  ///< before the call returns
-  kLater,   ///< when the caller calls SyncTree on the folder, or never for temporary files
+  kAtOnce,  ///< synchronised before the call returns
+  kLater,   ///< synchronised by the caller with SyncTree, or never for temporary files
 };
 
 /// Writes a file completely or not at all: first under a temporary name beside `path`, which is then renamed. The
@@ -49,8 +49,8 @@ class PartialFile {
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
   /// Returns the error "cannot write this file" with the reason in errno.
   tl::unexpected<Error> Failure() const;
-  /// Tries to append to the file; fails with the system's reason. So a caller learns why another program (an encoder)
-  /// could not write the file: a full disk, for instance.
+  /// Tries to append to the file; fails with the system's reason. The error tells a caller why another program (an
+  /// encoder) could not write the file: the disk is full, for instance.
   Result<void> CheckRoom() const;
 
  private:
@@ -117,11 +117,11 @@ Result<void> ForEachLine(const FilePath& path,
 /// Synchronises a file's contents to disk (fsync). Fails with the file's name.
 Result<void> SyncFile(const std::filesystem::path& path);
 
-/// Synchronises the entries of one folder: only then does the name of a new file survive a power cut.
+/// Synchronises the entries of one folder. The name of a new file survives a power cut only after that.
 Result<void> SyncFolder(const std::filesystem::path& folder);
 
-/// Synchronises the entries of all folders above a folder, as far as they can be opened. Only then does the folder
-/// itself survive a power cut.
+/// Synchronises the entries of all folders above a folder, as far as they can be opened. The folder itself survives a
+/// power cut only after that.
 Result<void> SyncPathTo(const std::filesystem::path& folder);
 
 /// Synchronises a folder and every file and folder below it.

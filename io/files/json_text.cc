@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-constexpr int kNumberOverflow = 406;  // nlohmann's error id
+constexpr int kNumberOverflow = 406;  // nlohmann's id of this error
 
 class Builder : public nlohmann::json_sax<Json> {
  public:

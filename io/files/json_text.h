@@ -10,7 +10,7 @@
 namespace etude {
 
 struct JsonFault {
-  std::size_t byte = 0;          ///< where the parser stopped, counted from 1
+  std::size_t byte = 0;          ///< position at which the parser stopped, counted from 1
   bool is_large_number = false;  ///< the text is JSON, but contains a number beyond the range of a double
 };
 

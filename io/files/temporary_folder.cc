@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kPrefix = "etude-temporary-";  // unlikely for a folder of results
+constexpr const char* kPrefix = "etude-temporary-";  // a prefix that is unlikely for a folder of results
 constexpr const char* kKeptPrefix = "etude-kept-";
-constexpr std::size_t kSuffixLength = 7;  // "-XXXXXX", replaced by mkdtemp
+constexpr std::size_t kSuffixLength = 7;  // length of "-XXXXXX", which mkdtemp replaces
 
 /// Opens and locks a folder; returns −1 if another process has the lock or the folder belongs to another user.
 int Lock(const fs::path& folder) {

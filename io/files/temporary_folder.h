@@ -19,7 +19,7 @@ class TemporaryFolder {
   static Result<TemporaryFolder> MakeIn(const std::filesystem::path& parent, const std::string& purpose);
   /// Makes a temporary folder that stays if the process is killed; FindKept finds it by `kept`, a part of its name.
   static Result<TemporaryFolder> MakeKept(const std::filesystem::path& parent, const std::string& kept);
-  /// Takes over all folders that MakeKept made with the name `kept` and whose processes have been killed.
+  /// Takes over all folders of killed processes that MakeKept made with the name `kept`.
   static std::vector<TemporaryFolder> FindKept(const std::filesystem::path& parent, const std::string& kept);
   /// Deletes the folders in `parent` (default: the system's temporary folder) whose processes have been killed. Make
   /// and MakeIn do this too.

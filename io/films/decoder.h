@@ -45,9 +45,9 @@ class Decoder {
 
   std::filesystem::path path_;
   FilmFacts facts_;
-  pid_t child_;  ///< −1 after the process has ended
-  File frames_;  ///< ffmpeg's output
-  File log_;     ///< ffmpeg's standard error
+  pid_t child_;  ///< process ID of ffmpeg; −1 after the process has ended
+  File frames_;  ///< the pipe with ffmpeg's output
+  File log_;     ///< a file with ffmpeg's standard error
 };
 
 }  // namespace etude

@@ -39,8 +39,8 @@ std::vector<std::string> Arguments(const std::string& program, int width, int he
     add({"-x264-params", "cpu-independent=1", "-pix_fmt", "yuv420p"});
   }
   add({"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
-  // ffmpeg writes to its standard output, which is the open file, and not to a path, because somebody may have put a
-  // link at that path. It opens the file again through /proc, because MP4 needs an output that can seek.
+  // ffmpeg writes to its standard output, the open file. A path is not used, because somebody may have put a link
+  // there. ffmpeg opens the file again through /proc, because MP4 needs an output that can seek.
   add({"-map_metadata", "-1", "-f", is_exact ? "matroska" : "mp4", "/proc/self/fd/1"});
   return all;
 }
@@ -53,7 +53,8 @@ Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int 
   ASSIGN_OR_RETURN(auto film, PartialFile::Claim(path));
   Log log(std::tmpfile(), std::fclose);
   if (!log) return FailOfMachine("no temporary file can be made: {}", std::strerror(errno));
-  // A socket instead of a pipe: writing to a closed socket returns an error, writing to a closed pipe raises a signal.
+  // Use a socket and not a pipe: writing to a closed socket returns an error, but writing to a closed pipe raises a
+  // signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
     return FailOfMachine("no connection to {}: {}", program, std::strerror(errno));

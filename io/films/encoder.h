@@ -49,9 +49,9 @@ class Encoder {
   int CloseAndWait();
 
   PartialFile film_;
-  pid_t child_;   ///< −1 after the process has ended
+  pid_t child_;   ///< process ID of ffmpeg; −1 after it has ended
   int pictures_;  ///< the socket that ffmpeg reads; −1 after it is closed
-  Log log_;       ///< ffmpeg's standard error
+  Log log_;       ///< a file with ffmpeg's standard error
 };
 
 }  // namespace etude

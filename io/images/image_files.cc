@@ -21,7 +21,7 @@ namespace {
 constexpr std::uintmax_t kMaxPictureFileBytes = std::uintmax_t{1} << 28;
 // The maximum side of pictures that no camera took; GL and JPEG have the same limit.
 constexpr std::uint32_t kMaxSide = 16'384;
-constexpr int kRunLengthOnly = 3;  // zlib's Z_RLE
+constexpr int kRunLengthOnly = 3;  // the value of zlib's Z_RLE
 
 // --- PNG
 

@@ -20,7 +20,8 @@ std::string EncodePng(const ColourImage& image, double pixels_per_metre = 0);
 /// Returns a mask as the bytes of a grey PNG: 0 becomes black, any other value white.
 std::string EncodePng(const Mask& mask);
 
-/// Returns the bytes of a binary PPM file (P6), which every picture library reads and which needs no compression time.
+/// Returns the bytes of a binary PPM file (P6). Every picture library reads this format, and it needs no compression
+/// time.
 std::string EncodePpm(const ColourImage& image);
 
 /// Reads any PNG as 8-bit RGB; transparent pixels are blended with black.

@@ -256,7 +256,7 @@ std::optional<double> TimeOf(const Json& frame) {
   return std::nullopt;
 }
 
-/// Places frames at their times; only the ratios of times matter. Does nothing if the times do not ascend.
+/// Places frames by their times; only the ratios of times matter. Does nothing if the times do not ascend.
 void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {
@@ -264,7 +264,7 @@ void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
     if (!(steps.back() > 0)) return;
   }
   if (steps.empty()) return;
-  // Scale the times so that the median step between frames is that of 30 Hz.
+  // Scale the times so that the median step between frames is 1/30 s.
   const double usual = UpperMedian(std::move(steps)) * kJudgedRateHz;
   std::vector<double> scaled;
   for (const double time : times) scaled.push_back((time - times.front()) / usual);
@@ -358,7 +358,8 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
 
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film) {
   if (names.size() < 2 || names.size() != film.frames.size() || of.frames == names.size()) return;
-  // Read the number at the end of each name: the text before it must be the same in all, and the numbers must ascend.
+  // Read the number at the end of each name. The text before it must be the same in all names, and the numbers must
+  // ascend.
   const auto text_of = [](std::string name) {
     if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0) name.resize(dot);
     const std::size_t end = name.find_last_of("0123456789");
@@ -384,7 +385,7 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
     if ((number - first) % usual != 0) return;
     indices.push_back(static_cast<std::size_t>((number - first) / usual));
   }
-  if (indices.back() + 1 == names.size()) return;  // only the end is missing: the film is longer, or was cut
+  if (indices.back() + 1 == names.size()) return;  // frames are missing only at the end: the film is longer, or was cut
   const std::size_t count = std::max(of.frames, indices.back() + 1);
   if (indices.back() >= kMaxSpread * indices.size() + of.frames) return;
   MoveFrames(indices, count, film);

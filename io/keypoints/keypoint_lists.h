@@ -19,8 +19,9 @@ std::vector<std::string> TextsOf(const Json* list);
 /// Reads a list of triples x, y, confidence. A point with a null was not seen.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place);
 
-/// Makes a person from an estimator's keypoints. `layout` gives their order; if it is "", the only layout with that
-/// number of keypoints does; if no layout has that number, `names` do. Fails if none of these applies.
+/// Makes a person from an estimator's keypoints. `layout` gives their order. If it is "", the order is that of the only
+/// layout with this number of keypoints, or, if no layout has this number, that of `names`. Fails if none of these
+/// applies.
 Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout,
                             const std::vector<std::string>& names, const Place& place);
 
@@ -38,10 +39,10 @@ bool IsKeypointList(const Json& json);
 ///   `keypoints`;
 /// - MMPose's `instance_info`: objects with `frame_id` and `instances`, names in `meta_info`;
 /// - frames in order, as users of MediaPipe save them: objects with `pose_landmarks`, `landmarks`, `keypoints`,
-///   `people` or `instances`, or bare lists of people or of points; null means no people.
-/// Frame numbers count from 1 if none is 0, and the film's number of frames is unknown or equals the last number; else
-/// from 0. If frames have no numbers but all have a time (`timestamp`, `timestamp_ms`, `time`, …), and the film has
-/// another number of frames, the times place them; only ratios of times matter. `told` says if frames are missing.
+///   `people` or `instances`, or bare lists of people or of points; null means no people. Frame numbers count from 1 if
+/// no number is 0 and the film's number of frames is unknown or equals the last number; otherwise they count from 0. If
+/// frames have no numbers but all have a time (`timestamp`, `timestamp_ms`, `time`, …), and the film has another number
+/// of frames, the times place them; only ratios of times matter. `told` says if frames are missing.
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place);
 

@@ -63,8 +63,8 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   return files;
 }
 
-/// Replaces bare NaN by null. Python writes NaN for missing numbers, which estimators use for points that they did not
-/// see, but JSON does not allow it.
+/// Replaces bare NaN by null, because JSON does not allow NaN. Python writes NaN for missing numbers, such as points
+/// that an estimator did not see.
 std::string WithNullForNan(std::string text) {
   constexpr std::string_view kNan = "NaN";
   bool in_string = false;
@@ -89,7 +89,7 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   std::vector<SeenPerson> frame;
-  if (json.is_array()) {  // MMPose: a list of people
+  if (json.is_array()) {  // MMPose writes a list of people
     ASSIGN_OR_RETURN(auto people, PeopleOfList(json, layout, {}, place));
     std::ranges::copy_if(people, std::back_inserter(frame), IsAnySeen);
     return frame;
@@ -100,7 +100,7 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   if (people->size() > kMaxPeople) return Fail(place, "{} people; allowed: {}", people->size(), kMaxPeople);
   for (const Json& person : *people) {
     const Json* list = Member(person, "pose_keypoints_2d");
-    if (list == nullptr) list = Member(person, "pose_keypoints");  // OpenPose 1.0
+    if (list == nullptr) list = Member(person, "pose_keypoints");  // OpenPose 1.0 uses this name
     ASSIGN_OR_RETURN(const auto points, Triples(list, place));
     if (points.empty()) continue;
     ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(points, layout, {}, place));
@@ -109,12 +109,12 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   return frame;
 }
 
-/// Counts the people of a file whose ninth of 25 keypoints lies midway between the tenth and the thirteenth, and all
-/// others. In `body_25` these three are the mid-hip and the hips; in `body_25b` the right elbow, the left wrist and the
-/// right hip.
+/// Counts the people of a file with 25 keypoints: in `between` if the ninth keypoint lies midway between the tenth and
+/// the thirteenth, otherwise in `elsewhere`. In `body_25` these three are the mid-hip and the hips; in `body_25b` the
+/// right elbow, the left wrist and the right hip.
 void CountMidHips(const Json& json, const Place& place, int& between, int& elsewhere) {
   constexpr std::size_t kCount = 25, kMidHip = 8, kRightHip = 9, kLeftHip = 12;
-  constexpr double kMaxShare = 0.03;  // share of the person's height
+  constexpr double kMaxShare = 0.03;  // tolerance as a share of the person's height
   const Json* people = json.is_object() ? Member(json, "people") : nullptr;
   if (people == nullptr || !people->is_array()) return;
   for (const Json& person : *people) {

@@ -28,9 +28,9 @@ struct FilmOfKeypoints {
 /// v is 2 for a visible and 1 for a hidden keypoint (confidence 1 and 0.5), or a score within 0…1. If all keypoints lie
 /// within 0…1 (with a tolerance of 0.1) and the film is known to be larger, they are shares of its width and height,
 /// and `told` says so. The number of keypoints, or the names in the file, give their order. 25 keypoints of a folder
-/// are taken as `body_25` if the mid-hip lies between the hips, and `told` says so. Fails if there are no frames, if
-/// numbers are not finite, and, with an empty `layout`, if no layout, or more than one, has that many keypoints. The
-/// error says file, what was found, what is allowed.
+/// are taken as `body_25` if the mid-hip lies between the hips, and `told` says so. Fails if there are no frames or if
+/// numbers are not finite. With an empty `layout`, also fails if no layout, or more than one, has that number of
+/// keypoints. The error states the file, what was found, and what is allowed.
 /// @param layout a name of KeypointLayouts(), or "" to choose it by the number of keypoints
 /// @param film gives the number of frames if a file lists only frames with people
 Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std::string& layout,
@@ -40,8 +40,8 @@ Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std:
 /// person each. Fails if their sizes differ.
 Result<PeopleOfFilm> ReadMarkedPictures(const std::filesystem::path& folder);
 
-/// Finds the one entry of a folder that belongs to a film: its name is the film's, or begins with it and continues with
-/// a character that is neither letter nor digit ("cam01", "cam01_json", "cam01.json"). Fails if there is none or more
+/// Finds the one entry of a folder that belongs to a film: its name is the film's name, alone or followed by a
+/// character that is neither letter nor digit ("cam01", "cam01_json", "cam01.json"). Fails if there is none or more
 /// than one.
 Result<std::filesystem::path> EntryOfFilm(const std::filesystem::path& folder, const std::string& film);
 

@@ -34,7 +34,7 @@ bool IsProgram(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
 }
 
-constexpr int kChunksPerReceive = 16;  // parts of 64 KiB; the limit ends Receive even if the child writes endlessly
+constexpr int kChunksPerReceive = 16;  // of at most 64 KiB; the limit ends Receive even if a child writes endlessly
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
@@ -88,8 +88,8 @@ struct ExecPlan {
   std::vector<std::pair<const char*, std::string>> user_limits;
 };
 
-/// Forks into new user, PID and mount namespaces, where the child has the privileges that bubblewrap needs, and into a
-/// control group (−1 = none).
+/// Forks into new user, PID and mount namespaces, and into a control group (−1 = none). In its namespaces, the child
+/// has the privileges that bubblewrap needs.
 pid_t ForkContained(int control_group) {
   clone_args how{};
   how.flags = CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNS;
@@ -139,8 +139,8 @@ bool SetUpNamespaces(const ExecPlan& child) {
   ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   for (std::size_t i = 0; i < child.texts.size(); ++i) {
     const int wanted = STDERR_FILENO + 1 + static_cast<int>(i);
-    // The texts were opened after three pipes, so each has a higher number than its target, and no target overwrites a
-    // text that is still to be copied.
+    // The texts were opened after three pipes, so each text has a higher descriptor than its target, and no target
+    // overwrites a text that is still to be copied.
     if (::dup2(child.texts[i].number(), wanted) < 0 || ::lseek(wanted, 0, SEEK_SET) != 0) GiveUp(child, errno);
   }
   ::execve(child.path, child.argv, child.envp);
@@ -342,7 +342,7 @@ std::size_t ChildProcess::UnreadBytes() const {
 }
 
 bool ChildProcess::Receive(std::size_t max_line_bytes) {
-  SendOn();  // also if the child has closed its input: its output may still hold lines
+  SendOn();  // even if the child has closed its input, its output may hold lines
   buffer_.erase(0, line_start_);
   scanned_ -= line_start_;
   line_start_ = 0;
@@ -386,12 +386,12 @@ bool ChildProcess::HasEnded() const {
 
 std::string ChildProcess::Finish(int patience_ms) {
   if (pid_ < 0) return "not running";
-  HeldTree tree(pid_);  // kill the tree before the child ends, while the child's descendants can still be found
+  HeldTree tree(pid_);  // kill the tree before the child ends: later, its descendants cannot be found
   ::close(input_);
   for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
   ::close(output_);
   tree.Kill();
-  ::kill(-pid_, SIGKILL);  // kill the group before the child is reaped; afterwards, the group's ID may be reused
+  ::kill(-pid_, SIGKILL);  // kill the group before the child is reaped: later, another group may have its ID
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }

@@ -19,18 +19,18 @@ namespace etude {
 struct ProgramLimits {
   static constexpr std::uint64_t kFileBytes = std::uint64_t{256} << 20;  ///< per file; in a fence, per scratch folder
   /// The maximum number of open descriptors per process. The kernel applies the same limit to the user's descriptors in
-  /// flight between processes (SCM_RIGHTS). At most 512 pipes are thus in flight and 256 open, so some of the user's
-  /// 1024 pipes of full size remain for other programs.
+  /// flight between processes (SCM_RIGHTS). A program can thus hold 512 pipes in flight and 256 open ones, which leaves
+  /// other programs some of the user's 1024 pipes of full size.
   static constexpr std::uint64_t kOpenFiles = 512;
-  static constexpr std::uint64_t kPendingSignals = 1024;  ///< POSIX timers count, too
-  static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< locked by mlock
+  static constexpr std::uint64_t kPendingSignals = 1024;  ///< signals and POSIX timers
+  static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< memory locked by mlock
   static constexpr int kInotifyWatches = 4096;
 
   // The limits below are for all processes of the program together; they are sampled 50 times a second.
   static constexpr std::size_t kProcesses = 256;
   static constexpr std::size_t kThreads = 4096;
   static constexpr std::size_t kDescriptors = 4096;
-  static constexpr std::size_t kSockets = 1024;  ///< counted only in a fence
+  static constexpr std::size_t kSockets = 1024;  ///< sockets, which are counted only in a fence
   static constexpr std::size_t kFileLocks = 16384;
 
   // Kernel limits per user are divided among `programs`, the programs that run at the same time: half of the 128
@@ -42,8 +42,8 @@ struct ProgramLimits {
   }
 };
 
-/// Finds a program in the way of a shell: a name with '/' is a path, any other name is looked up in PATH. Fails if
-/// there is no such program.
+/// Finds a program as a shell does: a name with '/' is a path, any other name is looked up in PATH. Fails if there is
+/// no such program.
 Result<std::string> FindProgram(const std::string& name);
 
 struct ChildOptions {
@@ -108,7 +108,7 @@ class ChildProcess {
   int broken_by() const { return broken_by_; }
   /// Closes the child's input, waits up to `patience_ms` for the child to end, then kills it and all its descendants.
   /// Returns how it ended: "exit code 2", "signal 11 (Segmentation fault)". Exit code 128 + n is reported as signal n,
-  /// because that is how shells and bubblewrap report it.
+  /// because shells and bubblewrap report a signal in this way.
   std::string Finish(int patience_ms = 50);
   /// Returns the exit code after Finish; 128 + n if signal n ended it; −1 before Finish.
   int exit_code() const { return exit_code_; }
@@ -125,9 +125,9 @@ class ChildProcess {
   int exit_code_ = -1;
   std::string unsent_;
   std::size_t sent_ = 0;        ///< bytes of `unsent_` already written
-  std::string buffer_;          ///< received output
+  std::string buffer_;          ///< output received so far
   std::size_t line_start_ = 0;  ///< start of the next line in `buffer_`
-  std::size_t scanned_ = 0;     ///< from line_start_ up to here there is no line end
+  std::size_t scanned_ = 0;     ///< end of the part, from line_start_ on, that has no line end
 };
 
 }  // namespace etude

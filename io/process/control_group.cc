@@ -59,7 +59,7 @@ bool MakePlaceOf(const fs::path& own) {
   return false;
 }
 
-/// Removes the groups whose makers have ended. The kernel refuses to remove groups that still contain processes.
+/// Removes the groups of processes that have ended. The kernel refuses to remove groups that still contain processes.
 void RemoveLeftGroups(const fs::path& place) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {
@@ -106,7 +106,7 @@ double HeldMbIn(const std::string& memory_stat, const std::string& swapped) {
       NumberOf(stat, "anon") + NumberOf(stat, "shmem") + NumberOf(stat, "sock") + std::strtod(swapped.c_str(), nullptr);
   if (const double kernel = NumberOf(stat, "kernel"); kernel > 0) {
     bytes += kernel - NumberOf(stat, "slab_reclaimable");
-  } else {  // Linux before 5.18 states only the parts
+  } else {  // Linux before 5.18 states only the parts of the kernel's memory
     for (const char* part : {"kernel_stack", "pagetables", "percpu", "slab_unreclaimable"})
       bytes += NumberOf(stat, part);
   }

@@ -255,7 +255,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
                             const fs::path& start) const {
   if (!IsUp()) return {command};
   FencedCommand fenced{{program_, "--args", "3", "--", "/bin/sh", "-c", kFirstProcess, "sh"}, {""}, Environment(shown)};
-  const auto pass_text = [&](std::string text) {  // returns the number of its descriptor
+  const auto pass_text = [&](std::string text) {  // returns the descriptor of the text
     fenced.inherited_texts.push_back(std::move(text));
     return std::to_string(fenced.inherited_texts.size() + 2);
   };
@@ -286,7 +286,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const std::string target = is_link ? fs::read_symlink(setting, error).string() : setting.string();
     Add(words, {is_link ? "--symlink" : "--ro-bind-try", target, setting.string()});
   }
-  // Add a list of users and a list of groups. Each contains only the present one, under the name "user".
+  // Add a list of users and a list of groups. Each list contains only the present user or group, under the name "user".
   Add(words, {"--file", pass_text(fmt::format("user:x:{}:{}::{}:/bin/sh\n", ::geteuid(), ::getegid(), kScratch[0]))});
   Add(words, {"/etc/passwd", "--file", pass_text(fmt::format("user:x:{}:\n", ::getegid())), "/etc/group"});
   // Collect shown and hidden paths, sorted, so that a folder comes before its contents. Only visible paths are hidden,

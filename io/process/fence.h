@@ -14,13 +14,13 @@ namespace etude {
 /// can read its command line, which must not contain the names of our folders.
 struct FencedCommand {
   std::vector<std::string> words;                 ///< a path and arguments
-  std::vector<std::string> inherited_texts = {};  ///< for ChildOptions::inherited_texts
-  std::vector<std::string> environment = {};      ///< for ChildOptions::environment, of bubblewrap and of the program
+  std::vector<std::string> inherited_texts = {};  ///< texts for ChildOptions::inherited_texts
+  std::vector<std::string> environment = {};      ///< for ChildOptions::environment: set for bubblewrap and the program
 };
 
 /// The memory of temporary files in scratch folders (tmpfs).
 struct ScratchUse {
-  double mb = 0;  ///< size of their contents
+  double mb = 0;  ///< size of the files' contents
   /// Estimated kernel memory of the files' names (which control groups count as reclaimable) and of their inodes.
   double names_mb = 0, inodes_mb = 0;
 
@@ -65,7 +65,7 @@ class Fence {
   void Hide(const std::filesystem::path& path) { hidden_.push_back(path); }
   const std::vector<std::filesystem::path>& hidden() const { return hidden_; }
   /// Returns the system's paths that are hidden unless shown explicitly: sockets, named pipes, and, if this process is
-  /// root, what only root can read.
+  /// root, files that only root can read.
   const std::vector<std::filesystem::path>& kept() const { return kept_; }
 
   ScratchUse MeasureScratch(pid_t inside) const;

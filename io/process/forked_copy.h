@@ -40,7 +40,7 @@ class ForkedCopy {
   ForkedCopy(pid_t pid, int socket) : pid_(pid), socket_(socket) {}
   void CloseSocket();
 
-  pid_t pid_ = -1;  ///< −1 after the copy has been reaped
+  pid_t pid_ = -1;  ///< process ID of the copy; −1 after it has been reaped
   int socket_ = -1;
   int status_ = 0;
 };

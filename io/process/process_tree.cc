@@ -51,7 +51,7 @@ double OwnCpuSeconds(pid_t process) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-constexpr int kMaxPasses = 100;  // passes over a tree that grows meanwhile
+constexpr int kMaxPasses = 100;  // maximum number of passes over a tree that grows meanwhile
 
 bool Signal(const Descriptor& process, int signal) {
   return ::syscall(SYS_pidfd_send_signal, process.number(), signal, nullptr, 0) == 0;
@@ -116,8 +116,8 @@ HeldTree::HeldTree(pid_t root) {
 }
 
 void HeldTree::Kill() {
-  // A stopped process starts no other process, but it may have forked just before. So stop and list until two passes
-  // find nothing new.
+  // A stopped process starts no other process, but it may have forked just before. So repeat stopping and listing until
+  // two passes find nothing new.
   for (int i = 0, quiet = 0; i < kMaxPasses && quiet < 2; ++i) {
     SignalAll(SIGSTOP);
     quiet = Grow() ? 0 : quiet + 1;

@@ -15,7 +15,7 @@ struct ProcessUsage {
   double resident_mb = 0;     ///< shared pages count in full
   double cpu_s = 0;           ///< includes ended child processes that the process has waited for
   std::uint64_t faults = 0;   ///< minor page faults: pages touched for the first time, or copied on write
-  std::size_t processes = 0;  ///< 1; 0 if the process no longer exists
+  std::size_t processes = 0;  ///< number of processes: 1, or 0 if the process no longer exists
   double own_cpu_s = 0;       ///< processor time without that of child processes
 };
 
@@ -35,20 +35,21 @@ ProcessUsage MeasureProcess(pid_t process);
 /// Gives all threads of a process, and all that they start from now on, the lowest priority.
 void LowerPriority(pid_t process);
 
-/// A process and its descendants, held by pidfds, so that Kill cannot hit a process that has reused one of their IDs.
+/// A process and its descendants, held by pidfds. If another process gets the ID of one that has ended, Kill does not
+/// hit it.
 class HeldTree {
  public:
   explicit HeldTree(pid_t root);
 
-  /// Kills all processes of the tree, and all descendants started since.
+  /// Kills all processes of the tree, and all descendants that were started meanwhile.
   void Kill();
 
  private:
   struct Process {
     pid_t number;
-    Descriptor handle;  ///< a pidfd
+    Descriptor handle;  ///< a pidfd of the process
   };
-  /// Adds descendants started since; returns true if there were any.
+  /// Adds descendants that were started since the last call; returns true if there were any.
   bool Grow();
   void AddTree(pid_t root);
   void SignalAll(int signal) const;

@@ -32,7 +32,7 @@ constexpr double kMb = 1 << 20;
 // Kernel memory per thread, mapping and lock, measured on Linux 6.18 (docs/outside-methods.md).
 constexpr double kThreadMb = 25e3 / kMb, kMappingMb = 250 / kMb, kLockMb = 250 / kMb;
 
-constexpr std::size_t kMaxUncheckedDescriptors = 256;  // above this, pipes are counted
+constexpr std::size_t kMaxUncheckedDescriptors = 256;  // number of descriptors above which pipes are counted
 constexpr std::size_t kMaxFreeSockets = 64;            // sockets above this number count as full
 constexpr std::size_t kMaxLockBytes = 4 << 20;
 constexpr std::size_t kEnoughLocks = 17'000;  // more than a program may have (ProgramLimits::kFileLocks)
@@ -119,13 +119,14 @@ std::size_t CountLocks(const std::vector<pid_t>& processes) {
   const int file = ::open("/proc/locks", O_RDONLY | O_CLOEXEC);
   if (file < 0) return 0;
   std::size_t count = 0, read = 0;
-  std::string text;  // read, but not yet counted
+  std::string text;  // text that was read but not yet counted
   std::array<char, 4096> chunk;
   for (ssize_t size; count < kEnoughLocks && read < kMaxLockBytes;) {
     if ((size = ::read(file, chunk.data(), chunk.size())) <= 0) break;
     read += static_cast<std::size_t>(size);
     text.append(chunk.data(), static_cast<std::size_t>(size));
-    // "1: POSIX  ADVISORY  WRITE 1234 fe:00:5678 0 EOF"; a waiting lock begins with "1: ->"
+    // A line looks like "1: POSIX  ADVISORY  WRITE 1234 fe:00:5678 0 EOF"; the line of a waiting lock begins with "1:
+    // ->".
     std::size_t at = 0;
     for (std::size_t end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
       const std::string line = text.substr(at, end - at);
@@ -311,14 +312,14 @@ void TreeMeter::SampleMappings() {
     constexpr std::string_view kName = "/dev/zero (deleted)\n";  // the kernel's name of anonymous shared memory
     for (std::size_t at = 0; (at = maps.find(kName, at)) != std::string::npos; at += kName.size()) {
       unsigned long begin = 0, end = 0, offset = 0, inode = 0;
-      const char* line = maps.c_str() + maps.rfind('\n', at) + 1;  // npos + 1 = 0
+      const char* line = maps.c_str() + maps.rfind('\n', at) + 1;  // at the first line, npos + 1 = 0
       if (std::sscanf(line, "%lx-%lx %*2c%*c%*1[s] %lx %*s %lu", &begin, &end, &offset, &inode) != 4) continue;
       AddPart(shared_[inode].parts, offset, offset + (end - begin));
       shared_[inode].samples_unseen = 0;
     }
     if (kMappingMb * static_cast<double>(mappings_) > limit_mb_) break;
   }
-  // Forget a mapping only after several samples: a process that started during this one may still map it.
+  // Forget a mapping only after several samples: a process that started during this sample may still map it.
   std::erase_if(shared_, [](const auto& one) { return one.second.samples_unseen > kMaxSamplesUnseen; });
 
   // Pages that were mapped and unmapped since the last sample may belong to any of the new mappings.

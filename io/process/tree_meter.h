@@ -18,7 +18,7 @@ struct TreeLoad {
   double cpu_s = 0;  ///< includes ended processes that they have waited for
   std::size_t processes = 0, threads = 0;
   std::size_t descriptors = 0;  ///< open files of all processes
-  std::size_t pipes = 0;        ///< counted only if there are more than 256 descriptors
+  std::size_t pipes = 0;        ///< pipes, which are counted only if there are more than 256 descriptors
   /// Sockets in the tree's network namespace, and sockets in transit over other sockets; 0 without a namespace.
   std::size_t sockets = 0;
   std::size_t file_locks = 0;
@@ -30,15 +30,15 @@ struct ElapsedTime {
   double wall_s = 0;
 };
 
-/// Returns true if a tree of processes starves the process that measures it: an expensive measurement has spent most of
-/// its time waiting, while the tree used more than half of all cores.
+/// Returns true if a tree of processes starves the process that measures it: a long measurement has spent most of its
+/// time waiting, while the tree used more than half of all cores.
 bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores);
 
 /// Measures the resources of a tree of processes by repeated sampling, for machines without control groups: it counts
 /// each page once, however many processes share it, and adds the kernel's memory for the processes.
 ///
 /// A sample reads two small files per process, about 30 µs. They give an upper bound on memory, which usually suffices.
-/// Expensive files are read only if the bound is near the limit, or less often. A tree that starves us gets the lowest
+/// Expensive files are read less often, or only if the bound is near the limit. A tree that starves us gets the lowest
 /// priority for good.
 class TreeMeter {
  public:
@@ -98,7 +98,7 @@ class TreeMeter {
   std::vector<double> bounds_mb_;  ///< the private memory of each process, shared pages included
   TreeLoad load_;
   double page_tables_mb_ = 0, tcp_mb_ = 0;
-  /// The memory of shared pages of the process that maps the most, MB: now, and the minimum and maximum since
+  /// The shared pages of the process that maps the most of them, MB: now, and the minimum and maximum since
   /// SampleMappings.
   double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
   std::size_t mappings_ = 0;                      ///< number of mappings that were read

@@ -11,7 +11,7 @@ namespace etude {
 
 /// The distance between the capture of some cameras and a reference, over all its markers or joints and all frames.
 struct RealDistance {
-  std::string cameras;                                ///< "all", or numbers of cameras such as "1+4"
+  std::string cameras;                                ///< the cameras used: "all", or numbers such as "1+4"
   std::optional<double> median_mm = {}, p95_mm = {};  ///< millimetres; absent if these cameras gave no motion
 
   bool operator==(const RealDistance&) const = default;

@@ -52,8 +52,8 @@ struct Numbers {
   }
 };
 
-/// Returns the positions or axes of the roots of `count` poses: `given` may hold one for all poses or one for each;
-/// without it, the world's origin and axes are used.
+/// Returns the positions or axes of the roots of `count` poses. `given` holds one for all poses or one for each pose;
+/// without `given`, the roots have the world's origin and axes.
 Numbers RootsOf(const char* name, const std::optional<Array>& given, std::vector<py::ssize_t> shape, py::ssize_t count,
                 const double* world) {
   if (!given) return {world};

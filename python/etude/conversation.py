@@ -60,7 +60,7 @@ def method(task, seat="", *, name=None, version="1", options=None, time_s=None, 
 
 
 class MetricSpec(Spec):
-    """The arguments of @metric. facts: the keys of its entry in a scenario beside those of a program."""
+    """The arguments of @metric. facts: the keys of its entry in a scenario, besides those of a program's entry."""
 
     def __init__(self, name, version, options, time_s, files, facts):
         super().__init__("metric", "", name, version, options, time_s, files, False)

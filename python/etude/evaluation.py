@@ -78,8 +78,8 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
 
 
 def _free_folder(overwrite):
-    """Returns the first of out/evaluate-1, … that holds neither a run nor arrays, which a call that failed leaves; with
-    overwrite, the first."""
+    """Returns the first of out/evaluate-1, … that holds no run and no arrays of a call that failed; with overwrite, the
+    first."""
     for number in itertools.count(1):
         folder = pathlib.Path(f"out/evaluate-{number}")
         if overwrite or not (folder.exists() or pathlib.Path(f"{folder}.motions").exists()):

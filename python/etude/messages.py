@@ -56,7 +56,7 @@ class Cell(Message):
         raise KeyError(f"no track '{name}'; there are {', '.join(track.name for track in self.tracks)}")
 
     def motion(self, name):
-        """Returns its positions, frames × joints × 3 in metres: an array if numpy is installed, else lists."""
+        """Returns a motion's positions, frames × joints × 3 in metres: an array if numpy is installed, else lists."""
         frames = [[pose[at:at + 3] for at in range(0, len(pose), 3)] for pose in self.track(name).poses]
         try:
             import numpy

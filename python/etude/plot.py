@@ -113,8 +113,8 @@ def median_curve(several):
 
 
 def error_budget(run, *, scenario=None, condition=None, method=None):
-    """Returns a waterfall of the error that each stage causes, from a method's error to the error that remains when the
-    truth replaces all stages, with the summary's intervals."""
+    """Returns a waterfall of the errors that the stages cause, with the summary's intervals. It starts at a method's
+    error and ends at the error that remains when the truth replaces all stages."""
     wanted = [scenario] if scenario is not None else run.scenarios
     for each in run.summary["scenarios"]:
         for of in each["conditions"] if each["name"] in wanted else ():

@@ -33,9 +33,9 @@ def load(folder, *, unsealed=False, program=None):
 class Verdict:
     """A paired comparison of the summary: method − baseline in the same worlds.
 
-    verdict: on these worlds, "better", "worse", "no difference", "inconclusive" or "untested"; beyond: for others like
-    them, None if there are too few units. against: "baseline", or "rival" for the strongest other method. details: the
-    summary's whole entry.
+    verdict: the verdict on these worlds: "better", "worse", "no difference", "inconclusive" or "untested". beyond: the
+    verdict generalised to other worlds like them; None if there are too few units. against: "baseline", or "rival" for
+    the strongest other method. details: the summary's whole entry.
     """
     scenario: str
     condition: str
@@ -60,8 +60,9 @@ class Answer:
     """The answer of one method against another under one condition, a single verdict as on the page. It considers
     success first, then the first headline metric, then the tail.
 
-    verdict: on these worlds; beyond: for others like them, None if there are too few units. against: "baseline" or
-    "rival". decided_by: "success", "value", "tail" or "none". details: the summary's whole entry.
+    verdict: the verdict on these worlds. beyond: the verdict generalised to other worlds like them; None if there are
+    too few units. against: "baseline" or "rival". decided_by: "success", "value", "tail" or "none". details: the
+    summary's whole entry.
     """
     scenario: str
     condition: str

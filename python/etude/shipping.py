@@ -194,7 +194,7 @@ class _Pieces:
 
 
 def _names_used(source, whose):
-    """Returns the names that a piece of source takes from around it, also in decorators and defaults."""
+    """Returns the names that a piece of source uses but does not define, also in decorators and defaults."""
     found = {}
 
     def look(table):

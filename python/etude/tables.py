@@ -87,7 +87,7 @@ class Table:
         return self._read[name]
 
     def reasons(self, name):
-        """Returns for each cell why its value of a metric is missing; None if it is not."""
+        """Returns for each cell the reason why its value of a metric is missing; None if the value exists."""
         column = self[name] if name in self else [None] * len(self)
         why = self._reasons(name)
         return [None if value is not None else why(i) for i, value in enumerate(column)]

@@ -51,7 +51,7 @@ class CaptureScene : public Scene {
 
   Renderer& renderer_;
   const std::vector<CapturePanel> captures_;
-  Camera camera_;  ///< in front of the skeletons; its picture has the size of one column
+  Camera camera_;  ///< the camera in front of the skeletons; its pictures have the size of one column
 };
 
 }  // namespace etude

@@ -32,7 +32,7 @@ class RaceClock {
   static constexpr int kOpening = kFilmRate / 2, kEnding = 3 * kFilmRate / 2;
 
   int last_;
-  int run_;  ///< number of frames between the first state, which is held, and the last state, which is held
+  int run_;  ///< number of frames between the first and the last state, which are both held
 };
 
 /// The error of one method over iterations: `values[i]` is the error at `iterations[i]`.

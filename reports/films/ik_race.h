@@ -28,7 +28,7 @@ struct IkPath {
   std::vector<double> orientation_deg;  ///< orientation error of the worst axis of any end effector
   /// The iteration from which on both errors stay below the goal; nullopt if there is none.
   std::optional<int> solved_at;
-  std::string ending;  ///< "solved", "not solved", or the status
+  std::string ending;  ///< the outcome: "solved", "not solved", or the status
   std::string reason;  ///< why the method did not solve the pose; empty if it did
 
   /// Returns the index of the entry to show at `iteration`: the last recorded iteration that is not later.
@@ -46,7 +46,7 @@ using IkTargets = std::array<std::optional<glm::dvec3>, kIkEnds.size()>;
 
 /// The iterations of two methods of inverse kinematics in the same world.
 struct IkRace {
-  std::string world;   ///< "joint_noise_deg=5, trial 0"
+  std::string world;   ///< name of the world: "joint_noise_deg=5, trial 0"
   std::string choice;  ///< a sentence that says why this world was chosen, and which worlds were skipped
   BodyPose truth;
   IkTargets targets;

@@ -30,10 +30,10 @@ struct JudgedSessionFacts {
     std::string method;
     /// For each performance, the frame at which the method gave the verdict "right"; nullopt if it did not.
     std::vector<std::optional<int>> called_right;
-    std::vector<DetectionExtras::Alarm> alarms;  ///< false alarms only
+    std::vector<DetectionExtras::Alarm> alarms;  ///< the method's false alarms
   };
 
-  std::vector<Performance> performances;  ///< in order of time
+  std::vector<Performance> performances;  ///< performances in order of time
   std::vector<Judge> judges;  ///< the methods; the film shows the sensed skeleton and the evidence of the first one
   BodyMotion truth;
   SeenStream seen;

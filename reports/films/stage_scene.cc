@@ -26,8 +26,8 @@ constexpr double kCoachDetail = 1.5;
 constexpr int kCoachFollowFrames = 30;
 // The smallest distance of the hips from the room's wall, metres.
 constexpr double kMinWallDistance = 1.0;
-// The number of frames after the transition point in which the film marks the change of moves, and the numbers of
-// frames before and after the point in which it shows the partial distances.
+// The film marks the change of moves for kCoachMarkFrames after the transition point. It shows the partial distances
+// from kBarsBefore frames before the point to kBarsAfter frames after it.
 constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
 // Width of the distance bars beside the feet, and their height above the timeline, pixels.

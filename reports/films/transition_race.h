@@ -32,8 +32,8 @@ struct TransitionPath {
 
 /// One request, and the transitions that two to four methods made for it.
 struct TransitionRace {
-  std::string world;    ///< "trial 30"
-  std::string request;  ///< "clap → side kick"
+  std::string world;    ///< name of the world: "trial 30"
+  std::string request;  ///< the clip that is left and the wanted clip: "clap → side kick"
   std::string choice;   ///< a sentence that says why this world and these methods were chosen
   std::vector<TransitionPath> paths;
 };
@@ -44,9 +44,8 @@ constexpr std::size_t kMaxTransitionPaths = 4;
 TransitionRace RaceIn(const RecordedRequest& world, const ScenarioSummary& scenario,
                       const std::vector<std::string>& methods);
 
-/// Finds the world in which the most methods have recordings; of several such worlds, the first. Takes at most
-/// kMaxTransitionPaths methods, in the scenario's order. Fails with the reason if no world has recordings of two
-/// methods.
+/// Finds the first world in which the largest number of methods have recordings. Takes at most kMaxTransitionPaths
+/// methods, in the scenario's order. Fails with the reason if no world has recordings of two methods.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
 /// Maps the film's frames to times after the request; the map is the same for every method. The film shows the time

@@ -37,8 +37,8 @@ std::vector<std::vector<FloorMove>> AllPlacements(const TransitionRace& race) {
   return placements;
 }
 
-// The number of frames for which the film marks a transition, and the number of frames for which the last pose of the
-// clip that was left stays visible as a ghost.
+// The numbers of frames after a transition for which the film marks it, and for which it shows the last pose of the
+// clip that was left as a ghost.
 constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
 constexpr double kPanelMargin = 12;
 constexpr Paint kPlate{0.13, 0.15, 0.17, 1};

@@ -6,8 +6,8 @@
 
 namespace etude {
 
-/// Returns true if a cell of this scenario recorded the error curves or the final errors of end effectors (key `record`
-/// of the task ik), which this section shows.
+/// Returns true if a cell of this scenario recorded what this section shows: the error curves or the final errors of
+/// end effectors (key `record` of the task ik).
 bool ShowsPaperB(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns the errors of single end effectors and the angles of joints in the form of paper B: the curves of its figure

@@ -147,7 +147,7 @@ double RootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Aggregates a number of the tables over the rows that have it; nullopt if no row has it.
+/// Aggregates one entry of the tables over the rows that have a value for it; nullopt if no row has one.
 std::optional<double> Figure(const CellSeriesIndex& series, std::span<const Row* const> rows, const std::string& name,
                              std::size_t index, const Aggregator& aggregate) {
   std::vector<double> values;

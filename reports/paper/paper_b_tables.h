@@ -14,7 +14,7 @@ namespace etude {
 
 /// Neighbouring columns under one common heading.
 struct PaperColumns {
-  std::string head;  ///< with the unit: "position error (cm)"
+  std::string head;  ///< heading with the unit: "position error (cm)"
   std::vector<std::string> names;
 };
 
@@ -40,7 +40,7 @@ Table TableOf(const PaperTable& table);
 
 /// An end effector that has a row in paper B's tables of errors, in the paper's order.
 struct PaperBEffector {
-  const char* label;        ///< "R_hand"
+  const char* label;        ///< the paper's label: "R_hand"
   const char* name;         ///< the effector's name in the tree
   const char* description;  ///< the effector's description in figure 5.2
 };
@@ -75,12 +75,12 @@ std::vector<PaperTable> PaperBPrintedAngles();
 
 /// Tables 5.1 and 5.2 of paper B, filled from a run: for one trial, or over all trials.
 struct PaperBSet {
-  std::string title;               ///< "trial 0", "all 200 trials"
+  std::string title;               ///< the trials of the tables: "trial 0", "all 200 trials"
   std::string error_note;          ///< a sentence that explains the numbers in `errors`
   std::string angle_note;          ///< explains the figures of `angles`; "" if there are none
   std::string replay;              ///< the command that repeats the trial; "" for all trials
-  std::vector<PaperTable> errors;  ///< "(a) before", then one per method; a row per effector
-  std::vector<PaperTable> angles;  ///< one per method: the hidden angles of each joint
+  std::vector<PaperTable> errors;  ///< table "(a) before", then one table per method; a row per effector
+  std::vector<PaperTable> angles;  ///< one table per method: the hidden angles of each joint
   /// One line per method: the status in which the method ended, and the number of its iterations.
   std::vector<std::string> outcomes;
 };

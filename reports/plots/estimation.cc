@@ -246,7 +246,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 
-  // Of the worlds that have both values, keep every n-th one, with its sampling unit.
+  // Keep every n-th world that has both values, with its sampling unit.
   PairedDots pairs;
   pairs.total = found.size();
   pairs.units = UnitNames(found);

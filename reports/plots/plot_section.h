@@ -49,14 +49,14 @@ struct PairedWorld {
 
 /// The paired values behind one comparison, of at most kMaxPlottedWorlds worlds.
 struct PairedDots {
-  std::vector<PairedWorld> worlds;  ///< in order of their trials
+  std::vector<PairedWorld> worlds;  ///< worlds in the order of their trials
   std::vector<std::string> units;   ///< names of the sampling units, sorted; empty if every world is its own unit
   std::size_t total = 0;            ///< number of all paired worlds, of which `worlds` holds every n-th
 };
 inline constexpr std::size_t kMaxPlottedWorlds = 400;
 
-/// Returns the paired worlds of a comparison. The result is empty if no world has values of both methods, or if the
-/// method is compared with two methods, each of which was the strongest other method on one half of the worlds.
+/// Returns the paired worlds of a comparison. The result is empty if no world has values of both methods. It is also
+/// empty if the other method is one of two, each the strongest on one half of the worlds.
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
 
 /// Draws one comparison as an estimation plot (Gardner & Altman 1986; paired as in Ho et al. 2019). The first panel

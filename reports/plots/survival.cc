@@ -25,8 +25,8 @@ constexpr std::size_t kMaxLines = 16;
 /// A metric that measures the time until an event, and is censored: the measurement may stop before the event happens.
 struct Censored {
   std::string_view metric;
-  std::string_view done;   ///< a metric that is 1 if the event happened; "" if every value means that it did
-  std::string_view share;  ///< describes the cells that the curve counts, for the axis
+  std::string_view done;   ///< a metric that is 1 if the event happened; "" if every value means that it happened
+  std::string_view share;  ///< label of the axis: a share of the cells that the curve counts
 };
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};

@@ -49,8 +49,8 @@ MoveConfusion ConfusionOf(std::span<const JudgedPerformance> performances);
 struct FaultCount {
   int all = 0, found = 0;
 };
-/// Returns, by the name of the worst fault, two counts: of performances with a slight fault (severity up to ½), and of
-/// performances with a bad fault.
+/// Returns two counts for each worst fault, by its name: performances in which it is slight (severity up to ½), and
+/// performances in which it is worse.
 std::map<std::string, std::pair<FaultCount, FaultCount>> FoundByFault(std::span<const JudgedPerformance> performances);
 
 /// A person's session and its mistakes: right performances that were not called right, and wrong performances that were
@@ -63,8 +63,8 @@ struct SessionMistakes {
 /// Returns the sessions in which the method made mistakes; the session with the largest share of mistakes comes first.
 std::vector<SessionMistakes> WorstSessions(std::span<const JudgedPerformance> performances);
 
-/// Returns, per condition, tables of the faults that each method found, of the sessions with most mistakes of the
-/// method in question, and of confused moves. Returns "" if methods judge no performances.
+/// Returns tables for each condition: the faults that each method found, the sessions in which the method in question
+/// made most mistakes, and the confused moves. Returns "" if methods judge no performances.
 std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns the share of faulty performances that a method found (did not call right) for each fifth of the severity

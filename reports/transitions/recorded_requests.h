@@ -32,7 +32,7 @@ struct RecordedTransition {
 /// A request to change clips in one world, with the recorded transition of each method. There is at least one
 /// transition.
 struct RecordedRequest {
-  std::vector<RecordedTransition> transitions;  ///< in the order of the scenario's methods
+  std::vector<RecordedTransition> transitions;  ///< transitions in the order of the scenario's methods
 
   /// Returns the name of the world: "trial 3", "threshold=0.3, trial 3".
   std::string Name() const;

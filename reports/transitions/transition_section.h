@@ -43,13 +43,13 @@ class DistanceTable {
   std::vector<Point> points_;
 };
 
-/// Explains each recorded transition, with the methods of one request side by side: the last frame of the clip that is
-/// left and the first frame of the clip that is entered, the ten partial distances of the transition points, and the
-/// candidate pairs of frames. A note says if the list of candidates was shortened. Returns "" without worlds.
+/// Explains each recorded transition, with the methods of one request side by side: the frames at which one clip is
+/// left and the other entered, the ten partial distances of each transition point, and the candidate pairs of frames. A
+/// note says if the list of candidates was shortened. Returns "" without worlds.
 std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds);
 
-/// Returns a short form as Markdown: the last frame of the clip that is left, the first frame of the clip that is
-/// entered, and the largest partial distances.
+/// Returns a short form as Markdown: the frames at which one clip is left and the other entered, and the largest
+/// partial distances.
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds);
 
 /// Names the features with the largest partial distances, at most three: "LF 0.051, RF 0.036, LHE 0.035"; "all alike"

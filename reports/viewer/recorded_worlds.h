@@ -17,11 +17,11 @@ struct RecordedCell {
 
 /// A world with the recorded cells of all methods in it.
 struct RecordedWorld {
-  std::size_t scenario = 0;  ///< index in RunData::scenarios
+  std::size_t scenario = 0;  ///< index of the scenario in RunData::scenarios
   /// Path of the script file with the world's motions, relative to `report`: "motions/capture-1.js". The path needs no
   /// escaping in HTML or URLs.
   std::string file;
-  std::vector<RecordedCell> cells;  ///< in the order of the scenario's methods; never empty
+  std::vector<RecordedCell> cells;  ///< recorded cells in the order of the scenario's methods; never empty
 
   /// Returns the name of the world: "joint_noise_deg=5, trial 3"; for a pair of files, the name of the pair.
   std::string Name() const;
@@ -33,8 +33,8 @@ inline bool JudgesFiles(std::string_view task) { return task == "evaluation" || 
 /// Lists the worlds whose motions a run recorded, in the order of the run's rows. The run must outlive the result.
 std::vector<RecordedWorld> RecordedWorlds(const RunData& run);
 
-/// Returns the JSON element from which the viewer learns which script file holds the motions of which cells; "" for a
-/// run without recorded motions.
+/// Returns a JSON element for the viewer: the script files with motions, and the cells in each file; "" for a run
+/// without recorded motions.
 std::string ViewerIndexHtml(const RunData& run);
 
 /// Returns buttons that open the recorded worlds of a scenario in the viewer. The buttons are hidden until the page's

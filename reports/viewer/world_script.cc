@@ -24,8 +24,8 @@ namespace {
 /// How the viewer shows a track of a recording, and the tracks from which the track's error is measured.
 struct TrackLook {
   std::string_view task, track;
-  std::string_view label;  ///< "" = the method's name
-  std::string_view kind;   ///< "shown", "ghost" (the reference of errors) or "partner" (stands beside)
+  std::string_view label;  ///< label of the track; "" = the method's name
+  std::string_view kind;   ///< "shown", "ghost" (the reference of errors) or "partner" (stands beside the dancer)
   std::vector<std::string_view> against = {};
   bool has_contacts = false;
 };
@@ -346,7 +346,7 @@ class Writer {
   std::size_t cell_ = 0;
   int wanted_ = 0;  ///< the frame at which the wanted clip starts in the cell's recording
   double lowest_ = 0;
-  std::vector<Body> bodies_;  ///< in the order of json_["bodies"]
+  std::vector<Body> bodies_;  ///< bodies in the order of json_["bodies"]
   Json json_;
 };
 

@@ -121,8 +121,8 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                      CountVerdicts(VerdictsOf(judged), judged.size()), range);
 }
 
-// Returns a sentence that counts the worlds in which only one method has a value. If these worlds were not mentioned, a
-// method that fails in hard worlds would look better.
+// Returns a sentence with the number of worlds in which only one method has a value. If these worlds were not
+// mentioned, a method that fails in hard worlds would look better.
 std::string UnpairedWords(const std::vector<Judged>& judged) {
   int only_baseline = 0, only_method = 0;
   for (const Judged& j : judged) {
@@ -245,13 +245,12 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
                          const std::string& baseline, const std::optional<Verdict>& of_baseline) {
   const std::vector<Judged> judged = AnswersOf(scenario, method, Against::kRival);
   if (judged.empty()) return "";
-  // If this comparison was decided by another metric than `metric`, which decided the comparison with the baseline,
-  // name the deciding metric.
+  // `metric` decided the comparison with the baseline. If another metric decided this comparison, name that metric.
   const std::string& decides = judged.front().comparison->metric;
   const std::string what = decides == metric ? "" : WordsFor(decides).label + " ";
   const std::string rival = OthersOf(judged);
   const std::string elsewhere = CostElsewhere(scenario, method, decides, rival);
-  // If the baseline is also the strongest other method, the line has already stated the comparison with it.
+  // If the baseline is also the strongest other method, the line has already stated this comparison.
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
   const auto verdict = CommonVerdict(judged);
   const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;

@@ -12,13 +12,13 @@ namespace etude {
 /// The name and the units of a metric from the catalogue of metrics; the metric's id if the catalogue does not list it.
 /// Shares and scores are shown in per cent, their differences in percentage points.
 struct MetricWords {
-  std::string label;   ///< "orientation error"; "share “solved”", "mean F1"
+  std::string label;   ///< name of the metric: "orientation error", "share “solved”", "mean F1"
   std::string suffix;  ///< follows a value: "°", " cm", " %", ""
   /// Unit after a difference: the same as `suffix`, but " percentage points" for values in per cent.
   std::string difference_suffix;
   double scale = 1;       ///< factor that turns a stored value into the shown value
   bool is_share = false;  ///< true: the metric is a share, 0…1, shown in per cent
-  bool by_mean = false;   ///< true: the mean over cells is the metric's typical value; false: the median is
+  bool by_mean = false;   ///< true: a metric's typical value is the mean over cells; false: the median
   Direction direction = Direction::kNeither;
   /// The label without “mean” or “share”, for texts that state these themselves: "orientation error", "solved", "F1".
   std::string plain_label = {};

@@ -23,14 +23,14 @@ inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
 /// The comparison of `method` with another method by one metric, over all conditions.
 struct MethodFinding {
   std::string method;
-  /// The other method of the comparison. If the strongest other method differs between conditions, the one of the first
+  /// The other method of the comparison. If the strongest other method differs between conditions, that of the first
   /// condition.
   std::string baseline;
   SamplingUnit unit = SamplingUnit::kWorld;
   bool is_compared = false;             ///< false if the method was not compared by this metric
   std::optional<Verdict> verdict = {};  ///< verdict on the run's worlds; nullopt if conditions differ
   BeyondFinding beyond = {};            ///< verdicts generalised to other clips, people or libraries
-  std::string others = {};    ///< all methods with which `method` is compared, over the conditions: “a” or “b”
+  std::string others = {};    ///< all methods with which `method` is compared under any condition: “a” or “b”
   std::string sentence = {};  ///< states the comparison in words, with the numbers behind the verdicts
   std::string why_open = {};  ///< why the verdict is inconclusive; set only if there is one condition
 
@@ -44,7 +44,7 @@ struct MethodFinding {
 struct KeyFigures {
   struct Method {
     std::string name;
-    std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has no such value
+    std::vector<std::string> values;  ///< one value per label, with its unit; "" if the method has no such value
   };
   /// Names of the key numbers that are known: headline metric, success, processor time, worlds in which a method
   /// loses to the method in question.
@@ -85,10 +85,10 @@ struct ScenarioFindings {
   std::vector<std::string> yardsticks;
   int cells = 0;
   std::vector<std::pair<Status, int>> statuses;  ///< number of cells in each status that occurs, in the order of Status
-  std::vector<SuccessFinding> successes;         ///< one per success metric (MetricInfo::is_success)
+  std::vector<SuccessFinding> successes;         ///< one finding per success metric (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< reasons of all cells that are not ok, the most frequent first
 };
-/// Returns true if the strongest other method is not the baseline. Only then does the comparison with it add
+/// Returns true if the strongest other method is not the baseline. Otherwise the comparison with it adds no
 /// information.
 bool HasOtherRival(const ScenarioFindings& findings);
 
@@ -99,7 +99,7 @@ struct RunFindings {
   int cells = 0;
   int ok = 0;        ///< cells that were measured; their status does not say whether they reached a goal
   int unsolved = 0;  ///< cells that were measured, but ended before they reached the goal
-  int skipped = 0;   ///< cells that were not run, because the world lacked something that the task needs
+  int skipped = 0;   ///< cells that were not run, because their world lacked something for the task
   int broken = 0;    ///< cells that failed, crashed, timed out or gave an invalid answer
   int met = 0, unmet = 0, undecided = 0;
   std::string sentence;

@@ -153,7 +153,7 @@ std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
 }
 
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
-  // In a scenario without metrics, no methods are compared, so no method counts as one that is compared with none.
+  // Without metrics, no methods are compared, and no method counts as a yardstick.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
   // A compared method is compared under every condition, so it suffices to look at the first one.

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// With what a method is compared: with the baseline that the scenario names, or with the strongest other method.
+/// What a method is compared with: the baseline that the scenario names, or the strongest other method.
 enum class Against { kBaseline, kRival };
 
 struct Judged {
@@ -18,8 +18,8 @@ struct Judged {
   /// The answer to which the comparison belongs; its verdicts replace those of the comparison. Null if there is none.
   const Answer* answer = nullptr;
 
-  /// Here returns the verdict on the worlds of this run. Elsewhere returns the verdict generalised to other clips,
-  /// people or libraries; nullopt if there are too few of them.
+  /// Here: the verdict on the worlds of this run. Elsewhere: the verdict generalised to other clips, people or
+  /// libraries; nullopt if there are too few of them.
   Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
   std::optional<Verdict> Elsewhere() const { return answer == nullptr ? comparison->beyond.verdict : answer->beyond; }
 };

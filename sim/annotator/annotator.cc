@@ -16,8 +16,8 @@ constexpr double kHeadDeviation = 0.035, kShoulderDeviation = 0.079, kElbowDevia
                  kFingerDeviation = 0.026, kHipDeviation = 0.107, kKneeDeviation = 0.087, kAnkleDeviation = 0.089,
                  kToeDeviation = 0.068;
 
-// The standard deviations σ of keypoint evaluations, from which RelativeDeviations is computed, by role. They are 0 for
-// hip centre and spine, which are never marked.
+// The standard deviations σ in two keypoint evaluations, by role: the source of RelativeDeviations. They are 0 for hip
+// centre and spine, which are never marked.
 constexpr std::array<double, kRoleCount> kDeviations = {
     0,
     0,
@@ -58,13 +58,14 @@ glm::dvec2 Normal2(RandomStream& random) {
   return {u, random.Normal()};
 }
 
-constexpr double kReferenceErrorPx = 2;  // the `error_px` for which annotator.h gives probabilities and shares
+constexpr double kReferenceErrorPx = 2;  // the `error_px` at which annotator.h gives its probabilities and shares
 
-// A pair of limbs. A limb has three consecutive strokes; `left` and `right` are the indices of its first stroke.
+// A left and a right limb. Each limb has three consecutive strokes; `left` and `right` are the indices of the limbs'
+// first strokes.
 struct Pair {
   std::size_t left, right;
 };
-constexpr std::array<Pair, 2> kPairs = {{{6, 9}, {0, 3}}};  // arms, legs
+constexpr std::array<Pair, 2> kPairs = {{{6, 9}, {0, 3}}};  // arms and legs
 constexpr std::size_t kStrokesOfLimb = 3;
 
 std::optional<glm::dvec2> MiddleOf(const PictureEvidence& seen, std::size_t first) {
@@ -132,7 +133,7 @@ class PictureErrors {
   PixelSegment Stroke(std::size_t i) const {
     const PixelSegment& line = seen_.limbs[i]->line;
     const glm::dvec2 a = line.a + ErrorAt(StrokeMarks()[i].from), b = line.b + ErrorAt(StrokeMarks()[i].to);
-    constexpr double kMaxShortening = 0.3;  // maximum share left out at each end
+    constexpr double kMaxShortening = 0.3;  // maximum share of the stroke left out at each end
     const glm::dvec2 left_out = glm::min(Strength() * kShortShare * glm::abs(dice_.shortness[i]), kMaxShortening);
     return {glm::mix(a, b, left_out.x), glm::mix(b, a, left_out.y)};
   }
@@ -141,8 +142,8 @@ class PictureErrors {
   double Strength() const { return errors_.error_px / kReferenceErrorPx; }
 
   // Computes each joint's unclearness and the direction of its bias. A joint between two limbs gets the larger
-  // unclearness of both. Its bias is along the limb that ends at the joint if that limb is visible, otherwise along the
-  // limb that begins there.
+  // unclearness of the two. Its bias is along the limb that ends at the joint if that limb is visible, otherwise along
+  // the limb that begins there.
   void MeasureLimbs() {
     along_.fill({0, 1});
     for (std::size_t i = kStrokeCount; i-- > 0;) {

@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// The part along which a stroke runs, and the part to which that part is attached. Their common joint is the stroke's
-/// `from`. The table is in the order of `StrokeMarks`.
+/// The part of the body along which a stroke runs, and the part to which this part is attached. Their common joint is
+/// the stroke's `from`. The table is in the order of `StrokeMarks`.
 struct LimbParts {
   Part limb;
   Part inner;
@@ -37,8 +37,8 @@ constexpr std::array<LimbParts, kStrokeCount> kLimbParts = {{
 struct Regions {
   int width = 0, height = 0;
   std::array<Region, kPartCount> parts;
-  /// By stroke, the border between the limb and the part to which it is attached: the midpoints of all pixel edges
-  /// between them.
+  /// For each stroke, the border between the limb and the part to which it is attached: the midpoints of all pixel
+  /// edges between them.
   std::array<std::vector<glm::dvec2>, kStrokeCount> borders;
 
   const Region& operator[](Part part) const { return parts[static_cast<std::size_t>(part)]; }
@@ -51,7 +51,7 @@ Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const 
 /// A picture as the annotator sees it. All three images have the same size.
 struct AnnotatedPicture {
   const LabelImage& labels;    ///< the part that each pixel shows, because annotators can distinguish limbs
-  const ColourImage& colours;  ///< used only for the contrast of limbs
+  const ColourImage& colours;  ///< the picture's colours, used only for the contrast of limbs
   const Mask& person;          ///< the segmented person; the annotator does not see the rest
 };
 

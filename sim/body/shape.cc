@@ -51,7 +51,7 @@ constexpr std::array<Limb, 12> kLimbs = {{
     {Part::kRightFoot, kRightAnkle, kRightFoot, kRightKnee, kRightAnkle, kFootPerShank},
 }};
 
-/// The parts in which a joint lies: at most two.
+/// The parts in which a joint lies: one or two.
 struct OwnParts {
   Part first, second;
 };
@@ -108,7 +108,7 @@ double TrunkLength(const BodyPose& pose) {
 
 void AddTrunk(const BodyPose& pose, std::vector<Capsule>& body) {
   const double length = TrunkLength(pose);
-  // Place the widest point of the ribs between the middle of the back and each shoulder, at this share of the way.
+  // Place the widest point of the ribs at this share of the way from the middle of the back to each shoulder.
   constexpr double kRibs = 0.45;
   const glm::dvec3 middle = 0.5 * (pose[kSpine] + pose[kShoulderCentre]);
   const glm::dvec3 left_rib = glm::mix(middle, pose[kLeftShoulder], kRibs);
@@ -159,7 +159,7 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
 
 /// Returns true if the ray misses the capsule's bounding sphere by more than any rounding error. Most rays do.
 bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
-  constexpr double kAir = 1e-6;  // metres, larger than any rounding error
+  constexpr double kAir = 1e-6;  // a margin larger than any rounding error, metres
   const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
   const double radius = 0.5 * glm::length(capsule.b - capsule.a) + capsule.radius + kAir;
   const double along = glm::dot(from, direction), outside = glm::dot(from, from) - radius * radius;
@@ -176,7 +176,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   const glm::dvec3 across = direction - glm::dot(direction, unit) * unit;
   const glm::dvec3 from_across = from - glm::dot(from, unit) * unit;
   const double scale = glm::dot(across, across);
-  constexpr double kParallel = 1e-18;  // squared sine; rays below this angle are parallel and hit a half-sphere first
+  constexpr double kParallel = 1e-18;  // squared sine; a flatter ray counts as parallel and hits a half-sphere first
   if (scale < kParallel) return kInfinity;
   const double t = EntryRoot(glm::dot(from_across, across) / scale,
                              (glm::dot(from_across, from_across) - capsule.radius * capsule.radius) / scale);

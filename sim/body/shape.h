@@ -57,8 +57,8 @@ double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::
 
 /// The distances from an eye at which the ray to a joint hits the body; infinity without a hit.
 struct JointSight {
-  double skin;   ///< to the skin of the parts that end in the joint; at most the distance of the joint itself
-  double other;  ///< to the nearest part that does not end in the joint
+  double skin;   ///< distance to the skin of the parts that end in the joint; at most the joint's own distance
+  double other;  ///< distance to the nearest part that does not end in the joint
 };
 /// Computes the distances along the ray from `eye` to the joint of `role`. `body` must be `BodyCapsules(pose)`.
 JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
@@ -75,7 +75,7 @@ bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role,
 /// Metres.
 struct Cuboid {
   glm::dvec3 centre{0};
-  glm::dvec3 half_size{0.5};  ///< along its own axes, each positive
+  glm::dvec3 half_size{0.5};  ///< half sizes along the box's own axes, each positive
   double heading = 0;         ///< radians: its own +Z points to (sin heading, 0, cos heading)
 };
 

@@ -30,8 +30,8 @@ struct CameraEffects {
   double white_balance_drift_ev = 0;  ///< largest deviation of an automatic white balance
 
   // The sensor (sensor.h) and the file (jpeg.h).
-  double bayer = 0;      ///< 1: each pixel senses one colour, the others are interpolated; < 1: mixed with full colours
-  double noise = 1;      ///< multiplies the usual standard deviation of read and shot noise
+  double bayer = 0;      ///< 1: each pixel senses one colour, others are interpolated; < 1: mixed with full colours
+  double noise = 1;      ///< factor on the usual standard deviation of read and shot noise
   double jpeg_loss = 0;  ///< 100 − JPEG quality; 0: no JPEG at all
 };
 

@@ -59,7 +59,7 @@ std::vector<Shutter::Band> Shutter::BandsOf(std::size_t frame, int height) const
   for (int i = 0; i < kBands; ++i) {
     const RowRange rows{height * i / kBands, height * (i + 1) / kBands};
     if (rows.first == rows.end) continue;
-    const double middle = 0.5 * (rows.first + rows.end) / height - 0.5;  // from the middle row, in heights of a picture
+    const double middle = 0.5 * (rows.first + rows.end) / height - 0.5;  // offset from the middle, in picture heights
     bands.push_back({rows, TimeOf(frame) + middle * read_out_});
   }
   return bands;

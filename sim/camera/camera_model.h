@@ -41,17 +41,17 @@ class Shutter {
   static constexpr int kSubframes = 9;
 
  private:
-  double offset_ = 0;    ///< frames
-  double drift_ = 0;     ///< frames per frame
-  double read_out_ = 0;  ///< frames between the first row and the last
+  double offset_ = 0;    ///< offset of the camera's clock, frames
+  double drift_ = 0;     ///< drift of the camera's clock, frames per frame
+  double read_out_ = 0;  ///< time between the readings of the first and the last row, frames
   double open_ = 0;      ///< exposure time, frames
 };
 
 /// A camera's identity within its world. It is the key of the camera's random numbers.
 struct CameraIdentity {
   WorldKey world;
-  std::string name;          ///< such as "capture/camera-0"; prefix of the purposes of its random streams
-  bool is_reference = true;  ///< true if its clock is the clock of the truth
+  std::string name;          ///< name, such as "capture/camera-0": prefix of the purposes of its random streams
+  bool is_reference = true;  ///< true if the camera's clock is the clock of the truth
 };
 
 /// A camera of a world. It takes pictures and applies the effects in the order in which they act on the light

@@ -263,7 +263,7 @@ std::vector<Speck> DrawSpecks(int width, int height, RandomStream& random) {
 }
 
 void AddDust(const std::vector<Speck>& specks, double strength, Transmission& transmission) {
-  constexpr double kReach = 6;  // in radii; beyond this the shadow is below a thousandth
+  constexpr double kReach = 6;  // in radii of a speck; farther away its shadow is below a thousandth
   for (const Speck& speck : specks) {
     const int left = std::max(0, static_cast<int>(speck.x - kReach * speck.radius));
     const int top = std::max(0, static_cast<int>(speck.y - kReach * speck.radius));

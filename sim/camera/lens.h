@@ -55,9 +55,9 @@ class LensWarp {
 
   int width_, height_;
   Camera pinhole_;
-  std::vector<Source> sources_;          ///< one per pixel; empty without distortion
+  std::vector<Source> sources_;          ///< one source per pixel; empty without distortion
   std::vector<std::int32_t> nearest_;    ///< index of each pixel's nearest source pixel; empty without distortion
-  std::vector<RowRange> source_of_row_;  ///< one per row; empty without distortion
+  std::vector<RowRange> source_of_row_;  ///< the source rows of each row; empty without distortion
 };
 
 /// Blurs with a Gaussian of standard deviation `sigma_px`, truncated at three deviations. Outside the picture the
@@ -86,8 +86,8 @@ void AddVignette(const Camera& camera, double strength, Transmission& transmissi
 
 /// A speck of dust in front of the sensor. Its shadow is soft, because light arrives from the whole lens.
 struct Speck {
-  double x = 0, y = 0;  ///< pixels
-  double radius = 0;    ///< pixels; at this radius half of the shadow is left
+  double x = 0, y = 0;  ///< position of the centre, pixels
+  double radius = 0;    ///< radius at which half of the shadow is left, pixels
 };
 
 /// Draws ten specks with radii of 2 to 6 pixels, uniformly over a picture of this size.

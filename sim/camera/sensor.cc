@@ -79,7 +79,7 @@ Light InOrder(const Colours& c) {
 
 template <bool kRedRow>
 void DemosaicRow(const float* above, const float* here, const float* below, int width, Light* out) {
-  // The first pixel of a red row has the row's own colour, the first pixel of a blue row is green.
+  // In a red row, the first pixel has the row's own colour; in a blue row, the first pixel is green.
   constexpr int kOwn = kRedRow ? 0 : 1;
   for (int x = kOwn; x < width; x += 2) out[x] = InOrder<kRedRow>(AtOwn(above + x, here + x, below + x));
   for (int x = 1 - kOwn; x < width; x += 2) out[x] = InOrder<kRedRow>(AtGreen(above + x, here + x, below + x));

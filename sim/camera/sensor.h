@@ -14,7 +14,7 @@ namespace etude {
 
 /// The exposure of a picture and the gains of its three colours.
 struct Toning {
-  float exposure = 1;                  ///< multiplies the light that falls on the sensor
+  float exposure = 1;                  ///< factor on the light that falls on the sensor
   float red = 1, green = 1, blue = 1;  ///< factors on the values that the sensor reads
   friend bool operator==(const Toning&, const Toning&) = default;
 };

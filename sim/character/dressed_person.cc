@@ -209,7 +209,7 @@ void AddArms(const Girth& girth, double sleeve_cm, const BodyPose& rest, Dressed
                          .last_cap_cm = 3.5,
                          .around = 10},
                     rest));
-  // Leave out sleeves below 4 cm; the arm is then bare up to the shoulder.
+  // Make no sleeves below 4 cm: the arm is then bare up to the shoulder.
   if (sleeve_cm < 4) return;
   const double loose = sleeve_cm < 40 ? 1.4 : 0.9;
   AddBoth(pieces.top, MakePiece(ArmTube(Scaled(CutOff(kArmRings, std::min(sleeve_cm, 55.0)), g, loose), 1, 0.2), rest));

@@ -19,7 +19,7 @@ struct Outfit {
   double sleeve_cm = 24;  ///< length of the sleeves along the arm (the wrist is at 30 + 25 cm)
   double leg_cm = 78;     ///< length of the trousers along the leg (the ankle is at 42 + 42 cm)
   bool is_skirt = false;  ///< a skirt instead of trousers
-  double skirt_cm = 40;   ///< from the hips down
+  double skirt_cm = 40;   ///< length of the skirt from the hips down
   bool has_long_hair = false;
   /// If set, a suit from head to toe replaces the clothes above: every part of the body has one plain colour.
   std::optional<PartColours> suit = {};
@@ -37,7 +37,7 @@ class DressedPerson {
 
  private:
   Character character_;
-  std::vector<Surface> still_;  ///< one per mesh, with all data that do not depend on the pose
+  std::vector<Surface> still_;  ///< one surface per mesh, with all data that do not depend on the pose
 };
 
 }  // namespace etude

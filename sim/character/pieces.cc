@@ -64,7 +64,7 @@ class TubeShape {
     const auto [centre, direction] = PathAt(along);
     const glm::dvec3 forward(0, 0, 1);
     const glm::dvec3 front = glm::normalize(forward - glm::dot(forward, direction) * direction);
-    // Make the left side the same direction for ascending and descending chains.
+    // The left side must be the same direction for ascending and descending chains.
     const glm::dvec3 side = glm::cross(direction, front) * (direction.y < 0 ? -1.0 : 1.0);
     const double c = std::cos(angle), s = std::sin(angle);
     glm::dvec3 position =

@@ -21,7 +21,7 @@ struct Piece {
     std::array<double, 2> weights{1, 0};  ///< the weights of both joints, with sum 1
   };
   std::vector<Vertex> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three vertices each, counter-clockwise seen from outside
 };
 
 /// Returns the mirror image of a piece for the body's other side.
@@ -32,9 +32,9 @@ Piece MirrorImage(const Piece& piece);
 struct Blob {
   std::string name;
   Role joint;
-  glm::dvec3 centre_cm;    ///< relative to the joint
+  glm::dvec3 centre_cm;    ///< position relative to the joint
   glm::dvec3 half_cm;      ///< half sizes along the three axes, before the tilt
-  glm::dvec3 tilt_deg{0};  ///< about left, then up, then forward
+  glm::dvec3 tilt_deg{0};  ///< rotation about the axes left, then up, then forward
   /// The minimum height of vertices above the floor: it gives a foot a flat sole.
   double sole_cm = -std::numeric_limits<double>::infinity();
   int around = 16;  ///< number of corners of the equator; half as many rings from pole to pole
@@ -52,7 +52,7 @@ struct Tube {
   };
   std::string name;
   std::vector<Role> chain;  ///< the joints along the tube; from a single joint, the tube goes straight up
-  std::vector<Ring> rings;  ///< in ascending order of `along_cm`
+  std::vector<Ring> rings;  ///< rings in ascending order of `along_cm`
   double blend_cm = 0;      ///< half the length over which the skin is blended between two joints
   double first_cap_cm = 0;  ///< lengths of the round ends beyond the first and last ring
   double last_cap_cm = 0;
@@ -63,7 +63,7 @@ Piece MakePiece(const Tube& tube, const BodyPose& rest);
 /// A thin oval sheet on the front of a tube. Its edge lies inside the tube, and the sheet moves with the tube's skin.
 struct Patch {
   std::string name;
-  double along_cm;        ///< centre, along the tube
+  double along_cm;        ///< position of the centre along the tube
   double half_along_cm;   ///< half the length
   double half_angle_deg;  ///< half the angle that it covers around the tube
   double lift_cm;         ///< height above the tube's skin

@@ -20,7 +20,7 @@ constexpr std::array<Part, kRoleCount> kPartOfRole = {
     Part::kRightHand,   Part::kRightHand,  Part::kLeftThigh,  Part::kLeftShank,     Part::kLeftFoot,
     Part::kLeftFoot,    Part::kRightThigh, Part::kRightShank, Part::kRightFoot,     Part::kRightFoot};
 
-using MaybeParts = std::vector<std::optional<Part>>;  // one per joint
+using MaybeParts = std::vector<std::optional<Part>>;  // the part that each joint moves, if any
 
 std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
   std::vector<Part> parts;
@@ -44,15 +44,14 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   using enum Role;
   if (role == kHipCentre) {
     const double width = ratio(kLeftHip, kRightHip);
-    return trunk(width, std::max(width, ratio(kHipCentre, kSpine)));  // some spines begin just above the hips
+    return trunk(width, std::max(width, ratio(kHipCentre, kSpine)));  // files may put the spine just above the hips
   }
   if (role == kSpine) return trunk(ratio(kLeftShoulder, kRightShoulder), ratio(kSpine, kShoulderCentre));
   if (role == kShoulderCentre) return glm::dvec3(ratio(kLeftShoulder, kRightShoulder));
   for (const Role end : AllRoles()) {
     if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
   }
-  // The position of the head joint differs between files, so only the square root of its length ratio is taken as the
-  // size.
+  // Files put the head joint at different heights, so only the square root of its length ratio is used as the size.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }
 

@@ -64,7 +64,7 @@ class RecordedFigure {
   double first_ = 0;             // the clip's frame that became the motion's first frame
   double frames_per_frame_ = 1;  // frames of the clip per frame of the motion
   glm::dmat4 to_world_{1};
-  std::vector<Surface> still_;  // one per mesh: everything that does not depend on the pose
+  std::vector<Surface> still_;  // one surface per mesh, with all data that do not depend on the pose
 };
 
 }  // namespace etude

@@ -21,7 +21,8 @@ struct LegJoints {
   glm::dvec3 hip, knee, ankle, toe;
 };
 
-/// The largest share of a leg's length that hip and ankle may be apart; below 1, knees neither lock nor snap.
+/// The largest distance from hip to ankle, as a share of the leg's length. It is below 1, so knees neither lock nor
+/// snap.
 constexpr double kReach = 0.998;
 
 double LegLength(const BodyDimensions& body) { return body.thigh + body.shank; }
@@ -29,7 +30,7 @@ double LegLength(const BodyDimensions& body) { return body.thigh + body.shank; }
 /// The target position of a foot, and the direction in which its knee points.
 struct FootGoal {
   glm::dvec3 ankle;
-  glm::dvec3 to_toe;        // from the ankle to the toe
+  glm::dvec3 to_toe;        // vector from the ankle to the toe
   glm::dvec3 knee_forward;  // the knee lies on this side of the hip–ankle line
 };
 
@@ -98,7 +99,7 @@ LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side si
   glm::dvec3 ankle = glm::mix(standing.ankle, swinging.ankle, glm::dvec3(travelled, free, travelled));
   glm::dvec3 to_toe = glm::mix(standing.to_toe, swinging.to_toe, travelled);
   to_toe *= glm::length(standing.to_toe) / glm::length(to_toe);
-  // While the foot changes from standing to free, it is kept clear of the floor.
+  // Keep the foot clear of the floor while it changes from standing to free.
   constexpr double kClearance = 0.04;
   ankle.y += 4 * kClearance * free * (1 - free);
   ankle.y = std::max({ankle.y, body.ankle_height, body.toe_height - to_toe.y});
@@ -113,7 +114,7 @@ double HighestHip(const Controls& controls, const BodyDimensions& body, Side sid
   const double sideways = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
   const double reach = kReach * LegLength(body);
   const double height = std::sqrt(std::max(0.0, reach * reach - sideways * sideways));
-  // For a free leg, add up to one metre, which is more than any leg's length, so that it does not limit the hips.
+  // For a free leg, add up to one metre, more than any leg's length: a free leg must not limit the hips.
   return ankle.y + height + Freedom(controls, side);
 }
 

@@ -16,8 +16,8 @@ struct CanonicalBody {
   static constexpr double kAnkleHeight = 0.066;
   static constexpr double kToeHeight = 0.025;  ///< height of the toe tip of a flat foot
   static constexpr double kFootReach = 0.17;   ///< ankle to toe tip, along the floor
-  static constexpr double kSpine = 0.21;       ///< hip centre to spine
-  static constexpr double kChest = 0.31;       ///< spine to shoulder centre
+  static constexpr double kSpine = 0.21;       ///< distance from hip centre to spine
+  static constexpr double kChest = 0.31;       ///< distance from spine to shoulder centre
   static constexpr double kShoulderHalfWidth = 0.18;
   static constexpr double kShoulderFall = 0.03;  ///< vertical distance from the base of the neck down to the shoulders
   static constexpr double kHeadRise = 0.165;     ///< base of the neck to the middle of the head

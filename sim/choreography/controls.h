@@ -33,7 +33,7 @@ enum class SideControl {
   kArmForward,  ///< raises the arm in the sagittal plane; 0 = hanging
   kArmSide,     ///< away from the sagittal plane, applied before kArmForward; 90° is a T pose for every kArmForward
   kArmTwist,    ///< outward about the upper arm: in a T pose with the elbow at 90°, +90° points the hand up
-  kElbow,       ///< 0 = straight
+  kElbow,       ///< flexion of the elbow; 0 = straight
   kWrist,       ///< flexion of the wrist
   kLegFree,     ///< 0 = the foot stands on its spot; 1 = the leg follows its four angles (kLegForward to kKnee)
   kLegForward,

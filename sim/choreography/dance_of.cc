@@ -29,7 +29,7 @@ constexpr double kAny = 1e9;
 /// The words for one feature, and the part of the body that the feature describes. Features with an empty word are left
 /// out of the hint.
 struct Vocabulary {
-  std::string_view feature;  ///< without the prefix R or L
+  std::string_view feature;  ///< name of the feature, without the prefix R or L
   std::string_view part;     ///< the part of the body, without its side
   std::vector<Word> words;
 };
@@ -54,7 +54,7 @@ std::optional<double> DegreesOf(const KeyPose& pose, const std::string& feature)
   return found != pose.targets.end() ? std::optional(found->degrees) : std::nullopt;
 }
 
-/// Describes the two sides of one part of the body: if both have the same words, as "both …s".
+/// Describes both sides of one part of the body. If both sides have the same words, they are combined: "both …s".
 void SayLimb(const KeyPose& pose, const Vocabulary& vocabulary, std::vector<std::string>& said) {
   const auto word_of = [&](const char* side) {
     const auto degrees = DegreesOf(pose, side + std::string(vocabulary.feature));
@@ -210,7 +210,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
 double TempoOf(const std::vector<double>& beats_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < beats_s.size(); ++i) steps.push_back(beats_s[i] - beats_s[i - 1]);
-  // Round the tempo to 0.01: a file's last digits must not make it too fast for a move.
+  // Round the tempo to 0.01 bpm: rounded times in a file must not give a tempo just above a move's fastest.
   return std::round(6000 / UpperMedian(std::move(steps))) / 100;
 }
 

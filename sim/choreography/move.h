@@ -17,13 +17,13 @@ struct KeyPose {
     double degrees;       ///< Posture has its own scale: standing = 80
     double tolerance_deg;
   };
-  double beat = 0;  ///< when the pose is reached, in beats from the move's first beat
+  double beat = 0;  ///< time of the pose, in beats from the move's first beat
   std::vector<Target> targets;
 };
 
 /// A built-in move, authored as key poses in scenarios/choreography/moves/*.yaml, or an act of the coach (acts/*.yaml).
 struct Move {
-  std::string name;  ///< "clap"
+  std::string name;  ///< the move's name: "clap"
   double tempo_bpm = 120;
   double slowest_bpm = 120;  ///< range of song tempos that suit the move (`tempo_range_bpm`); default: its own tempo
   double fastest_bpm = 120;

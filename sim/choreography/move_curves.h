@@ -13,7 +13,7 @@ namespace etude {
 /// The timing of the motion from one key to the next.
 enum class Ease {
   kSmooth,  ///< evenly, passing through the key
-  kLinger,  ///< most of the way early, then ever slower: hovers before it arrives
+  kLinger,  ///< fast at first, then ever slower: hovers before it arrives
   kRush,    ///< starts slowly and arrives fast: a blow, a clap
   kSnap,    ///< waits, covers the way in the second half of the time, and stops abruptly
   kStep,    ///< waits, moves, waits: a foot between leaving the floor and landing
@@ -54,7 +54,7 @@ class PeriodicCurve {
     double at, value, slope, bend;
     Ease ease;
   };
-  std::vector<Knot> knots_;  // closed: the last knot is the first one, one period later
+  std::vector<Knot> knots_;  // knots of the closed curve: the last knot is the first one, one period later
   double period_;
 };
 
@@ -111,8 +111,8 @@ class MoveCurves {
 
  private:
   Style style_;
-  double last_beat_ = 0;               // used if the performance does not loop
-  std::vector<PeriodicCurve> curves_;  // one per control
+  double last_beat_ = 0;               // beat of the last pose; used if the performance does not loop
+  std::vector<PeriodicCurve> curves_;  // one curve per control
 };
 
 }  // namespace etude

@@ -11,8 +11,7 @@ namespace {
 
 constexpr double kHoldBeats = 1;
 
-/// The timing of a demonstration: it maps beats of the demonstration to beats of the move, with a stop at each key
-/// pose.
+/// The timing of a demonstration: a map from its beats to beats of the move, with a stop at each key pose.
 class Pauses {
  public:
   /// `stops` must ascend strictly within (0, beats).

@@ -13,7 +13,8 @@ constexpr std::string_view kSlowDemonstrationPrefix = "slow_";
 /// Makes the coach's slow demonstration of a move: at half its tempo, with a hold of one (slow) beat at every key pose.
 /// The motion slows down before each hold and speeds up after it, which shows a learner the key poses. A jump freezes
 /// in the air like a paused film. `beats` counts slow beats. The key poses are those of the move, at the starts of
-/// their holds. Fails if the move has no key poses (an act), or one at beat 0, where no motion leads into it.
+/// their holds. Fails if the move has no key poses (an act), or if a key pose is at beat 0, where no motion leads into
+/// it.
 Result<Move> SlowDemonstration(const Move& move);
 
 }  // namespace etude

@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 Controls Waiting(double beat) {
-  constexpr double kGive = 0.015;  // metres
+  constexpr double kGive = 0.015;  // depth of the knees' give, metres
   Controls waiting = ReadyStance();
   waiting[MiddleControl::kHipsDrop] += kGive * 0.5 * (1 - std::cos(2 * kPi * beat));
   return waiting;
@@ -31,7 +31,7 @@ double StartingClock(double time, double lead) {
 }
 
 /// Returns a turn's own time, beats. The time runs with the music within the turn, accelerates in the blend before it,
-/// and stops in the blend after it. Therefore no gesture begins that cannot end.
+/// and stops in the blend after it. Therefore no gesture is cut off.
 double ClockOf(const Turn& turn, double beat) {
   const double since = beat - turn.start_beat;
   if (since > turn.beats) return turn.beats - StartingClock(turn.beats - since, kBlendBeatsAfter);
@@ -43,12 +43,13 @@ Controls TurnAt(const Turn& turn, double beat) {
   return turn.move ? turn.move->curves.At(turn.pace * clock) : Waiting(clock);
 }
 
-/// Returns true if the control changes the place of a foot on the floor. A raised heel does not, because the toes stay.
+/// Returns true if the control changes the place of a foot on the floor. Raising the heel does not, because the toes
+/// stay in place.
 bool MovesAFoot(SideControl control) { return control >= SideControl::kLegFree && control != SideControl::kFootHeel; }
 
 constexpr std::size_t kMinMoves = 8, kMaxMoves = 12;
 constexpr double kMaxSeconds = 600;
-/// The dancer waits for this number of beats before the first part, and stands for the same number after the last part.
+/// The number of beats for which the dancer waits before the first part and stands after the last part.
 constexpr double kLeadBeats = 4;
 constexpr double kHalfTimePace = 0.5;
 

@@ -17,8 +17,8 @@ namespace etude {
 /// A section of the music in which one dancer repeats one move or waits.
 struct Turn {
   double start_beat = 0;
-  double beats = 2;            ///< at least as long as both blends together
-  const Move* move = nullptr;  ///< null: waits in the ready stance, with the knees giving between the beats
+  double beats = 2;            ///< length; at least as long as both blends together
+  const Move* move = nullptr;  ///< the move; null: waits in the ready stance, with knees that give between beats
   double pace = 1;             ///< beats of the move per beat of the music
 };
 
@@ -26,11 +26,11 @@ struct Turn {
 /// after it. It begins early because dancers think ahead and a move's first key pose may come early.
 constexpr double kBlendBeatsBefore = 1, kBlendBeatsAfter = 0.5;
 
-/// Returns the body at a beat of the music. In the blend between two turns both are danced, the first beyond its last
-/// beat and the second before its first beat; the weight of the second grows. Feet are not blended: they change from
-/// one turn to the next exactly at beat 0 of the second. In every move the feet are at home at beat 0, so a standing
-/// foot does not move. `turns` (at least one) must follow each other without gaps; the body is at rest before the first
-/// and after the last.
+/// Returns the body at a beat of the music. In the blend between two turns both are danced: the first turn beyond its
+/// last beat, and the second before its first beat, with growing weight. Feet are not blended: they change from the
+/// first turn to the second exactly at beat 0 of the second. In every move the feet are at home at beat 0, so a
+/// standing foot does not move. `turns` (at least one) must follow each other without gaps. The body is at rest before
+/// the first turn and after the last.
 Controls SequenceAt(std::span<const Turn> turns, double beat);
 
 /// One part of a song, in which one move is danced `times` times in a row.
@@ -38,11 +38,11 @@ struct SongPart {
   std::string move;
   int times = 2;
   bool half_time = false;  ///< each beat of the move takes two beats of the music
-  double start_beat = 0;   ///< in beats of the music, which begins with the song
-  double beats = 0;        ///< in beats of the music, for all repetitions
+  double start_beat = 0;   ///< beat of the song's music at which the part begins
+  double beats = 0;        ///< length of all repetitions together, in beats of the music
 };
 
-/// A choreography for a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), authored
+/// A choreography for a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), written
 /// in scenarios/choreography/songs/*.yaml. Every move must suit the tempo: agile moves are for fast songs, warm-up
 /// moves for slow songs or for fast ones in half time.
 struct Song {
@@ -50,7 +50,7 @@ struct Song {
   double tempo_bpm = 120;
   std::vector<SongPart> parts;
   std::vector<MusicTag> tags;  ///< the frame nearest to the start of every repetition, in order
-  BodyMotion motion;           ///< 30 Hz, from ready stance to ready stance, with moves that flow into each other
+  BodyMotion motion;           ///< the whole dance at 30 Hz, from ready stance to ready stance
 
   /// Returns the number of frames of `motion`. It is known even if `motion` has not been computed.
   std::size_t CountFrames() const;

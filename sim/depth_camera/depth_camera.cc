@@ -19,7 +19,7 @@ bool IsDepthEdge(double a, double b) {
   return std::abs(a - b) > 0.03 * (a < b ? a : b);
 }
 
-/// One row of pixels, projected into the projector's columns.
+/// One row of the picture's pixels, with their columns in the projector's picture.
 class Row {
  public:
   Row(const DepthImage& depth, const Camera& camera, double baseline_m, int y)
@@ -56,7 +56,8 @@ class Row {
     double ProjectorColumn() const { return camera_column - disparity; }
   };
 
-  // Computes a pixel's extent: half way to each neighbour on the same surface, and half a pixel at an edge.
+  // Computes a pixel's extent: on either side up to the middle between it and its neighbour on the same surface, or
+  // half a pixel at an edge.
   void SetExtent(int x) {
     Pixel& pixel = pixels_[static_cast<std::size_t>(x)];
     const auto border = [&](int side) {
@@ -75,7 +76,7 @@ class Row {
   int y_;
   const DepthImage& depth_;
   std::vector<Pixel> pixels_;
-  double max_disparity_ = 0;  ///< the largest disparity
+  double max_disparity_ = 0;  ///< the largest disparity of the row
 };
 
 constexpr double kRightAngle = std::numbers::pi / 2;
@@ -138,8 +139,8 @@ class Exposure {
     return IsDepthEdge(own, other) ? other : own;
   }
 
-  // Adds axial noise to a depth. Disparity steps of s make depth steps of s z² / (f b), whose rounding adds the
-  // variance step² / 12. The published law includes this variance, so it is subtracted here.
+  // Adds axial noise to a depth. A disparity step s is a depth step of s z² / (f b); rounding to it adds the variance
+  // step² / 12. The published law includes this variance, so it is subtracted here.
   double WithNoise(double z, double normal) const {
     if (std::isinf(z)) return z;
     const double step = HasSteps() ? Step() * z * z / Focus() : 0;

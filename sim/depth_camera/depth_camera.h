@@ -18,24 +18,24 @@ Mask ProjectorShadow(const DepthImage& depth, const Camera& camera, double basel
 
 /// The properties of a depth camera and the strengths of its faults.
 struct DepthCameraOptions {
-  DepthLaw law = DepthLaw::kStructuredLight;  ///< the law of σ_z at a pixel, including the part due to rounding
+  DepthLaw law = DepthLaw::kStructuredLight;  ///< law of a pixel's σ_z, including the part due to rounding
   /// The focal length of the sensor's own picture, pixels. Lateral noise and disparity steps are given in these pixels.
-  /// In a picture with another focal length, their size in the world is the same.
+  /// In a picture with another focal length, noise and steps have the same size in the world.
   double focal_px = 580;
   /// The distance from the camera to the projector on its right (+x of the camera's frame), metres. With 0 the light
   /// comes from the lens itself: there are no shadows and no depth steps.
   double baseline_m = 0.075;
-  double disparity_step_px = 1.0 / 8;  ///< disparities d = focal_px · baseline_m / z are rounded to multiples of it
+  double disparity_step_px = 1.0 / 8;  ///< step to whose multiples disparities focal_px · baseline_m / z are rounded
   double near_m = 0.8;
   double far_m = 4.0;
   /// The maximum angle between a surface's normal and the line of sight at which depth is measured, radians.
   double largest_angle = 1.396;
 
   // Strengths, each ≥ 0: 1 is the sensor's value, and 0 switches the fault off.
-  double axial_noise = 1;    ///< multiplies σ_z
-  double lateral_noise = 1;  ///< multiplies the standard deviation of edges, in both directions of the picture
-  double steps = 1;          ///< multiplies disparity_step_px; 0: depth is not rounded
-  double shadows = 1;        ///< multiplies the shadows' width
+  double axial_noise = 1;    ///< factor on σ_z
+  double lateral_noise = 1;  ///< factor on the standard deviation of edge positions, along both axes of the picture
+  double steps = 1;          ///< factor on disparity_step_px; 0: depth is not rounded
+  double shadows = 1;        ///< factor on the shadows' width
   double range = 1;          ///< no depth is measured below range · near_m or above far_m / range
   double grazing = 1;        ///< at most 1: moves the angle limit from a right angle (0) to largest_angle (1)
 };
@@ -43,8 +43,8 @@ struct DepthCameraOptions {
 /// Returns the options of a structured-light camera, Microsoft's first Kinect: 0.8–4.0 m, with `near_mode` 0.4–3.0 m.
 DepthCameraOptions KinectV1Depth(bool near_mode = false);
 /// Returns the options of a time-of-flight camera, Microsoft's second Kinect: 0.5–4.5 m, without steps and shadows. No
-/// source gives its edge noise; we assume as many pixels as for the first Kinect, but its own pixels (focal length
-/// 365).
+/// source gives its edge noise; we assume the same number of pixels as for the first Kinect, with a focal length of 365
+/// pixels.
 DepthCameraOptions KinectV2Depth();
 
 /// The value of a pixel without a measurement. In true depth images, it means that there is no surface.

@@ -11,12 +11,13 @@ namespace etude {
 /// The errors of a music player's clock, relative to the dance's own clock.
 struct MusicClockOptions {
   double drift = 0;             ///< music plays at 1 + drift times its speed
-  double stutters_per_min = 0;  ///< mean number of interruptions
+  double stutters_per_min = 0;  ///< mean number of interruptions per minute
   double stutter_s = 0.2;       ///< duration of an interruption; playing continues where it stopped
 };
 
 /// A simulated music player at 30 Hz: it gives the position in the song at every frame of a session. It draws one
-/// number per frame, whatever it plays. Its stutters are therefore on the same frames of the session for every coach.
+/// number per frame, also while it is paused. Its stutters are therefore on the same frames of the session for every
+/// coach.
 class MusicClock {
  public:
   MusicClock(const MusicClockOptions& options, const WorldKey& world);

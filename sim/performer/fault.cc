@@ -24,7 +24,7 @@ constexpr std::array<Named<Fault>, 10> kFaults = {{{"amplitude", Fault::kAmplitu
 
 using enum Role;
 
-/// The number of compared limb directions: trunk, line of the shoulders, both upper arms, forearms, thighs and shanks.
+/// The number of compared limb directions: trunk, shoulder line, upper arms, forearms, thighs and shanks.
 constexpr std::size_t kStrayLimbs = 10;
 
 /// Returns the centre of the i-th of `count` equal parts of [0, 1].

@@ -18,21 +18,21 @@ enum class Fault {
   kWrongMove,      ///< another move is danced
   kSkipped,        ///< the person stands still instead
   kLate,           ///< the whole move is late
-  kOffBeat,        ///< hurries or drags within the move, and is on time again at its end
-  kLimbMissing,    ///< one limb does not move
+  kOffBeat,        ///< the person hurries or drags within the move, and is on time again at its end
+  kLimbMissing,    ///< one limb stays at rest
   kElbowStraight,  ///< elbows that should bend stay straight
-  kWrongOrder,     ///< the parts of the move in a different order
-  kStopped,        ///< stops before the end
+  kWrongOrder,     ///< the parts of the move are danced in another order
+  kStopped,        ///< the person stops before the end
 };
 
 /// A fault and its severity: 0 changes nothing, and 1 is the worst form of this fault. Faults of execution (amplitude,
 /// late, off beat, limb missing, elbow straight) grow in magnitude. Faults of content (side, move, skipped, order,
-/// stopped) affect a growing share of the performance, from its beginning; then the person notices, and dances
+/// stopped) affect a growing share of the performance, from its beginning; after this share the person dances
 /// correctly.
 struct GradedFault {
   Fault fault = Fault::kAmplitude;
-  double severity = 1;  ///< in [0, 1]
-  double choice = 0;    ///< in [0, 1): selects a variant of the fault, e.g. which limb, or hurrying against dragging
+  double severity = 1;  ///< severity in [0, 1]
+  double choice = 0;    ///< number in [0, 1) that selects a variant of the fault, for example which limb
 };
 
 /// Returns all faults, in the order of the enum.
@@ -51,9 +51,9 @@ std::string FaultNames(const std::vector<GradedFault>& faults);
 /// the same habits and the same random variation, but without faults. The motion of other people, taught clips and
 /// recognisers are not used.
 struct Stray {
-  /// For each limb, the angle between its danced and its meant direction, as root mean square over the performance; the
-  /// largest value over the limbs, degrees. Poses are compared at equal shares of the performance, independently of
-  /// timing.
+  /// The largest error of a limb, degrees. A limb's error is the root mean square, over the performance, of the angle
+  /// between its danced and its meant direction. Poses are compared at equal shares of the performance, independently
+  /// of timing.
   double limb_deg = 0;
   /// The difference between the danced and the meant timing: root mean square over the performance, beats.
   double timing_beats = 0;
@@ -62,13 +62,13 @@ struct Stray {
 /// The true judgement of a performance.
 enum class Truth {
   kRight,
-  kGrey,  ///< neither right nor wrong: reported separately and not scored
+  kGrey,  ///< neither right nor wrong; reported separately and not scored
   kWrong,
 };
 /// Returns "right", "grey" or "wrong".
 std::string_view TruthName(Truth truth);
 
-/// A performance is right up to the stray `right`, wrong above the stray `wrong`, and grey between them (ours).
+/// The limits of a stray. A performance is right up to `right`, wrong above `wrong`, and grey between them (ours).
 struct StrayLimits {
   Stray right{.limb_deg = 12, .timing_beats = 0.25};
   Stray wrong{.limb_deg = 25, .timing_beats = 0.5};

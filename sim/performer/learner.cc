@@ -19,12 +19,12 @@ namespace {
 // knowledge of results teaches much: this is the first finding of Salmoni, Schmidt and Walter (1984).
 constexpr double kPractice = 0.25;
 constexpr double kDemonstration = 1;
-constexpr double kCorrection = 4;  // for each fault in the corrected performance
+constexpr double kCorrection = 4;  // units per fault of the corrected performance
 constexpr double kWrongPraise = 0.5;
 
-// Feedback guides (Winstein and Schmidt 1990): errors are rarer immediately after feedback, but not permanently.
-constexpr double kGuided = 0.5;           // share of errors avoided right after feedback
-constexpr double kGuidedLater = 0.5;      // share of guidance left one performance later
+// Guidance (Winstein and Schmidt 1990): feedback makes errors rarer in the next performances, but not permanently.
+constexpr double kGuided = 0.5;           // share of errors avoided in the first performance after feedback
+constexpr double kGuidedLater = 0.5;      // share of guidance that is left after each further performance
 constexpr double kFrequencyMemory = 0.7;  // weight of the past in the running mean of feedback frequency
 
 // Losses and gains of patience, whose maximum is 1 (ours).
@@ -33,16 +33,16 @@ constexpr double kWrongPraiseCost = 0.06;
 constexpr double kCorrectionCost = 0.02;
 constexpr double kPraiseGain = 0.03;
 
-/// The minimum severity of a fault that happens (ours). Below it, many faults would be too mild to make a performance
+/// The minimum severity of a fault that happens (ours). Many faults below it would be too mild to make a performance
 /// wrong.
 constexpr double kMinSeverity = 0.35;
 
-/// For a person without any skill, the probability of each fault, in the order of Fault (ours).
+/// The probability of each fault for a person without any skill, in the order of Fault (ours).
 constexpr std::array<double, 10> kFaultChances = {0.25, 0.10, 0.10, 0.12, 0.15, 0.10, 0.12, 0.12, 0.08, 0.10};
 using Proneness = std::array<double, 10>;
 
-/// Draws the probability of each fault in one move, without skill. Each person has typical mistakes: in every move two
-/// faults are frequent and the others rare (ours).
+/// Draws the probability of each fault in one move for a person without skill. Each person has typical mistakes: in
+/// every move two faults are frequent and the others rare (ours).
 Proneness DrawProneness(RandomStream& dice, std::span<const GradedFault> showable) {
   constexpr std::array<double, 2> kTypical = {0.45, 0.25};
   constexpr double kSeldom = 0.3;
@@ -100,13 +100,13 @@ Sway DrawSway(const WorldKey& key) {
 }  // namespace
 
 struct Learner::MoveState {
-  std::vector<Skill> skills;  // in the order of Fault
+  std::vector<Skill> skills;  // skills in the order of Fault
   Proneness proneness{};      // probability of each fault without any skill
   std::unique_ptr<Style> style;
   int attempts = 0;
   std::optional<std::size_t> latest;  // index of the latest performance that is over and was not cut
   bool latest_was_corrected = false;
-  bool had_feedback = false;      // true if there was feedback since the latest performance
+  bool had_feedback = false;      // true after feedback, until the next performance ends
   double feedback_frequency = 0;  // running mean, in [0, 1]
   double guided = 0;              // share of errors that guidance avoids now
 
@@ -117,8 +117,8 @@ struct Learner::MoveState {
 };
 
 struct Learner::Layer {
-  std::optional<Rendition> rendition;  // empty: the body stands
-  double seen_s = 0;                   // time from which the action was shown
+  std::optional<Rendition> rendition;  // the performance; empty: the body stands
+  double seen_s = 0;                   // time at which the person saw the action begin
   double lag_s = 0;
   double blend_s = kBlendSeconds;
   double vigour = 1;
@@ -127,8 +127,9 @@ struct Learner::Layer {
 
   double Weight(double time_s) const { return Smootherstep((time_s - seen_s) / blend_s); }
 
-  /// Returns the person's time within the performance, as a share: the beat that they saw one lag ago. Before the first
-  /// beat, the time accelerates from rest; after the last shown beat, it continues at the move's tempo.
+  /// Returns the share of the performance at which a perfectly timed performance would be: the beat that the person saw
+  /// one lag ago. Before the first beat, this time accelerates from rest; after the last shown beat, it continues at
+  /// the move's tempo.
   double DueAt(double time_s) const {
     const Move& move = rendition->style().move();
     const double beats_per_s = move.tempo_bpm / 60, length_s = move.beats / beats_per_s;
@@ -187,11 +188,11 @@ const BodyPose& Learner::Step(const Shown& shown) {
 void Learner::Notice(const Shown& shown) {
   using enum Shown::Act;
   const bool goes_on = shown.act == before_.act && shown.move == before_.move && shown.repetition == before_.repetition;
-  // If the same performance is still shown, record its beat.
+  // If the coach still shows the same performance, record its beat.
   if (goes_on) {
     if (shown.act == kDance && layers_.back().rendition) layers_.back().beats.push_back(shown.beat);
   } else {
-    // If the coach shows something else now, end the dance; then begin the next dance, or learn from the coach's act.
+    // If the coach now shows something else, end the dance; then begin the next dance, or learn from the coach's act.
     if (before_.act == kDance) End();
     if (shown.act == kDance) {
       Begin(shown);
@@ -277,7 +278,7 @@ void Learner::End() {
   LearnerPerformance& performance = performances_.back();
   const Move& move = moves_[static_cast<std::size_t>(performance.move)];
   MoveState& known = known_[static_cast<std::size_t>(performance.move)];
-  constexpr double kLastBeats = 0.25;  // longer than one frame, so that a performance shown to its end is not cut
+  constexpr double kLastBeats = 0.25;  // beats; more than a frame, so a performance shown to its end is not cut
   performance.is_over = true;
   performance.is_cut = before_.beat < move.beats - kLastBeats;
   performance.event.end_s = time_s_ + performance.event.chance.lag_s;
@@ -301,7 +302,7 @@ void Learner::NoteFeedback(std::size_t move) {
 void Learner::Correct(std::size_t move) {
   MoveState& known = known_[move];
   if (HasGivenUp()) return;
-  // A correction that does not follow a mistake only costs patience.
+  // A correction without a mistake before it only costs patience.
   const bool follows_mistake =
       known.latest && !known.latest_was_corrected && performances_[*known.latest].event.truth != Truth::kRight;
   if (!follows_mistake) {

@@ -18,16 +18,16 @@ namespace etude {
 /// The coach's action as a learner sees it in one frame.
 struct Shown {
   enum class Act {
-    kNothing,      ///< stands by, dozes or wakes; the learner has nothing to follow
-    kDance,        ///< dances `move` for the learner to dance along
-    kCorrect,      ///< corrects `move`: a head shake, a wave, the puzzled act
-    kDemonstrate,  ///< shows `move` slowly while the learner only watches
+    kNothing,      ///< the coach stands by, dozes or wakes; the learner has nothing to follow
+    kDance,        ///< the coach dances `move`, and the learner dances along
+    kCorrect,      ///< the coach corrects `move`: a head shake, a wave, the puzzled act
+    kDemonstrate,  ///< the coach shows `move` slowly, and the learner only watches
   };
   Act act = Act::kNothing;
   int move = -1;         ///< index into the learner's moves; −1 if the action has no move
-  int repetition = -1;   ///< kDance: number of the dance's performance; another number means another performance
-  double beat = 0;       ///< kDance: beats since that performance's first beat, up to the move's length
-  bool praises = false;  ///< true if the latest finished performance is praised in this frame, in any act
+  int repetition = -1;   ///< for kDance: number of the shown performance; a new number begins a new performance
+  double beat = 0;       ///< for kDance: beats since that performance's first beat, up to the move's length
+  bool praises = false;  ///< true if the coach praises the latest finished performance in this frame, in any act
 };
 
 struct LearnerOptions {
@@ -42,12 +42,12 @@ struct LearnerOptions {
   std::optional<double> skill = {};
   /// The severity of every fault that happens, in [0, 1]; drawn if empty.
   std::optional<double> severity = {};
-  bool gives_up = true;  ///< false: a learner never loses patience
+  bool gives_up = true;  ///< if false, the learner never loses patience
 };
 
 /// One performance that a learner was asked for, and its truth. Times are in seconds from the learner's first frame.
 struct LearnerPerformance {
-  int repetition = -1;  ///< number within the dance
+  int repetition = -1;  ///< number of the performance within the dance
   int move = 0;
   int attempt = 0;       ///< number of the attempt at this move, from 0; the key of its random numbers
   bool is_over = false;  ///< true once the coach shows something else
@@ -57,16 +57,16 @@ struct LearnerPerformance {
   SessionEvent event;
 };
 
-/// A person who dances along with a coach and learns, frame by frame. The person's behaviour depends only on what was
-/// shown so far.
+/// A person who dances along with a coach and learns, frame by frame. The person's behaviour depends only on what the
+/// coach has shown so far.
 ///
 /// Learners follow the coach with their lag and in their own style (Style). They make mistakes according to their
 /// skills; there is one skill for every fault of every move. The random numbers of a performance are keyed by its move
 /// and its attempt and never by time, so they are the same under every coach. Practice teaches a little, a
-/// demonstration more, and a correction most, but a correction teaches only about the faults of the mistake before it.
-/// Feedback also guides: it improves the next performances by more than is retained. Praise for a mistake removes
-/// learning. Wrong praise and a correction without a mistake cost patience; without patience a learner gives up and
-/// stands still. The constants are in learner.cc, with their sources or marked as ours.
+/// demonstration more, and a correction most; but a correction teaches only about the faults of the mistake before it.
+/// Feedback also guides: its effect on the next performances is larger than the part that is retained. Praise for a
+/// mistake removes learning. Wrong praise and a correction without a mistake cost patience; without patience a learner
+/// gives up and stands still. The constants are in learner.cc, with their sources or marked as ours.
 class Learner {
  public:
   /// `moves`, `showable` (for these moves) and the text of `key.scenario` must outlive this object.
@@ -88,13 +88,13 @@ class Learner {
   /// Returns the probability that the next performance of this move has no fault.
   double ChanceOfRight(std::size_t move) const;
   /// Returns ChanceOfRight after the time of `performances_later` performances without a coach: the effect of guidance
-  /// has ended, and part of the learning has been forgotten. For a learner who has given up, the result is the
-  /// probability if they danced again.
+  /// has ended, and part of the learning has been forgotten. For a learner who has given up, this is the probability
+  /// that would hold if they danced again.
   double RetainedChanceOfRight(std::size_t move, int performances_later) const;
 
  private:
   struct Layer;      // one action of the body, blended over the one before
-  struct MoveState;  // the skills and the memory of one move
+  struct MoveState;  // the skills of one move and the history of its performances
 
   void Notice(const Shown& shown);
   void Begin(const Shown& shown);
@@ -123,7 +123,7 @@ class Learner {
   Shown before_;  // what the coach showed in the previous frame
   std::vector<LearnerPerformance> performances_;
   std::optional<std::size_t> latest_;  // index of the latest performance that is over and was not cut
-  std::vector<MoveState> known_;       // per move
+  std::vector<MoveState> known_;       // skills and history of each move
   std::vector<Layer> layers_;          // later layers are blended over earlier ones
   BodyPose pose_;
 };

@@ -11,7 +11,7 @@ namespace etude {
 enum class LearningLaw {
   kExponential,  ///< Heathcote, Brown and Mewhort (2000): practice of one person
   kPower,        ///< Newell and Rosenbloom (1981): fast at first, with a long tail
-  kTwoRate,      ///< Smith, Ghazizadeh and Shadmehr (2006): a fast process forgets fast, a slow one retains
+  kTwoRate,      ///< Smith, Ghazizadeh and Shadmehr (2006): one process learns and forgets fast, another slowly
 };
 /// Returns the names "exponential", "power", "two-rate", in the order of the enum.
 const std::vector<std::string>& LearningLawNames();
@@ -26,8 +26,8 @@ struct LearningRates {
   /// The exponent of the power law: after n units, the error is multiplied by (1 + n·rate/exponent)^−exponent (Newell
   /// and Rosenbloom report exponents of 0.2–0.6).
   double exponent = 0.5;
-  // For each of the two states: the share that is kept from one performance to the next, and the share of an error that
-  // is learnt (Smith et al., table 1).
+  // For each of the two states: the share that is kept from one performance to the next, and the learnt share of an
+  // error (Smith et al., table 1).
   double fast_kept = 0.59, fast_learnt = 0.21;
   double slow_kept = 0.992, slow_learnt = 0.02;
 };
@@ -43,7 +43,7 @@ class Skill {
   /// Records one performance, from which the person learns `units`, in [0, 1]. One unit is the learning from one trial
   /// with knowledge of results. Under the two-rate law, a performance also causes forgetting.
   void Practise(double units);
-  /// Adds `units` ≥ 0 of learning that another person causes between performances.
+  /// Adds `units` ≥ 0 of learning between performances: the coach's corrections and demonstrations.
   void Learn(double units);
   /// Removes `units` of learning. Under the two-rate law both states shrink by exp(−rate · units).
   void Unlearn(double units);

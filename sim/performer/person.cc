@@ -9,12 +9,12 @@
 namespace etude {
 namespace {
 
-/// The sizes of one preset. Every spread is a standard deviation. The sizes are ours, except for the statures of school
-/// children, which come from growth charts for six to fourteen years.
+/// The sizes of one preset. Fields named `spread` are standard deviations. The sizes are ours, except for the statures
+/// of school children, which come from growth charts for six to fourteen years.
 struct Preset {
-  double min_m, max_m;         // stature, drawn uniformly
-  double lag_s, lag_spread_s;  // mean over people, and spread between the performances of one person
-  double tempo, tempo_spread;  // typical value, and spread of its logarithm between people
+  double min_m, max_m;         // range of the stature, which is drawn uniformly
+  double lag_s, lag_spread_s;  // mean over people; spread between the performances of one person
+  double tempo, tempo_spread;  // typical value; spread of its logarithm between people
   double own_tempo_spread, drift;
   double amplitude, amplitude_spread;
   double lower, lower_spread;  // gain of hips, trunk and legs relative to the arms
@@ -39,7 +39,7 @@ double ChildhoodOf(People kind, double stature_m) {
   return std::clamp((1.65 - stature_m) / 0.65, 0.0, 1.0);
 }
 
-/// Draws a standard normal number clamped to ±2.5.
+/// Draws a standard normal number, clamped to ±2.5.
 double Bounded(RandomStream& random) { return std::clamp(random.Normal(), -2.5, 2.5); }
 
 /// Draws a person's posture as differences from the ready stance. The standard deviations below are for looseness 1, in
@@ -80,7 +80,7 @@ std::array<double, kControlCount> DrawGains(RandomStream& random, const Preset& 
   const auto own = [&] { return std::clamp(std::exp(preset.gain_spread * Bounded(random)), kMin, kMax); };
   std::array<double, kControlCount> gains{};
   for (std::size_t i = 0; i < kMiddleControlCount; ++i) gains[i] = lower * own();
-  // One side is stronger than the other: the ratio of left to right is the same for all controls.
+  // One side is stronger than the other: all controls have the same ratio of left to right.
   const double strong_left = std::exp(0.5 * preset.asymmetry * Bounded(random));
   for (std::size_t i = 0; i < kSideControlCount; ++i) {
     const auto control = static_cast<SideControl>(i);

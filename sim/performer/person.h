@@ -15,10 +15,10 @@ namespace etude {
 
 /// The kinds of people who dance.
 enum class People {
-  kMixed,        ///< drawn from toddlers, school children, adults and experts
-  kToddler,      ///< 1.0–1.1 m tall; follows late and loosely, tires soon
-  kSchoolChild,  ///< 1.1–1.6 m tall
-  kAdult,        ///< 1.5–1.9 m tall
+  kMixed,        ///< a person drawn from toddlers, school children, adults and experts
+  kToddler,      ///< a child, 1.0–1.1 m tall, who follows late and loosely and tires soon
+  kSchoolChild,  ///< a child, 1.1–1.6 m tall
+  kAdult,        ///< an adult, 1.5–1.9 m tall
   kExpert,       ///< an adult who dances nearly as taught
   kAbsent,       ///< an adult who stands still and does not take part
 };
@@ -35,30 +35,30 @@ constexpr std::array<double, kControlCount> AllGains(double gain) {
   return gains;
 }
 
-/// The traits of a person that stay the same from move to move. The defaults describe the canonical body, dancing
-/// exactly as taught.
+/// The traits of a person that stay the same from move to move. The defaults are those of the canonical body that
+/// dances exactly as taught.
 struct Person {
-  People kind = People::kExpert;  ///< never kMixed
+  People kind = People::kExpert;  ///< the kind of person, never kMixed
   double stature_m = 1.7;
   BodyDimensions body = {};
   FloorMove place = {};  ///< position and heading on the floor; the coach is at the origin and faces +Z
 
   double lag_s = 0;         ///< mean delay behind the coach
   double lag_spread_s = 0;  ///< standard deviation of the delay between performances
-  double tempo = 1;         ///< multiplies the move's tempo where no music sets it
+  double tempo = 1;         ///< factor on the move's tempo if no music sets the tempo
   double tempo_spread = 0;  ///< standard deviation of the tempo's logarithm between performances
   double drift = 0;         ///< unevenness of the timing within a performance, as a share of its length
-  double amplitude = 1;     ///< multiplies every angle's distance from the ready stance
+  double amplitude = 1;     ///< factor on every angle's distance from the ready stance
   double tiring = 0;        ///< share of the amplitude that is lost after a minute of dancing
 
-  /// The gain of each control, which multiplies its distance from the ready stance. Gains determine which movements
-  /// the person exaggerates or reduces, and which side is stronger.
+  /// The gain of each control: the factor on its distance from the ready stance. Gains determine which movements the
+  /// person exaggerates or reduces, and which side is stronger.
   std::array<double, kControlCount> gains = AllGains(1);
   /// The person's posture: offsets that are added to the controls, in every move and at rest.
   Controls posture = {};
   /// The size of the offsets in the person's Style; about 1 for an adult, 0 for a person who dances exactly as taught.
   double looseness = 0;
-  std::uint64_t style = 0;  ///< the key from which the random numbers of the person's Style of every move are drawn
+  std::uint64_t style = 0;  ///< key of the random numbers of the person's Style of every move
 };
 
 /// Returns the kind of person for a number `share` in [0, 1). In the mixture, toddlers come first, then school
@@ -66,7 +66,7 @@ struct Person {
 People KindInMixture(double share);
 
 /// Draws a person; every world draws its own. A preset changes only the sizes: with equal random numbers, a toddler and
-/// an adult differ in the same way from the averages of their kinds.
+/// an adult deviate in the same way from the means of their kinds.
 Person DrawPerson(const WorldKey& key, People people);
 
 /// Returns the share of the amplitude that is left after `danced_s` seconds of dancing. It never falls below 0.6.

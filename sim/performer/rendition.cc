@@ -12,15 +12,15 @@
 namespace etude {
 namespace {
 
-/// The duration of a change from wrong to right or from right to wrong, as a share of a performance.
+/// The duration of a change between wrong and right, as a share of a performance.
 constexpr double kChange = 0.25;
 
 // The effects of faults at severity 1 (ours).
 constexpr double kLostAmplitude = 0.8;
 constexpr double kLateBeats = 1;
-constexpr double kOffBeats = 1;  // at the largest deviation; kMaxOffBeat limits it, so that the timing never goes back
+constexpr double kOffBeats = 1;  // delay at the largest deviation; kMaxOffBeat limits it, so the timing never goes back
 constexpr double kMaxOffBeat = 0.7 / kPi;
-constexpr double kUnstopped = 0.35;  // share danced before a person stops
+constexpr double kUnstopped = 0.35;  // share of the move that is danced before the person stops
 
 /// Returns 1 while `share` is below `severity`, and 0 above, with a smooth change between.
 double First(double share, double severity) {
@@ -96,7 +96,7 @@ Controls Rendition::Reordered(double share, double vigour) const {
   static constexpr std::array<int, 4> kOrder = {0, 2, 1, 3};
   static constexpr double kQuarter = 0.25, kBorderBlend = 0.22;
   const auto moved = [](std::size_t quarter) { return kQuarter * (kOrder[quarter] - static_cast<int>(quarter)); };
-  // Near a border between two quarters, both quarters continue, and the earlier one is blended into the later one.
+  // Near a border between two quarters, both quarters are danced on, and the earlier one is blended into the later one.
   const double border = std::clamp(std::round(share / kQuarter), 1.0, 3.0);
   const auto after = static_cast<std::size_t>(border), before = after - 1;
   const double over = Smootherstep((share - kQuarter * border) / kBorderBlend + 0.5);

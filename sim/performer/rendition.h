@@ -29,17 +29,17 @@ inline double EasedTime(double time, double length) {
 /// The random variation of one performance, without its faults. It differs between the performances of one person.
 struct Chance {
   double lag_s = 0;        ///< delay behind the coach
-  double tempo = 1;        ///< multiplies the move's tempo
+  double tempo = 1;        ///< factor on the move's tempo
   double unevenness = 0;   ///< unevenness of the timing from the first beat to the last, as a share of the performance
-  std::uint64_t ways = 0;  ///< the key from which the random numbers of the performance's offsets are drawn
+  std::uint64_t ways = 0;  ///< key of the random numbers of the performance's offsets
 };
 
 /// Draws the variation of one performance by this person.
 Chance DrawChance(RandomStream& random, const Person& person);
 
-/// One performance of a move. At each share of the performance it gives the body, and at each time the share that is
-/// reached, both with the performance's faults and as meant. Shares and times run from 0 at the first beat to 1 at the
-/// last, and continue smoothly beyond.
+/// One performance of a move: the body at each share of the performance, and the share that is reached at each time.
+/// Both exist with the performance's faults (danced) and without them (meant). Shares and times run from 0 at the first
+/// beat to 1 at the last, and continue smoothly beyond.
 class Rendition {
  public:
   /// `meant` and `instead` must outlive this object. With the fault kWrongMove, `instead` is danced.
@@ -76,9 +76,9 @@ class Rendition {
   std::vector<GradedFault> faults_;
 };
 
-/// Returns true if this fault alone, at its worst, makes a performance of `move` truly wrong when somebody dances who
-/// otherwise dances as taught. If a move equals its own mirror image half a performance later, it has no wrong side.
-/// `choice` has the meaning of GradedFault::choice; `instead` is used for kWrongMove.
+/// Returns true if this fault alone, at its worst, makes a performance of `move` truly wrong by a person who otherwise
+/// dances as taught. If a move equals its own mirror image half a performance later, it has no wrong side. `choice` has
+/// the meaning of GradedFault::choice; `instead` is used for kWrongMove.
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead);
 
 /// For each move, the faults that it can show. They are the same for every person. The search takes some milliseconds

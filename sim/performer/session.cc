@@ -35,7 +35,7 @@ std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count,
   return drawn;
 }
 
-/// Adds one fault that the move can show and the event does not have yet, if there is one.
+/// Adds one random fault that the move can show and the event does not have, if one is found.
 void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOptions& options, SessionEvent& event) {
   const Move& asked = *FindByName(moves, event.move);
   std::vector<Fault> left = options.faults.empty() ? AllFaults() : options.faults;
@@ -56,7 +56,7 @@ void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOp
   }
 }
 
-/// An event with its rendition, placed at its time in the session.
+/// An event's rendition, placed at its time in the session.
 class Dance {
  public:
   Dance(const SessionEvent& event, Rendition rendition)
@@ -122,7 +122,7 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
   Shuffle(random, is_fault);
 
   constexpr double kStandsFirst = 2.0;  // time that sensors and filters need to settle
-  constexpr double kMinRest = 1.0;      // keeps the blends out of one move and into the next apart
+  constexpr double kMinRest = 1.0;      // separates the blend out of one move from the blend into the next
   SessionPlan plan;
   double time = kStandsFirst;
   const std::vector<std::size_t> asked = DrawMoves(random, moves.size(), count);
@@ -134,7 +134,7 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
     event.start_s = time;
     event.chance = DrawChance(random, person);
     event.end_s = time + event.chance.lag_s + move.beats * 60 / (move.tempo_bpm * event.chance.tempo);
-    // Draw the event's faults.
+    // Draw the event's faults. An absent person only stands still.
     if (person.kind == People::kAbsent) {
       event.faults = {{Fault::kSkipped, 1, 0}};
       event.danced.clear();

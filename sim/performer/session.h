@@ -19,16 +19,16 @@ struct SessionOptions {
   int events = 10;
   double fault_share = 0.5;             ///< share of events with a fault, rounded to whole events
   double two_faults = 0.25;             ///< probability that an event with a fault has a second one
-  std::optional<double> severity = {};  ///< severity of every fault, in [0, 1]; if empty, drawn uniformly for each
-  std::vector<Fault> faults = {};       ///< faults that may occur; empty: all
+  std::optional<double> severity = {};  ///< severity of every fault, in [0, 1]; if empty, drawn for each fault
+  std::vector<Fault> faults = {};       ///< faults that may occur; if empty, all
   double rest_s = 1.5;                  ///< minimum pause from an event's window to the next first beat; at least 1
 };
 
 /// One event of a session: a scripted performance of a move. All times are in seconds from the session's first frame.
 struct SessionEvent {
   std::string move;                      ///< the requested move, which the person means to dance
-  std::vector<GradedFault> faults = {};  ///< empty: performed as meant
-  std::string danced;                    ///< the move that is danced, fully or in part; empty: none
+  std::vector<GradedFault> faults = {};  ///< faults; empty if performed as meant
+  std::string danced;                    ///< the move that is danced, fully or in part; empty if none
   double start_s = 0;                    ///< time of the first requested beat
   double end_s = 0;                      ///< time of the last beat as this person means to dance it
   Chance chance = {};                    ///< random variation of this performance
@@ -45,7 +45,7 @@ struct SessionEvent {
 };
 
 struct SessionPlan {
-  std::vector<SessionEvent> events;  ///< in order of time; windows never overlap
+  std::vector<SessionEvent> events;  ///< events in order of time; their windows never overlap
   double duration_s = 0;
 };
 

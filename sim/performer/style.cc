@@ -141,8 +141,8 @@ SmoothOffsets::SmoothOffsets(RandomStream& random, double size) {
     terms_[i] = DrawTerms(random);
     for (double& term : terms_[i]) term *= size * Spans()[i].spread;
   }
-  // The weights of two parts of a control's offset: one that both sides share, and one for each side. Their squares sum
-  // to one.
+  // The weights of two parts of a control's offset: one that both sides share, and one for each side. The squares of
+  // the weights sum to one.
   constexpr double kCommon = 0.8, kAlone = 0.6;
   for (std::size_t i = 0; i < kSideControlCount; ++i) {
     const auto control = static_cast<SideControl>(i);

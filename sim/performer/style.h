@@ -10,8 +10,8 @@
 namespace etude {
 
 /// Offsets of every control that vary smoothly over one performance and have its length as their period: a constant and
-/// three harmonics per control. The offsets of left and right are correlated, as in a real body. The spot of a standing
-/// foot gets only a constant offset, because the foot must not slide.
+/// three harmonics per control. The offsets of left and right are correlated. The spot of a standing foot gets only a
+/// constant offset, because the foot must not slide.
 class SmoothOffsets {
  public:
   SmoothOffsets() = default;
@@ -51,12 +51,12 @@ class Style {
 /// Returns the person's posture at rest.
 Controls RestOf(const Person& person);
 
-/// Returns `wanted` with every control kept within its joint's range. If `authored` has a control outside the range,
-/// the control may stay there but goes no further. Near the end of the range the difference from `authored` saturates
-/// smoothly.
+/// Returns `wanted` with every control kept within its joint's range. A control whose value in `authored` is outside
+/// the range may keep this value but goes no further. Near the end of the range the difference from `authored`
+/// saturates smoothly.
 Controls WithinReach(const Controls& wanted, const Controls& authored);
 
-/// The sway of a standing body: its weight shifts from foot to foot, its chest breathes, and its head turns.
+/// The sway of a standing body: the weight shifts from foot to foot, the chest breathes, and the head turns.
 class Sway {
  public:
   explicit Sway(RandomStream& random);

@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/random/philox_lanes.cc"
-#include "hwy/foreach_target.h"  // before highway.h
+#include "hwy/foreach_target.h"  // must come before highway.h
 
 // This header must be included after foreach_target.h.
 #include "hwy/highway.h"
@@ -26,7 +26,7 @@ struct Product {
 HWY_INLINE Product Multiply(Vec a, uint64_t constant) {
   const Word word;
   const hn::Repartition<uint32_t, Word> half;
-  // Multiply the 32-bit halves of the factors: 0 is the low half, 1 the high half.
+  // Multiply the 32-bit halves of the factors; index 0 is the low half, index 1 the high half.
   const auto mask = hn::Set(word, 0xffffffffu);
   const auto a0 = hn::BitCast(half, a), a1 = hn::BitCast(half, hn::ShiftRight<32>(a));
   const auto b0 = hn::BitCast(half, hn::Set(word, constant)), b1 = hn::BitCast(half, hn::Set(word, constant >> 32));
@@ -83,10 +83,10 @@ HalvesWithin FindWithin(const uint64_t* words, size_t count, uint32_t low, uint3
   const hn::Repartition<uint32_t, decltype(word)> half;
   const auto from = hn::Set(half, low), width = hn::Set(half, last - low);
   HalvesWithin found;
-  size_t done = 0;  // numbers
+  size_t done = 0;  // number of numbers already compared
   for (; done + hn::Lanes(half) <= count; done += hn::Lanes(half)) {
     const auto numbers = hn::BitCast(half, hn::LoadU(word, words + done / 2));
-    const auto is_within = hn::Not(hn::Lt(width, hn::Sub(numbers, from)));  // numbers below `low` wrap around
+    const auto is_within = hn::Not(hn::Lt(width, hn::Sub(numbers, from)));  // a number below `low` wraps around
     found.below += hn::CountTrue(half, hn::Lt(numbers, from));
     hn::StoreU(hn::Compress(numbers, is_within), half, within + found.within);
     found.within += hn::CountTrue(half, is_within);

@@ -15,8 +15,7 @@ namespace etude {
 
 namespace {
 
-/// Derives a key from a text by CBC-MAC. The text's length is the first block; therefore no input is a prefix of
-/// another.
+/// Derives a key from a text by CBC-MAC. The first block is the text's length, so no input is a prefix of another.
 Words256 DeriveKey(const Words256& key, std::string_view text) {
   Words256 chained = Encrypt(key, {text.size()});
   while (!text.empty()) {

@@ -20,9 +20,9 @@ struct WorldKey {
 };
 
 /// A stream of random numbers that depends only on its key and is the same on every machine (counter-based: Philox
-/// 4×64-10 of Random123, Salmon et al. 2011). With a secret seed, the stream is Threefish-256 in counter mode; the
-/// cipher derives the key from the secret and from everything that names the stream. The numbers of all other streams
-/// then reveal nothing about this one. The distributions are our own, because those of standard libraries differ.
+/// 4×64-10 of Random123, Salmon et al. 2011). With a secret seed, the stream is Threefish-256 in counter mode; its key
+/// is derived with the cipher from the secret and from all names of the stream. The numbers of all other streams then
+/// reveal nothing about this one. The distributions are our own, because those of standard libraries differ.
 class RandomStream {
  public:
   /// Makes the stream of one purpose, such as "joint-noise" or "camera-0/pixel-noise". It is independent of all other

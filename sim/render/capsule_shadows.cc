@@ -9,11 +9,11 @@
 namespace etude {
 namespace {
 
-// Up to this distance from the body, the surface on which it stands is darkened by the contact shadow, metres.
+// The distance from the body, metres, up to which its contact shadow darkens the surface below it.
 constexpr float kContactReach = 0.12f;
 // A margin for the rounding of pixels' positions, which are computed in single precision.
 constexpr double kFloatMargin = 1e-3;
-// Capsules farther away than this cast no shadow, metres.
+// Capsules with a coordinate of at least this magnitude, metres, cast no shadow.
 constexpr double kMaxCasterDistance = 1e4;
 
 float Clamp01(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
@@ -45,14 +45,14 @@ class Caster {
     is_near_floor_ = std::min(capsule.a.y, capsule.b.y) - radius_ < kContactReach;
   }
 
-  // Returns false if certainly no pixel of the tile is in the capsule's shadow; otherwise true.
+  // Returns false only if no pixel of the tile can be in the capsule's shadow.
   bool MayDarken(const RoomTile& tile) const {
     if (tile.farthest < nearest_ - kFloatMargin) return false;
     const glm::dvec3 apart = tile.middle - middle_;
     const double both = tile.spread + spread_ + kFloatMargin;
     if (glm::dot(apart, apart) > both * both) return false;
     // Compute the distance of the capsule's axis from the line through the lamp in the tile's middle direction. A ray
-    // whose direction differs by `spread` passes a point at distance d at most d times `spread` closer.
+    // whose direction differs by up to `spread` passes a point at distance d at most d · `spread` closer.
     const auto across = [&](const glm::dvec3& v) { return v - glm::dot(v, tile.middle) * tile.middle; };
     const glm::dvec3 from = across(start_), direction = across(along_);
     const double square = glm::dot(direction, direction);
@@ -62,8 +62,8 @@ class Caster {
     return glm::dot(gap, gap) <= reach * reach;
   }
 
-  // Returns false if certainly no pixel of the tile is within kContactReach of the capsule; otherwise true. Used for
-  // capsules on or near the floor.
+  // Returns false only if no pixel of the tile can be within kContactReach of the capsule, which must be on or near the
+  // floor.
   bool MayTouch(const RoomTile& tile) const {
     if (!is_near_floor_) return false;
     const double square = glm::dot(along_, along_);
@@ -113,8 +113,8 @@ class Caster {
  private:
   glm::dvec3 start_, along_;
   double radius_;
-  glm::dvec3 middle_;  // unit: the axis of a cone around the tile's directions
-  double spread_;      // largest deviation from `middle_`, measured as RoomTile::spread
+  glm::dvec3 middle_;  // unit axis of a cone at the lamp that contains the capsule
+  double spread_;      // largest deviation from `middle_`, in the measure of RoomTile::spread
   double nearest_, farthest_;
   bool is_near_floor_;
 };

@@ -12,8 +12,8 @@
 namespace etude {
 namespace {
 
-/// The functions of EGL. They are looked up in EGL's library only, because other loaded libraries may define the same
-/// names.
+/// The functions of EGL. They are looked up only in EGL's own library, because other loaded libraries may define the
+/// same names.
 struct Egl {
   decltype(&eglGetPlatformDisplay) GetPlatformDisplay = nullptr;
   decltype(&eglInitialize) Initialize = nullptr;

@@ -198,7 +198,7 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   }
   gl_.DrawBuffers(2, attachments);
   for (GLuint i = 0; i < 2; ++i)
-    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last draw may have masked them
+    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last draw may have switched them off
 
   // Draw one triangle over the whole picture; its shader casts a ray for every pixel.
   gl_.Viewport(0, 0, width, height);

@@ -26,11 +26,12 @@ struct RoomTexture {
 /// Draws the random patterns of a room. They depend only on `seed`.
 RoomTexture MakeRoomTexture(std::uint64_t seed);
 
-/// The maximum side of a tile, pixels. Small tiles follow shadows closely, but every tile is tested against every body.
+/// The maximum side of a tile, pixels. Smaller tiles fit shadows more closely, but every tile is tested against every
+/// body.
 constexpr int kRoomTileSize = 16;
 
-/// A tile of the picture, and the directions (unit vectors) from the lamp to the points of the empty room that the tile
-/// shows.
+/// A tile of the picture. Its directions are the unit vectors from the lamp to the points of the empty room that the
+/// tile shows.
 struct RoomTile {
   PixelRect pixels;
   glm::dvec3 middle{0};  ///< mean direction, unit
@@ -42,7 +43,7 @@ struct RoomTile {
 
 /// The points of the empty room that a picture shows, relative to the lamp: one value per pixel, row by row.
 struct LampView {
-  glm::dvec3 lamp{0};           ///< in the world, metres
+  glm::dvec3 lamp{0};           ///< position of the lamp in the world, metres
   std::vector<float> x, y, z;   ///< relative to the lamp, world axes, metres; next to the lamp if no room is seen
   std::vector<RoomTile> tiles;  ///< the tiles in which the room is visible
 };
@@ -52,10 +53,10 @@ struct LampView {
 struct KeptRoom {
   GLuint room = 0;                   ///< texture: RGB = colour, A = depth
   GLuint extra = 0;                  ///< texture: RGB = the lamp's share of the light, A = label
-  std::vector<float> colours;        ///< RGB, three per pixel
+  std::vector<float> colours;        ///< RGB, three numbers per pixel
   std::vector<float> lamp_shares;    ///< three per pixel: share of the lamp in the light
   std::vector<float> depths;         ///< metres
-  std::vector<std::uint8_t> labels;  ///< one per pixel
+  std::vector<std::uint8_t> labels;  ///< one label per pixel
   LampView lamp;
 };
 
@@ -63,8 +64,8 @@ struct KeptRoom {
 /// used pictures are kept.
 class KeptRooms {
  public:
-  /// The two programs draw the studio and interiors (shaders.h). The programs, and `empty_vertices`, a vertex array
-  /// without attributes, must outlive this object.
+  /// `studio_program` draws the studio, and `interior_program` draws interiors (shaders.h). Both programs and
+  /// `empty_vertices`, a vertex array without attributes, must outlive this object.
   KeptRooms(const GlFunctions& gl, GLuint studio_program, GLuint interior_program, GLuint empty_vertices)
       : gl_(gl),
         studio_program_(studio_program),
@@ -91,11 +92,11 @@ class KeptRooms {
   const GlFunctions& gl_;
   GLuint studio_program_, interior_program_;
   GLuint empty_vertices_;
-  std::deque<Kept> kept_;  // most recently used first
+  std::deque<Kept> kept_;  // pictures, the most recently used first
 };
 
 /// Fills `view` with `rows` of the empty room at `brightness`, `width` pixels each. The bytes are exactly those that GL
-/// would draw (round to nearest even). Pictures in `view` with another size are reallocated.
+/// would draw (round to nearest even). Pictures in `view` are reallocated if their size differs.
 void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view);
 

@@ -24,14 +24,15 @@ const Capsule* FindSkull(const std::vector<Capsule>& shape) {
   return skull;
 }
 
-// The capsule that gets a face, and the direction of the face.
+// The capsule on which a face is drawn, and the direction of the face.
 struct Face {
-  const Capsule* head = nullptr;  // null: no face
+  const Capsule* head = nullptr;  // the capsule of the head; null: no face
   glm::dvec3 up{0};
   glm::dvec3 front{0};
 };
 
-// Places the face in the direction of the chest: across the shoulders × up the neck.
+// Places the face in the direction of the chest: the cross product of the line across the shoulders and the line up the
+// neck.
 Face PlaceFace(const std::vector<Capsule>& shape) {
   const Capsule* left = FindFirst(shape, Part::kLeftUpperArm);
   const Capsule* right = FindFirst(shape, Part::kRightUpperArm);

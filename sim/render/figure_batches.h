@@ -12,7 +12,7 @@ namespace etude {
 /// the camera's centre.
 struct CapsuleInstance {
   glm::vec4 start_and_radius;  ///< start of the axis in E, and radius; for a face, the start is at the chin
-  glm::vec4 end_and_label;     ///< end of the axis in E, and label
+  glm::vec4 end_and_label;     ///< end of the axis in E, and the label
   glm::vec4 paint;             ///< RGB 0…1; A = 1 for a head that gets a face
   glm::vec3 front;             ///< unit direction in which the face looks
 };
@@ -23,15 +23,15 @@ std::vector<CapsuleInstance> MakeInstances(const std::vector<Figure>& figures, c
 /// One corner of a triangle as input of the surface shaders. Frame E has the world's axes and its origin at the
 /// camera's centre.
 struct SurfaceCorner {
-  glm::vec3 place;  ///< in E
+  glm::vec3 place;  ///< position in E
   glm::vec3 normal;
   glm::vec4 paint_and_label;  ///< RGB 0…1; A = the triangle's label
   glm::vec4
       rest_and_paint;  ///< position on the body at rest, or RG = position on the texture; A = the paint's index or −1
 };
 
-/// Triangles as three indices each. Triangles of one part that share a vertex also share its corner, which GL then
-/// shades only once.
+/// Triangles as three indices of corners each. If triangles of one part share a vertex, they share its corner, and GL
+/// shades this corner only once.
 struct Triangles {
   std::vector<SurfaceCorner> corners;
   std::vector<std::uint32_t> indices;
@@ -51,8 +51,8 @@ struct SurfaceTriangles {
   std::vector<TexturedRun> textures;  ///< for each run of indices of `textured`, its texture
 };
 
-/// Collects all triangles of all figures in `all`, whose memory is reused. Triangles with a corner or normal that is
-/// not finite, or with a corner far outside any scene, are left out. Paints have indices in the order of PaintsOf.
+/// Collects all triangles of all figures in `all`, whose memory is reused. Triangles are left out if a corner or a
+/// normal is not finite, or if a corner is far outside any scene. Paints have indices in the order of PaintsOf.
 void MakeTriangles(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceTriangles& all);
 
 /// Returns the paints of all surfaces in the order of their indices.

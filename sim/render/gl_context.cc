@@ -4,9 +4,9 @@
 #include <string_view>
 
 #ifdef __SANITIZE_ADDRESS__
-// Known leaks: OSMesa leaks 480 bytes per destroyed context, EGL its display, and fontconfig the data it has read. The
-// sanitizer calls this function in every program that links this file, so neither tests nor manual runs need
-// LSAN_OPTIONS.
+// Known leaks: OSMesa leaks 480 bytes per destroyed context, EGL leaks its display, and fontconfig leaks the data that
+// it has read. The sanitizer calls this function in every program that links this file, so neither tests nor manual
+// runs need LSAN_OPTIONS.
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libOSMesa\nleak:libEGL\nleak:libgallium\nleak:swrast_dri\nleak:libfontconfig\n";
 }

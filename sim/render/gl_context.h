@@ -93,7 +93,7 @@ struct GlFunctions {
 class GlContext {
  public:
   /// Fails if no library can be loaded, if the loaded library cannot make such a context, or if it lacks a function.
-  /// The error states which.
+  /// The error states the cause.
   static Result<std::unique_ptr<GlContext>> Create();
   ~GlContext();
   GlContext(const GlContext&) = delete;

@@ -31,7 +31,7 @@ Result<GlLibrary> LoadEgl();
 Result<void> CheckGlChoice();
 
 /// Returns the library with which this process draws: the one that ETUDE_GL names; otherwise OSMesa if it is present,
-/// otherwise EGL. It is loaded at the first call and not at program start, because it includes a compiler (LLVM):
+/// otherwise EGL. The library is loaded at the first call and not at program start: it includes a compiler (LLVM), so
 /// loading it takes longer than loading most other libraries together.
 const Result<GlLibrary>& LoadedGlLibrary();
 

@@ -69,7 +69,7 @@ void VertexStream::Draw() const {
 void VertexStream::DrawSome(std::size_t first, std::size_t count) const {
   assert(strip_length_ == 0 && first + count <= static_cast<std::size_t>(count_));
   gl_.BindVertexArray(vertices_);
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): here, too, the pointer is an offset into the buffer
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): again, the pointer is an offset into the buffer
   const void* begin = reinterpret_cast<const void*>(first * sizeof(std::uint32_t));
   gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, begin);
 }

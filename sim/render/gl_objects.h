@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// The vertex data of one draw call, uploaded for every picture: corners of triangles, or instances of one triangle
-/// strip whose corners the shader computes. The GL context must outlive this object.
+/// The vertex data of one draw call, uploaded for every picture. An element is a corner of a triangle, or an instance
+/// of a triangle strip whose corners the shader computes. The GL context must outlive this object.
 class VertexStream {
  public:
   /// An input of the shader: `size` floats, which begin `offset` bytes into an element. Locations are numbered from 0
@@ -51,7 +51,7 @@ class VertexStream {
   GLuint buffer_ = 0, indices_ = 0;
 };
 
-/// The textures that were uploaded to GL; a figure's textures are kept from picture to picture. The GL context must
+/// The textures that were uploaded to GL. A figure's textures are kept from picture to picture. The GL context must
 /// outlive this object.
 class TextureStore {
  public:
@@ -91,13 +91,13 @@ class FrameTargets {
   /// faster.
   void Begin(int width, int height, Targets asked);
   /// Clears rectangles (at least one) of the attachments selected by WriteOnly: their pixels then count as not drawn.
-  /// From then on drawing is limited to the bounding rectangle of all of them.
+  /// From then on, drawing is limited to the bounding rectangle of `rects`.
   void Clear(const std::vector<PixelRect>& rects);
-  /// Selects the attachments that the next draw calls write. Masks are used, because a change of attachments would make
-  /// Mesa finish all pending drawing.
+  /// Selects the attachments that the next draw calls write. This uses colour and depth masks, because a change of
+  /// attachments would make Mesa finish all pending drawing.
   void WriteOnly(bool colour, bool labels, bool depth);
-  /// Copies the drawn pixels of a rectangle from GL to the pictures of `view`. These must have their size already;
-  /// their first row is row `top_row`.
+  /// Copies the drawn pixels of a rectangle from GL to the pictures of `view`, which must have their size already.
+  /// Their first row is row `top_row`.
   void Read(const PixelRect& rect, int top_row, Targets targets, View& view);
   /// Copies the drawn pixels of a rectangle from GL to an overlay, unchanged.
   void Read(const PixelRect& rect, Overlay& overlay);
@@ -111,7 +111,7 @@ class FrameTargets {
   GLuint buffers_[4] = {};  // colour, labels, depth, hidden surfaces
   int capacity_width_ = 0, capacity_height_ = 0;
   Targets drawn_ = Targets::kAll;    ///< the attachments in use
-  std::vector<std::uint8_t> bytes_;  // reused from picture to picture
+  std::vector<std::uint8_t> bytes_;  // memory reused from picture to picture
   std::vector<float> depths_;
 };
 

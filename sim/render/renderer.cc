@@ -28,8 +28,8 @@ struct Programs {
   GLuint studio = 0;
   GLuint interior = 0;
   GLuint capsule = 0;
-  GLuint face = 0;     // capsules with a face
-  GLuint surface = 0;  // surfaces in plain colours
+  GLuint face = 0;     // program for capsules with a face
+  GLuint surface = 0;  // program for surfaces in plain colours
   GLuint painted = 0;
   GLuint textured = 0;
   GLuint surface_shadow = 0;

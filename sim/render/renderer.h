@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// Draws rooms and people offscreen with Mesa's llvmpipe. It is not thread-safe. One renderer per process is enough,
-/// for cameras of any size.
+/// Draws rooms and people offscreen with Mesa's llvmpipe. Not thread-safe. One renderer per process is enough for
+/// cameras of any size.
 class Renderer {
  public:
   /// Makes a renderer. Fails, with the reason, if no GL context can be made.
@@ -26,7 +26,7 @@ class Renderer {
   View Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets);
 
   /// Draws only some rows of the picture that Render draws, with the same bytes. The view's height is the number of
-  /// rows. For a rolling shutter, each band of rows is drawn at another time.
+  /// rows. A rolling shutter needs each band of rows at another time.
   View RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
                   const RowRange& rows);
 
@@ -41,15 +41,15 @@ class Renderer {
 };
 
 /// Returns the only renderer of this process. It is made at the first call, because compiling its shaders takes longer
-/// than drawing a hundred pictures. Like every renderer it must be used by one thread at a time. Its pictures do not
-/// depend on earlier ones.
+/// than drawing a hundred pictures. Like every renderer it must be used by one thread at a time. Pictures do not depend
+/// on earlier pictures.
 Result<Renderer*> SharedRenderer();
 
-/// Fails if the environment variable ETUDE_GL, with which a user chooses the GL library, is neither "osmesa" nor "egl".
+/// Fails if the environment variable ETUDE_GL, which selects the GL library, is neither "osmesa" nor "egl".
 Result<void> CheckRendererChoice();
 
-/// Loads the drawing library now instead of at the first drawing, so that it appears among the libraries of this
-/// process. Fails, with the reason, if it cannot be loaded.
+/// Loads the drawing library now and not at the first drawing, so that it appears among the libraries of this process.
+/// Fails, with the reason, if it cannot be loaded.
 Result<void> LoadRenderer();
 
 /// Returns the versions of OpenGL and Mesa, on which pixels depend, and the library used, such as "4.5 (Core Profile)

@@ -14,8 +14,8 @@
 namespace etude {
 
 /// The pattern of two colours on a surface. Patterns from kPlanks on are for rooms only; figures show the first colour
-/// instead. Positions are in metres in the surface's own space: the body at rest for clothes (their patterns therefore
-/// move with them), the plane of a wall or floor, the box of a piece of furniture.
+/// instead. Positions are in metres in the surface's own space: the body at rest for clothes, whose patterns therefore
+/// move with the body; the plane of a wall or floor; the box of a piece of furniture.
 enum class Pattern {
   kPlain,      ///< the first colour
   kBands,      ///< horizontal bands with period `size`
@@ -33,7 +33,7 @@ struct SurfacePaint {
   Rgb8 first{};
   Rgb8 second{};
   Pattern pattern = Pattern::kPlain;
-  double size = 0.1;         ///< metres
+  double size = 0.1;         ///< period, width or side, as the pattern defines, metres
   glm::dvec2 patch{0};       ///< x and y of the centre of a patch of the second colour, in front (z > 0)
   glm::dvec2 patch_half{0};  ///< half its width and height; 0: no patch
   bool is_cloth = false;     ///< true: drawn with seams and creases
@@ -47,15 +47,15 @@ using PartColours = std::array<Rgb8, 16>;
 /// corner or normal is not finite or a corner is 1000 km away. Parts nearer to the camera than 1 cm are clipped.
 struct Surface {
   std::vector<glm::dvec3> positions;                    ///< metres
-  std::vector<glm::dvec3> normals;                      ///< unit, one per position
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
-  std::vector<Part> parts;                              ///< one per triangle: its label
+  std::vector<glm::dvec3> normals;                      ///< unit vectors, one per position
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three positions each, counter-clockwise seen from outside
+  std::vector<Part> parts;                              ///< one part per triangle: its label
   Rgb8 colour;
-  std::optional<PartColours> by_part{};  ///< the colour of each triangle's part, instead of `colour`
-  std::optional<SurfacePaint> paint{};   ///< instead of `colour`
+  std::optional<PartColours> by_part{};  ///< colours of the parts, which replace `colour`
+  std::optional<SurfacePaint> paint{};   ///< the paint, which replaces `colour`
   bool is_closed = false;                ///< true if no back side is ever visible, which makes drawing faster
   std::vector<glm::vec3> rest{};         ///< for `paint`: each position's place on the body at rest, metres
-  SharedTexture texture{};               ///< instead of `colour`, unless there is a paint
+  SharedTexture texture{};               ///< the texture, which replaces `colour` unless there is a paint
   std::vector<glm::vec2> on_texture{};   ///< for `texture`: each position's texture coordinates
 };
 
@@ -66,9 +66,9 @@ struct Figure {
   std::vector<Surface> surfaces{};
   /// Invisible capsules that cast the figure's shadow in furnished rooms, because surfaces cast no shadow there.
   std::vector<Capsule> shadow{};
-  /// If set, the label of all pixels of the figure, kBystander or kClutter, replaces the labels of its parts.
+  /// If set, this label, kBystander or kClutter, replaces the part labels of all pixels of the figure.
   std::optional<Part> seen_as{};
-  bool is_hooded = false;  ///< true: neither hair nor a face is drawn on the head's capsules
+  bool is_hooded = false;  ///< true: no hair and no face on the head's capsules
 };
 
 /// The maximum number of painted surfaces in one picture.
@@ -82,20 +82,20 @@ PartColours PerformerColours();
 /// kFurniture.
 struct FurnitureBox {
   glm::dvec3 centre{0};     ///< metres
-  glm::dvec3 half_size{0};  ///< along its own axes
+  glm::dvec3 half_size{0};  ///< half sizes along the box's own axes
   double heading = 0;       ///< radians: its own +Z points to (sin heading, 0, cos heading)
   SurfacePaint paint;
 };
 
 /// A picture or a window: a painted rectangle on a wall. Its pixels have the wall's label.
 struct WallPicture {
-  enum class Wall { kBack, kLeft, kRight };  ///< planes z = low.z, x = low.x, x = high.x
+  enum class Wall { kBack, kLeft, kRight };  ///< in order: the planes z = low.z, x = low.x, x = high.x
   Wall wall = Wall::kBack;
   glm::dvec2 centre{0};     ///< metres: along the wall (x, or z for a side wall), above the floor
   glm::dvec2 half_size{0};  ///< metres, including the frame
   SurfacePaint paint;
   Rgb8 frame{};
-  double glow = 0;  ///< light of its own; 1 = a window at noon, whose paint does not depend on lamps
+  double glow = 0;  ///< emitted light; 1 = a window at noon, whose paint does not depend on lamps
 };
 
 /// The lights of an interior in linear RGB, relative to the studio's lamp and ambient light.
@@ -120,7 +120,7 @@ struct Interior {
   glm::dvec3 high{4, 3.3, 5};
   SurfacePaint floor, wall, ceiling;
   Rgb8 skirting{};
-  double studio = 0;  ///< share of the studio's paint on walls and floor: 1 = all
+  double studio = 0;  ///< share of the studio's paint on walls and floor; 1 = only the studio's
   glm::dvec4 rug{0};  ///< x, z of the centre, half sizes along x and z; 0: none
   SurfacePaint rug_paint;
   Lights lights;
@@ -139,10 +139,10 @@ constexpr glm::dvec3 kLamp{-1.8, 2.9, 4.0};
 /// The room: either the studio, which has a floor at y = 0 and a wall behind it, both textured and lit by one lamp that
 /// casts shadows; or an interior.
 struct Room {
-  std::uint64_t texture_seed = 1;  ///< determines the spots of the wall and floor
-  double brightness = 1.0;         ///< multiplies the light (exposure, lamp drift), ≥ 0; does not change hues
+  std::uint64_t texture_seed = 1;  ///< seed of the spots on wall and floor
+  double brightness = 1.0;         ///< factor on the light (exposure, lamp drift), ≥ 0; does not change hues
   bool casts_shadows = true;
-  const Interior* interior = nullptr;  ///< null: the studio. Must live until the picture is drawn.
+  const Interior* interior = nullptr;  ///< the interior; null: the studio. Must exist until the picture is drawn.
 };
 
 struct View {
@@ -168,7 +168,7 @@ struct Overlay {
   enum Seen : std::uint8_t { kBody = 0, kShadow = 128, kNothing = 255 };
 
   int width = 0, height = 0;
-  std::vector<std::uint8_t> bytes;  ///< four per pixel: red, green and blue of a body, then Seen
+  std::vector<std::uint8_t> bytes;  ///< four bytes per pixel: red, green and blue of a body, then Seen
   PixelRect drawn{};                ///< every pixel outside is kNothing
 };
 
@@ -178,7 +178,7 @@ struct RowRange {
   int end = 0;
 };
 
-/// The pictures that a caller requests. Colour alone is the fastest; the others stay empty.
+/// The pictures that a caller requests. Colour alone is the fastest. Pictures that are not requested stay empty.
 enum class Targets { kColour, kColourAndLabels, kAll };
 
 /// The maximum side of a picture, pixels.

@@ -43,7 +43,7 @@ class SeenRect {
   void AddEverything() { low_ = glm::dvec2(-kInfinity), high_ = glm::dvec2(kInfinity); }
 
   PixelRect Pixels(const RowRange& rows) const {
-    constexpr double kMargin = 2;  // pixels, for rounding of floats
+    constexpr double kMargin = 2;  // pixels, for rounding errors of floats
     const auto clamp = [](double value, int low, int high) {
       return static_cast<int>(std::clamp(std::floor(value), static_cast<double>(low), static_cast<double>(high)));
     };
@@ -90,7 +90,7 @@ Extent ShadowOn(const Extent& extent, const glm::dvec3& lamp, int axis, double p
   return shadow;
 }
 
-// Return the extents of capsules, one each, and of surfaces, one each. Those with non-finite coordinates are left out.
+// Return one extent per capsule, or one per surface. Points with non-finite coordinates are left out.
 std::vector<Extent> ExtentsOf(const std::vector<Capsule>& shape) {
   std::vector<Extent> extents;
   for (const Capsule& capsule : shape) {

@@ -3,8 +3,8 @@
 namespace etude {
 namespace {
 
-constexpr double kCube = 1.2;   // side, metres
-constexpr double kStand = 0.3;  // height, metres
+constexpr double kCube = 1.2;   // side of the cube, metres
+constexpr double kStand = 0.3;  // height of the stand, metres
 constexpr int kSquares = 5;     // squares along a board's side
 
 constexpr Rgb8 kBlack{25, 25, 25};
@@ -23,7 +23,7 @@ void AddRectangle(const PlacedBoard& placed, const glm::dvec2& low, const glm::d
   }
 }
 
-// Adds a board as rectangles of one colour: black squares whole, white squares module by module.
+// Adds a board as rectangles of one colour: a black square is one rectangle, a white square one rectangle per module.
 void AddBoard(const PlacedBoard& placed, Surface& black, Surface& white) {
   const Board& board = placed.board;
   const double module = board.square / kModules;

@@ -14,14 +14,14 @@ namespace etude {
 struct PlacedBoard {
   Board board;
   glm::dvec3 p_WO{0};           ///< the top left corner
-  glm::dvec3 right_W{1, 0, 0};  ///< unit
-  glm::dvec3 down_W{0, -1, 0};  ///< unit, perpendicular to `right_W`
+  glm::dvec3 right_W{1, 0, 0};  ///< unit vector
+  glm::dvec3 down_W{0, -1, 0};  ///< unit vector, perpendicular to `right_W`
 
   glm::dvec3 At(const glm::dvec2& point) const { return p_WO + point.x * right_W + point.y * down_W; }
 };
 
 /// Returns the boards on a cube of 1.2 m that stands on a stand: one on each of the four sides and one on the top.
-/// Every camera around the cube sees at least two sides, which are "different planes" (paper B, section 2.2). No code
+/// Every camera around the cube sees at least two faces, that is "different planes" (paper B, section 2.2). No code
 /// appears on two boards.
 std::vector<PlacedBoard> CalibrationTarget(const glm::dvec3& middle);
 

@@ -11,11 +11,11 @@
 namespace etude {
 namespace {
 
-constexpr double kAimHeight = 0.95;      // metres: the centre of a standing body
+constexpr double kAimHeight = 0.95;      // height of the centre of a standing body, metres
 constexpr double kFlesh = 0.15;          // metres of flesh around a joint that must also be in the picture
 constexpr double kWallDistance = 0.3;    // minimum distance from the wall, metres
 constexpr double kMinFocalShare = 0.5;   // minimum focal length as a share of the usual one
-constexpr double kPositionError = 0.05;  // metres on the floor; kPositionError … kAimError are standard deviations
+constexpr double kPositionError = 0.05;  // standard deviations, as all errors below: position on the floor, metres
 constexpr double kHeightError = 0.03;    // metres
 constexpr double kAngleError = 2;        // degrees
 constexpr double kAimError = 0.02;       // metres

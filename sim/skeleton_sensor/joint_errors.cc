@@ -44,8 +44,8 @@ double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSens
   return options.fast_quiet + (1 - options.fast_quiet) * activity * activity;
 }
 
-/// The line of sight to a joint, two axes across it, and how much larger errors are at the joint's distance than at the
-/// reference distance.
+/// The line of sight to a joint, two axes across it, and the growth of errors: their size at the joint's distance
+/// divided by their size at the reference distance.
 struct Sight {
   glm::dmat3 axes;  ///< columns: two axes across the line of sight, then the line of sight
   double across_growth, along_growth;
@@ -74,14 +74,14 @@ glm::dvec3 InWorld(const Sight& sight, const glm::dvec3& unit, double size, doub
          (across * unit * glm::dvec3(sight.across_growth, sight.across_growth, depth_ratio * sight.along_growth));
 }
 
-/// The other end of a bone at a joint, and the factor by which the joint's own error along the bone is multiplied.
+/// A bone at a joint: its other end, and the factor on the joint's own error along the bone.
 struct StiffBone {
   std::optional<Role> other;
   double stretch = 1;
 };
 
 std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& options) {
-  const auto child = [&] { return AllRoles()[Index(role) + 1]; };  // the roles of an arm are in order from the shoulder
+  const auto child = [&] { return AllRoles()[Index(role) + 1]; };  // an arm's roles are in order from the shoulder
   switch (GroupOf(role)) {
     case JointGroup::kShoulders:
       return {{{child(), options.arm_stretch}, {Mirrored(role), options.shoulder_stretch}}};
@@ -97,7 +97,7 @@ std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& op
 }
 
 /// Multiplies a joint's own error (in the axes of `sight`) along its bones by their stretch factors, then scales it so
-/// that the mean square stays the same. With one bone or perpendicular bones, this holds exactly.
+/// that the mean square stays the same. The mean square is exact with one bone or perpendicular bones.
 glm::dvec3 Stiffened(glm::dvec3 own, Role role, const BodyPose& pose, const Sight& sight,
                      const SkeletonSensorOptions& options) {
   double mean_square = 3;
@@ -169,7 +169,7 @@ PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) 
   for (Wave& wave : waves_) {
     wave.direction = dice.Normal3() * std::sqrt(2.0 / kWaves);
     wave.phase = dice.Uniform(0, 2 * kPi);
-    // Draw the same number of random numbers for every joint.
+    // Draw equally many random numbers for every joint.
     for (std::size_t i = 0; i < kMaxPoints; ++i) {
       const glm::dvec3 drawn = dice.Normal3();
       wave.per_metre[i] = i < point_count_ ? drawn / points_[i].length : glm::dvec3(0);
@@ -248,7 +248,7 @@ FrameErrors ContinuousErrors::Next(const BodyPose& pose, const FrameMotion& moti
     const glm::dvec3 white = group.white * wander_dice_.Normal3();
     const bool is_foot = GroupOf(role) == JointGroup::kFeet;
     const double size = is_foot ? glm::mix(options_.planted_feet, group.size, moves) : group.size;
-    const double rest_axis = std::sqrt(3.0);  // `still` and `white` are per axis, InWorld expects sizes over three axes
+    const double rest_axis = std::sqrt(3.0);  // `still` and `white` are per axis; InWorld expects sizes over three axes
     errors[j] = options_.strength * (InWorld(sight, unit[j], size, group.depth_ratio) +
                                      InWorld(sight, wander + white, rest_axis, group.depth_ratio));
   }

@@ -41,10 +41,11 @@ class BurstNoise {
   SlowNoise noise_, loudness_;
 };
 
-/// The correlation lengths of a joint's error: how far joints must move until the error has changed, metres.
+/// The correlation lengths of a joint's error: the distances, metres, that joints must move until the error has
+/// changed.
 struct PoseLengths {
-  double own = 0.25;  ///< for movement of the joint itself or of the next joint of its limb
-  double far = 0.8;   ///< for movement of the arms, in errors of trunk and legs
+  double own = 0.25;  ///< length for movement of the joint itself or of the next joint of its limb
+  double far = 0.8;   ///< length for movement of the arms, in errors of trunk and legs
 };
 
 /// A smooth random function of the pose for one joint, with a standard normal distribution along each axis. It is a sum
@@ -95,7 +96,7 @@ using FrameErrors = std::array<glm::dvec3, kRoleCount>;
 /// added joint by joint.
 class ContinuousErrors {
  public:
-  /// `rate_hz` must be > 0.
+  /// `rate_hz` must be positive.
   ContinuousErrors(const Camera& sensor, const SkeletonSensorOptions& options, double rate_hz, const WorldKey& world);
 
   /// Returns the errors of the next frame. For every pose, the same number of random numbers is drawn.
@@ -113,7 +114,7 @@ class ContinuousErrors {
   Camera sensor_;
   SkeletonSensorOptions options_;
   RandomStream wander_dice_, pose_dice_, fast_dice_, rest_dice_;
-  std::vector<JointNoise> noises_;  ///< by role
+  std::vector<JointNoise> noises_;  ///< one entry per role
 };
 
 }  // namespace etude

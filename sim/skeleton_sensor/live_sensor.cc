@@ -10,9 +10,9 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kSpeedReach = 2;           // a speed is measured over this many frames before and after
-constexpr std::size_t kFootReach = 5;            // a foot's motion is judged over this many frames before and after
-constexpr double kResting = 0.1, kMoving = 0.6;  // m/s; a foot rests below the first and moves above the second
+constexpr std::size_t kSpeedReach = 2;           // frames before and after a frame over which a speed is measured
+constexpr std::size_t kFootReach = 5;            // frames before and after a frame over which a foot's motion is judged
+constexpr double kResting = 0.1, kMoving = 0.6;  // m/s; a foot is at rest below kResting and in motion above kMoving
 static_assert(kSpeedReach + kFootReach == MotionWindow::kAhead);
 
 std::size_t Before(std::size_t frame, std::size_t by) { return frame - std::min(frame, by); }

@@ -24,7 +24,7 @@ class MotionWindow {
  public:
   static constexpr std::size_t kAhead = 7;
 
-  /// `rate_hz` must be > 0.
+  /// `rate_hz` must be positive.
   explicit MotionWindow(double rate_hz) : rate_hz_(rate_hz) {}
 
   /// Adds the next frame of the stream.
@@ -49,7 +49,7 @@ class MotionWindow {
 
   double rate_hz_;
   bool ended_ = false;
-  std::size_t count_ = 0;   ///< poses pushed
+  std::size_t count_ = 0;   ///< number of poses pushed
   std::size_t speeds_ = 0;  ///< number of frames with known speeds
   std::size_t next_ = 0;    ///< the frame to be returned next
   std::array<BodyPose, kKept> poses_{};

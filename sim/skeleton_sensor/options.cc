@@ -200,8 +200,8 @@ SkeletonSensorOptions SensorV1() {
   v1.view = {.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};  // view 57° × 43°
   v1.depth_law = DepthLaw::kStructuredLight;
   // The sizes of torso and head, hands and feet reproduce the published errors in a dance. The sizes of elbows and
-  // knees lie between them (ours). Errors are larger in depth than across it; for a v2, published ratios are 1.2–1.8 at
-  // knees and feet, and all groups use such ratios.
+  // knees lie between them (ours). Errors are larger in depth than across the line of sight; for a v2, published ratios
+  // are 1.2–1.8 at knees and feet, and all groups use such ratios.
   constexpr GroupErrors kTrunk{.size = 0.025, .depth_ratio = 1.4, .still = 0.0014, .white = 0.0002};
   constexpr GroupErrors kMiddle{.size = 0.038, .depth_ratio = 1.4, .still = 0.0020, .white = 0.0006};
   constexpr GroupErrors kEnds{.size = 0.066, .depth_ratio = 1.4, .still = 0.0030, .white = 0.0010};
@@ -217,9 +217,9 @@ SkeletonSensorOptions SensorV2() {
   v2.view = {.width = 512, .height = 424, .fx = 365, .fy = 365, .cx = 256, .cy = 212, .skew = 0};  // view 70° × 60°
   v2.depth_law = DepthLaw::kTimeOfFlight;
   // These values were fitted by `etude sensor fit`, 240 worlds, to one recording with an optical reference: for 6.6 s,
-  // a seated person lifts and lowers both arms 3 m in front of a Kinect v2. The recording determines neither errors of
-  // feet in motion (published: 5–6 cm), nor errors at other distances, of turned or standing bodies or of other people,
-  // nor lag, hidden limbs, swaps and dropouts.
+  // a seated person lifts and lowers both arms 3 m in front of a Kinect v2. The recording does not determine: errors of
+  // feet in motion (published: 5–6 cm); errors at other distances, of turned or standing bodies, and of other people;
+  // lag, hidden limbs, swaps and dropouts.
   v2.reference_distance_m = 3.04;
   v2[JointGroup::kTorso] = {.size = 0.0344, .depth_ratio = 0.93, .still = 0.0014, .white = 0.000022};
   v2[JointGroup::kShoulders] = {.size = 0.0805, .depth_ratio = 1.16, .still = 0.0014, .white = 0.000044};

@@ -21,7 +21,7 @@ enum class JointGroup {
   kHands,
   kHips,
   kKnees,
-  kFeet,  ///< ankles and feet
+  kFeet,  ///< the joints ankle and foot
 };
 constexpr std::size_t kJointGroupCount = 8;
 constexpr std::size_t Index(JointGroup group) { return static_cast<std::size_t>(group); }
@@ -32,14 +32,14 @@ std::span<const JointGroup, kJointGroupCount> AllJointGroups();
 
 /// The kinds of bones along which errors are correlated. Left and right bones have the same kind.
 enum class BoneKind {
-  kLowerSpine,  ///< hip centre – spine
-  kUpperSpine,  ///< spine – shoulder centre
-  kNeck,        ///< shoulder centre – head
-  kCollar,      ///< shoulder centre – shoulder
+  kLowerSpine,  ///< bone from hip centre to spine
+  kUpperSpine,  ///< bone from spine to shoulder centre
+  kNeck,        ///< bone from shoulder centre to head
+  kCollar,      ///< bone from shoulder centre to shoulder
   kUpperArm,
   kForearm,
   kHand,
-  kPelvis,  ///< hip centre – hip
+  kPelvis,  ///< bone from hip centre to hip
   kThigh,
   kShank,
   kFoot,
@@ -55,10 +55,10 @@ std::span<const BoneKind, kBoneKindCount> AllBoneKinds();
 /// The sizes of a group's errors, metres. `size` is a root mean square distance in three dimensions; `still` and
 /// `white` are standard deviations per axis.
 struct GroupErrors {
-  double size = 0;         ///< in motion, at the reference distance: the pose-dependent and the fast part together
+  double size = 0;         ///< the pose-dependent and the fast part together, in motion, at the reference distance
   double depth_ratio = 1;  ///< ratio of errors along the line of sight to errors along each axis across it
-  double still = 0;        ///< the slow drift while the body stands still
-  double white = 0;        ///< the uncorrelated part
+  double still = 0;        ///< the slow drift of a body that stands still
+  double white = 0;        ///< the uncorrelated part of the errors
 };
 
 /// The law by which errors along the line of sight grow with the distance z from the sensor (metres along its axis).
@@ -89,11 +89,11 @@ struct SkeletonSensorOptions {
   /// Errors follow a linear model on the tree of the body: in units of its group's size, a joint's error is ρ times its
   /// parent's error plus √(1 − ρ²) times its own error. ρ depends on the kind of bone and is in (−1, 1).
   std::array<double, kBoneKindCount> correlation{};
-  /// Factors on a joint's own error along the bones that end in the joint. Below 1, the sensor keeps limb lengths
-  /// nearly constant.
+  /// Factors on a joint's own error along the bones that end in the joint. With a factor below 1, the sensor keeps limb
+  /// lengths nearly constant.
   double arm_stretch = 1;       ///< factor for shoulders, elbows and wrists along upper arm and forearm
   double hand_stretch = 1;      ///< factor for hands along the hand
-  double shoulder_stretch = 1;  ///< factor for shoulders towards each other
+  double shoulder_stretch = 1;  ///< factor for shoulders along the line between them
   /// The `size` of an ankle or foot at rest on the floor, whose noise has the time constant `rest_time_s`. In motion,
   /// the group's size applies.
   double planted_feet = 0.003;
@@ -113,9 +113,9 @@ struct SkeletonSensorOptions {
 
   // The fast part: noise in bursts, larger when the body moves.
   double fast_share = 0.2;    ///< share of the variance of `size`
-  double fast_time_s = 0.05;  ///< time constant (ours)
+  double fast_time_s = 0.05;  ///< time constant of the noise (ours)
   double fast_quiet = 0.05;   ///< factor for a body at rest; grows with the square of speed to 1 at 0.5 m/s (ours)
-  double fast_tail = 0.7;     ///< standard deviation of the logarithm of its strength; 0: Gaussian (ours)
+  double fast_tail = 0.7;     ///< standard deviation of the logarithm of the bursts' strength; 0: Gaussian noise (ours)
 
   int lag_frames = 0;  ///< delay of the report, frames
 
@@ -125,13 +125,13 @@ struct SkeletonSensorOptions {
   int longest_episode = 40;
   double nearest_guess_m = 0.2;  ///< smallest and largest error of a wrong guess for a hand or foot
   double farthest_guess_m = 1.1;
-  double wrong_guess_chance = 0.6;  ///< probability; otherwise the guess is as accurate as for a seen joint (ours)
+  double wrong_guess_chance = 0.6;  ///< probability of a wrong guess; others are as accurate as for a seen joint (ours)
 
   double dropout_share = 0.02;    ///< share of all frames in which the whole body is lost
-  double swaps_per_minute = 1.0;  ///< left and right arms or legs, in profile, for a third of a second each (ours)
+  double swaps_per_minute = 1.0;  ///< exchanges of left and right arms or legs in profile, 1/3 s each (ours)
   bool swaps_when_facing = true;  ///< false: the rate is proportional to 1 − cos of the turn from the sensor (ours)
-  double outlier_chance = 0.001;  ///< per joint and frame (ours; Gaussian + uniform: arXiv 1512.04134)
-  double outlier_size_m = 0.15;   ///< largest error on each axis, drawn uniformly (ours)
+  double outlier_chance = 0.001;  ///< probability per joint and frame (ours; Gaussian + uniform: arXiv 1512.04134)
+  double outlier_size_m = 0.15;   ///< largest error of an outlier on each axis, drawn uniformly (ours)
 
   /// Returns the lag in frames: `lag_frames` times the smaller of `strength` and 1, rounded.
   int Lag() const;

@@ -23,7 +23,7 @@ using HiddenJoints = std::array<bool, kRoleCount>;
 /// The objects that may hide a body from a sensor, besides the body itself.
 struct Occluders {
   std::vector<Cuboid> furniture;
-  std::vector<BodyPose> bystander;  ///< a second person: one pose per frame, then the last pose; empty: nobody
+  std::vector<BodyPose> bystander;  ///< a second person: one pose per frame; the last pose is repeated; empty: nobody
 };
 
 /// Finds the joints of `pose` that are hidden from `eye` in this frame: the ray to the joint hits another part of the
@@ -34,7 +34,7 @@ HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders
 /// The sensor's guess for a joint that is not clearly seen.
 struct Guess {
   bool inferred = false;
-  glm::dvec3 offset{0};  ///< metres, from the position that would be reported if the joint were seen
+  glm::dvec3 offset{0};  ///< offset from the position that would be reported if the joint were seen, metres
 };
 using FrameGuesses = std::array<Guess, kRoleCount>;
 
@@ -51,7 +51,7 @@ class OcclusionGuesses {
   /// The current guess for the hidden joints of one limb. It is randomly right or wrong.
   struct Episode {
     int age = 0;
-    int length = 0;  ///< 0: no episode
+    int length = 0;  ///< length of the episode, frames; 0: no episode
     bool wrong = false;
     double size_m = 0;
     glm::dvec3 direction{0};
@@ -79,7 +79,7 @@ class Outliers {
   RandomStream dice_;
 };
 
-/// The swap in one frame: whether left and right arms, or legs, are exchanged.
+/// The swap in one frame: true if the left and the right arm, or the left and the right leg, are exchanged.
 struct Swap {
   bool arms = false;
   bool legs = false;
@@ -107,7 +107,7 @@ class Dropouts {
   bool Next();
 
  private:
-  double chance_;  ///< probability that a dropout starts in a frame in which the body is seen
+  double chance_;  ///< probability that a dropout starts in a frame with the body in sight
   RandomStream dice_;
   std::uint64_t left_ = 0;
 };
@@ -123,11 +123,11 @@ Camera SkeletonSensorAt(const SensorPlacement& place, const Intrinsics& view);
 
 /// Simulates a skeleton sensor, frame by frame. A joint's error depends on the body's motion around the frame, so a
 /// frame's report is available only when the pose `kAhead` frames later is known. In a closed loop the body must plan
-/// that far ahead. Every kind of error has its own random stream and a fixed number of random numbers per frame.
+/// `kAhead` frames ahead. Every kind of error has its own random stream and a fixed number of random numbers per frame.
 /// Options therefore change only the strengths.
 class SkeletonSensor final : public LiveSensor {
  public:
-  /// `occluders` must outlive this object; `rate_hz` must be > 0.
+  /// `occluders` must outlive this object; `rate_hz` must be positive.
   SkeletonSensor(const Camera& sensor, const Occluders& occluders, const SkeletonSensorOptions& options, double rate_hz,
                  const WorldKey& world);
 
@@ -151,7 +151,7 @@ class SkeletonSensor final : public LiveSensor {
   Swaps swaps_;
   Dropouts dropouts_;
   std::size_t frame_ = 0;             ///< number of frames sensed so far
-  SensedFrame last_;                  ///< the last frame before swaps
+  SensedFrame last_;                  ///< the last frame, before swaps
   std::vector<SensedFrame> delayed_;  ///< a ring of the last Lag() + 1 frames
 };
 

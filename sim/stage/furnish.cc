@@ -74,10 +74,10 @@ void AddLegs(FurnitureBuilder& builder, double half_x, double z_near, double z_f
   }
 }
 
-// Each function makes one piece of furniture from boxes. `place` is the point on the floor at the middle of the piece's
-// back, or at its centre if the piece stands free; `heading` is the direction of its front. Sizes, colours and details
-// are random. Colours are interpolated by `share` between the studio's (0) and those of everyday objects (1). Each
-// function draws a constant number of random numbers.
+// Each function below makes one piece of furniture from boxes. `place` is the point on the floor at the middle of the
+// piece's back, or at its centre if the piece stands free; `heading` is the direction of its front. Sizes, colours and
+// details are random. Colours are interpolated by `share` between the studio's (0) and those of everyday objects (1).
+// Each function draws a constant number of random numbers.
 
 std::vector<FurnitureBox> MakeCupboard(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.4, 0.65), height = random.Uniform(0.9, 2.05), deep = random.Uniform(0.36, 0.48);
@@ -194,7 +194,7 @@ std::vector<FurnitureBox> MakeCrate(RandomStream& random, double share, const gl
   return std::move(builder).Take();
 }
 
-// A piece can be in the room if `scene` is at least the piece's value here.
+// A piece can be in the room if `scene` is at least the value of this piece.
 constexpr double kPoster1 = 0.05, kCupboard = 0.10, kPlant = 0.15, kRug = 0.20, kShelf = 0.25, kPoster2 = 0.30;
 constexpr double kWindow = 0.35, kSofa = 0.40, kScreen = 0.45, kTable = 0.50, kPoster3 = 0.55, kChair = 0.65;
 constexpr double kPile = 0.75, kCrate = 0.85;
@@ -268,7 +268,7 @@ WallPicture DrawPicture(RandomStream& random, const Interior& room, double share
 }
 
 void HangPictures(const WorldKey& key, double scene, double share, Interior& room) {
-  // Add posters, each from its own threshold of `scene` on.
+  // Add each poster if `scene` has reached the poster's own threshold.
   int number = 0;
   for (const double threshold : {kPoster1, kPoster2, kPoster3}) {
     RandomStream random(key, "poster-" + std::to_string(++number));

@@ -10,7 +10,7 @@ namespace etude {
 
 /// The part of the floor that the performer needs. No piece of furniture stands on it.
 struct FreeFloor {
-  glm::dvec2 low{0}, high{0};  ///< x, z
+  glm::dvec2 low{0}, high{0};  ///< corners of the free floor (x, z), metres
 };
 
 /// The positions of the room's moving objects.

@@ -19,8 +19,8 @@ Hsv ToHsv(Rgb8 colour);
 /// circle.
 Hsv Mixed(const Hsv& a, const Hsv& b, double share);
 
-/// Draws a colour of everyday objects, walls and clothes: often wood and leather, less often denim or green, and
-/// sometimes any hue. Always draws the same number of random numbers.
+/// Draws a colour of everyday objects, walls and clothes: often wood or leather, less often denim or green, and
+/// sometimes any hue. The number of random numbers is constant.
 Hsv DrawColour(RandomStream& random);
 
 /// Draws a colour of the studio's objects, with a hue of 150–230°. Performers in the studio have no such hue.

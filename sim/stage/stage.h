@@ -14,8 +14,8 @@
 
 namespace etude {
 
-/// The moving objects in the room besides the performer: a plant, a screen, a ball and a second person. The motion of
-/// each is a function of time. Each has its own random numbers and its own threshold of `scene`.
+/// The moving objects in the room besides the performer: a plant, a screen, a ball and a second person. Each object's
+/// motion is a function of time. Each object has its own random numbers and its own threshold of `scene`.
 class Movers {
  public:
   Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free);

@@ -14,7 +14,7 @@ constexpr int kMost = 1 << 18;
 inline unsigned char reached[kMost];
 
 inline void WriteReached() {
-  // Loaded modules have a list of their own, which is appended.
+  // A loaded module has a list of its own: append it.
   std::FILE* file = std::fopen(std::getenv("ETUDE_MUTANTS_REACHED"), "a");
   if (file == nullptr) std::abort();
   for (int number = 0; number < kMost; ++number) {
@@ -23,7 +23,7 @@ inline void WriteReached() {
   std::fclose(file);
 }
 
-/// Returns the mutant's number. Returns −1 if no mutant is chosen, and the numbers of all reached mutants shall be
+/// Returns the mutant's number. Returns −1 if no mutant is chosen and the numbers of all reached mutants are to be
 /// written to the file that ETUDE_MUTANTS_REACHED names.
 inline int ReadChoice() {
   if (std::getenv("ETUDE_MUTANTS_REACHED") != nullptr) {

@@ -99,9 +99,9 @@ Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
   return {};
 }
 
-/// Finds the pair that disagrees with the others: calibrating without it lowers the squared error by more than chance
-/// would in one of 100 calibrations (F test for one pair, Bonferroni over all), and the others place it a pixel or more
-/// away. Of many pairs, those with the largest residuals are tried.
+/// Finds the pair that disagrees with the others. Calibrating without it lowers the squared error by more than chance
+/// would in one of 100 calibrations (F test for one pair, Bonferroni over all), and the calibration by the others
+/// places it a pixel or more away. Only the 20 pairs with the largest residuals are tried.
 std::optional<DisagreeingPair> FindDisagreeing(const CameraPairs& of, const RefinedRig& all,
                                                const RefineOptions& options) {
   constexpr std::size_t kMaxTried = 20;
@@ -122,10 +122,10 @@ std::optional<DisagreeingPair> FindDisagreeing(const CameraPairs& of, const Refi
     std::vector<PointPair> others = of.pairs;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     const auto refined = RefineCamera(others, of.width, of.height, options);
-    if (!refined) continue;  // this pair is needed
+    if (!refined) continue;  // the calibration needs this pair
     const double share = refined->rms_px * refined->rms_px * static_cast<double>(count - 1) /
                          (all.rms_px * all.rms_px * static_cast<double>(count));
-    // The tail of F with 2 and `freedom` degrees of freedom.
+    // Compute the tail probability of the F distribution with 2 and `freedom` degrees of freedom.
     const double chance = std::pow(share, freedom / 2), error = error_of(refined->cameras.front(), i);
     if (!(chance < least) || error < kMinError_px) continue;
     least = chance;
@@ -216,7 +216,7 @@ std::string PaperFor(const Board& board) {
     const char* name;
     double narrow_mm, wide_mm;
   };
-  constexpr Paper kPapers[] = {{"fits on A4 or Letter", 210, 279},  // as wide as A4, as high as Letter
+  constexpr Paper kPapers[] = {{"fits on A4 or Letter", 210, 279},  // the width of A4 and the height of Letter
                                {"needs A3 paper", 297, 420},
                                {"needs A2 paper", 420, 594},
                                {"needs A1 paper", 594, 841},

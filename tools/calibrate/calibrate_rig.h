@@ -16,11 +16,11 @@ struct CalibrateOptions {
   /// Either one file of point pairs, or one folder of pictures or film for each camera.
   std::vector<std::string> inputs;
   std::string output;
-  std::vector<std::string> boards = {"5x7x0.034"};  ///< COLUMNSxROWSxSQUARE[@FIRST_CODE]
+  std::vector<std::string> boards = {"5x7x0.034"};  ///< board: COLUMNSxROWSxSQUARE[@FIRST_CODE]
   std::string method = "refined";                 ///< for point pairs: a name of CalibrationNames()
-  std::string lens = "radial2";                   ///< none, radial2, radial3
+  std::string lens = "radial2";                   ///< lens model: none, radial2 or radial3
   bool skew = false;
-  std::string size;             ///< "1920x1080", the size of the pictures if the point pairs are CSV
+  std::string size;             ///< size of the pictures, "1920x1080", if the point pairs are CSV
   std::string world = "floor";  ///< "floor" or "wall": the plane in which the first board lies
   /// Every n-th frame of a film is searched; 0 = every 30th, or for OpenCV's boards about 200 frames.
   int every = 0;
@@ -33,10 +33,10 @@ struct CalibrateOptions {
 
 /// A point pair with a wrong pixel or a wrong place.
 struct DisagreeingPair {
-  std::size_t index = 0;  ///< among the pairs of its camera, from 0
+  std::size_t index = 0;  ///< index among the pairs of its camera, from 0
   PointPair pair;
-  double error_px = 0;        ///< how far from its pixel the calibration by all others shows the point
-  double rms_without_px = 0;  ///< reprojection error of that calibration
+  double error_px = 0;        ///< distance of the pixel from the point, as calibrated by all other pairs
+  double rms_without_px = 0;  ///< reprojection error of all other pairs in that calibration
 };
 
 /// A rig, and the numbers that are printed about it, one entry for each camera.
@@ -45,7 +45,7 @@ struct Calibrated {
   std::vector<double> rms_px;
   std::vector<std::size_t> points;
   std::vector<std::optional<IntrinsicsDeviation>> deviations;
-  std::vector<std::optional<DisagreeingPair>> disagreeing = {};  ///< of point pairs, by method "refined"; else empty
+  std::vector<std::optional<DisagreeingPair>> disagreeing = {};  ///< for method "refined" of point pairs; else empty
 };
 
 /// Parses "COLUMNSxROWSxSQUARE[@FIRST_CODE]". Fails, naming the option --board, on any other text and on codes beyond
@@ -61,8 +61,8 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options);
 /// the findings. Every complaint names the file or the option.
 Result<Calibrated> CalibrateRig(const CalibrateOptions& options);
 
-/// Writes the first of `boards` to `print` as a PNG of 16 pixels per module that states its size in print, and reports
-/// which paper size it fits on.
+/// Writes the first of `boards` to `print`, as a PNG of 16 pixels per module that states its size in print. Reports the
+/// paper size on which the board fits.
 Result<void> PrintBoard(const CalibrateOptions& options);
 
 }  // namespace etude

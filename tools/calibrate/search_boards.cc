@@ -82,7 +82,7 @@ Result<void> AddFolder(std::size_t camera, const fs::path& folder, const Calibra
   return {};
 }
 
-/// Searches every n-th frame of a film; the frame's number identifies its moment.
+/// Searches every n-th frame of a film. The frame's number is the moment of its view.
 Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOptions& options, BoardViews& views,
                      CameraBoards& seen) {
   ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(film));

@@ -34,7 +34,7 @@ struct CaptureFilmsOptions {
   std::string reference;             ///< a TRC with which the triangulated keypoints are compared, "" = none
   std::string distances;             ///< a file for the distances from `reference`, "" = none
   std::string layout;                ///< a name of KeypointLayouts(), "" = chosen by the number of keypoints
-  std::string fit = "none";          ///< letterbox, stretch, crop
+  std::string fit = "none";          ///< change from the rig's to the film's pictures: none, letterbox, stretch or crop
   std::vector<std::string> cameras;  ///< the rig's camera for each film; empty = matched by the films' names
   int person = 1;
   std::string poses = "frames";  ///< for keypoints: "frames" fits each frame alone, "bundle" fits all frames at once

@@ -37,15 +37,15 @@ struct CameraResiduals {
 /// The content of the page of `etude capture`.
 struct CapturePage {
   std::string title;
-  std::string verdict;  ///< one or two sentences
+  std::string verdict;  ///< the result in one or two sentences
   double rate_hz = 30;
   std::string mp4;                         ///< the bytes of the overlay film; "" if it is too large for a page
   std::string film;                        ///< the path of the overlay film, "" = none is written
-  Picture still;                           ///< the middle frame
+  Picture still;                           ///< picture of the middle frame
   std::vector<std::string> told;           ///< findings, repairs and doubts, one line each
   std::vector<CameraResiduals> residuals;  ///< one entry for keypoints, one for silhouettes, or both
   std::vector<TakeCurve> feet_cm;          ///< heights above the floor, cm
-  std::string limbs;                       ///< a sentence that says where the limb lengths come from
+  std::string limbs;                       ///< a sentence on the origin of the limb lengths
   std::vector<std::pair<std::string, double>> lengths_cm;  ///< limb lengths
   /// For each joint: median and 95th percentile of its distance from the point to which it was fitted, mm; may be
   /// empty.

@@ -47,8 +47,8 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options);
 
 /// The cameras and the keypoints from which a person is recovered.
 struct SeenFilms {
-  std::vector<ProjectionMatrix> cameras;  ///< without lens distortion, because the keypoints have none
-  std::vector<SeenPeople> people;         ///< at the times of the first film's frames
+  std::vector<ProjectionMatrix> cameras;  ///< cameras without lens distortion, because the keypoints have none
+  std::vector<SeenPeople> people;         ///< people at the times of the first film's frames
   std::vector<FilmClock> clocks;          ///< the clock of each film
   MessageLog told;
 };
@@ -133,7 +133,7 @@ struct ReducedTake {
   std::vector<double> reductions;  ///< for each film: pixels of its reduced picture per pixel of the rig's camera
   std::vector<std::vector<ColourImage>> pictures;
   std::vector<ColourImage> rooms;
-  std::vector<std::vector<Mask>> masks;  ///< used instead of `pictures` if not empty
+  std::vector<std::vector<Mask>> masks;  ///< masks, used instead of `pictures` if not empty
 };
 Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                              const std::vector<FilmClock>& clocks, MessageLog& told);
@@ -148,8 +148,8 @@ struct KeypointSupport {
 Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureFilmsOptions& options, double rate_hz,
                                          const KeypointSupport& beside = {});
 
-/// Returns the joints of a reference, which has them by name or from which they are computed as an estimator's
-/// landmarks. Joints that landmarks determine only by rules of thumb are left out.
+/// Returns the joints of a reference: those that it names, or those computed from an estimator's landmarks. Joints that
+/// landmarks determine only by rules of thumb are left out.
 MarkerMotion JointsOfReference(const MarkerMotion& reference);
 
 /// `CaptureKeypoints` captures from keypoints or marks. `CaptureUnmarked` captures the only moving person of the films

@@ -154,7 +154,7 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
     case MotionFormat::kNpz:
       return WriteBodyNpz(motion, StandingPose());
     case MotionFormat::kBids:
-      break;  // the path is a folder, so no file name can stand for a pair
+      break;  // the path is a folder; no output file has this format
     case MotionFormat::kMot:
       return WriteOpenSimMotion(motion, Retarget({.poses = {StandingPose()}}, motion.poses.front()).poses.front(),
                                 name);

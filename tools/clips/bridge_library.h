@@ -43,8 +43,8 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options);
 /// Returns the tags of a library as the content of a tags file.
 BridgeTags TagsOf(const BridgeLibrary& loaded);
 
-/// Writes the tags of a library to a file. First reads the written text again; fails without writing the file if the
-/// tags differ.
+/// Writes the tags of a library to a file. First reads its own text again, and fails without writing if the tags
+/// differ.
 Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path);
 
 }  // namespace etude

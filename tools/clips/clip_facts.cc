@@ -240,7 +240,7 @@ std::vector<std::string> RoleItems(const BodyFacts& body) {
 }  // namespace
 
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options) {
-  OpenOptions with_gaps = options;  // so that no faults are searched in joints that the file does not show
+  OpenOptions with_gaps = options;  // the file's gaps, so that no faults are found in joints that it does not show
   with_gaps.keeps_shown = true;
   auto clips = ReadClips(reference, with_gaps);
   if (!clips) return {FactsWithoutClip(reference, options, clips.error())};

@@ -42,11 +42,11 @@ struct BodyFacts {
 struct ClipFacts {
   std::string name;
   std::string source;
-  std::optional<ClipFormat> format;  ///< absent if the file could not be read
+  std::optional<ClipFormat> format;  ///< the file's format; absent if the file could not be read
   std::size_t frames = 0;
   double rate_hz = 0;
   double duration_s = 0;
-  std::size_t joints = 0;  ///< without end sites
+  std::size_t joints = 0;  ///< number of joints, without end sites
   std::size_t end_sites = 0;
   FigureFacts figure;
   std::optional<BodyFacts> body;

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-constexpr double kApart = 1.6;       // metres
+constexpr double kApart = 1.6;       // distance between neighbours, metres
 constexpr double kBrightness = 1.8;  // raised, because the lamp is far from most characters
 constexpr Rgb8 kPale{250, 240, 190};
 

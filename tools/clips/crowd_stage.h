@@ -28,7 +28,7 @@ class CrowdStage {
   glm::dvec3 GridPointOf(std::size_t character) const;
 
   int width_, height_;
-  std::size_t side_;  ///< grid points per row
+  std::size_t side_;  ///< number of grid points per row
   Camera camera_;
   Renderer& renderer_;
 };

@@ -25,8 +25,8 @@ struct TransitionFile {
   Branch branch = Branch::kNone;
   std::string why;                    ///< one sentence: why this way was taken, or why there is no way
   double left_s = 0, entered_s = 0;   ///< times at which `from` is left and `to` is entered
-  double wait_s = 0;                  ///< from the request until `to` plays
-  std::string through = {};           ///< the name of the clip in between, "" = none
+  double wait_s = 0;                  ///< time from the request until `to` plays
+  std::string through = {};           ///< name of the clip in between, "" = none
   std::vector<double> points_s = {};  ///< times of the transition points in the written file
   double duration_s = 0;              ///< length of the written motion
 };

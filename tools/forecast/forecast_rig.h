@@ -66,22 +66,22 @@ struct ForecastJoint {
 };
 
 struct RigForecast {
-  std::vector<NamedCamera> cameras;   ///< metres, Y up
-  std::optional<KeypointNoise> measured;  ///< measured from the take's keypoints; absent without a take
+  std::vector<NamedCamera> cameras;   ///< cameras in the world, metres, Y up
+  std::optional<KeypointNoise> measured;  ///< noise measured from the take's keypoints; absent without a take
   glm::dvec2 middle_m{0};                 ///< middle of the volume on the floor (x, z)
-  std::vector<ForecastPlace> places;  ///< by height, then z, then x, each ascending
+  std::vector<ForecastPlace> places;  ///< places sorted by height, then z, then x
   double seen = 0;                    ///< share of places in the pictures of at least two cameras
   double median_mm = 0, p95_mm = 0;   ///< median and 95th percentile of the error over the places that are seen
   ForecastPlace worst;                ///< the place with the largest error
   double bodies = 0;  ///< share of places on the floor at which two cameras see each joint of a standing body
-  /// One per role, averaged over those places on the floor; empty if there are none.
+  /// One per role, averaged over the places that `bodies` counts; empty if there are none.
   std::vector<ForecastJoint> joints;
   std::vector<RigWorth> worths;       ///< the rig itself, then each change
 };
 
 /// Computes the expected errors of a rig, prints them, and writes the files that `options` name. Fails before anything
-/// is written if the rig has too few (fewer than two) or too many cameras, if `middle_m` is absent and all cameras look
-/// in parallel, and if two cameras see no place of the volume.
+/// is written if the rig has fewer than two or too many cameras, if `middle_m` is absent and all optical axes are
+/// parallel, or if no place of the volume is seen by two cameras.
 Result<RigForecast> ForecastRig(const ForecastOptions& options);
 
 /// Draws a heat map for each height and a plan of the cameras. Returns the bytes of a PNG file.

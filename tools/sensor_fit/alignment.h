@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// The alignment of a recording with its twin. It explains the part of their difference that is no error of the sensor,
-/// as far as one recording can show it.
+/// The alignment of a recording with its twin, which is the optical recording of the same motion. The alignment
+/// explains the part of their difference that is no error of the sensor, as far as one recording can show it.
 struct TwinAlignment {
   /// The twin's time at the recording's time 0: the difference of the clocks plus the sensor's lag.
   double shift_s = 0;
@@ -27,7 +27,7 @@ struct TwinAlignment {
 /// The alignment of a recording, and the twin's joints at the recording's frames.
 struct TwinMatch {
   TwinAlignment alignment;
-  std::vector<RolePositions> truth;  ///< one per frame of the recording, in the sensor's frame
+  std::vector<RolePositions> truth;  ///< positions, one entry per frame of the recording, in the sensor's frame
 };
 
 /// Finds time shift, rotation, translation and offsets by least squares over all joints. The shift is first found by

@@ -48,7 +48,7 @@ class MotionGlb {
     for (unsigned i = 0; i < scene.mNumAnimations; ++i) AddAnimation(*scene.mAnimations[i]);
   }
 
-  /// Returns the longest time between two different keys of one channel, in seconds.
+  /// Returns the longest time between two consecutive keys of one channel that differ, in seconds.
   double longest_s() const { return longest_s_; }
 
   std::string Bytes() {
@@ -127,7 +127,7 @@ class MotionGlb {
     return {ValueAt(moved.mScalingKeys, moved.mNumScalingKeys, time, mix), rotation, place};
   }
 
-  /// The keys of a joint that assimp splits into parts: one key at every time at which any part has one.
+  /// The keys of a joint that assimp splits into parts: one key at each time at which any part has a key.
   struct JoinedKeys {
     std::vector<aiVectorKey> places, scales;
     std::vector<aiQuatKey> turns;
@@ -145,7 +145,8 @@ class MotionGlb {
       for (unsigned k = 0; k < moved.mNumRotationKeys; ++k) times.insert(moved.mRotationKeys[k].mTime);
       for (unsigned k = 0; k < moved.mNumScalingKeys; ++k) times.insert(moved.mScalingKeys[k].mTime);
     }
-    // If only the joint's own node has keys, they hold the whole transform, because assimp includes the pre-rotation.
+    // If only the joint's own node has keys, these keys hold the whole transform, because assimp includes the
+    // pre-rotation in them.
     const bool is_whole = moved_parts.size() == 1 && moved_parts.begin()->first == parts.back();
     JoinedKeys joined;
     for (const double time : times) {
@@ -175,7 +176,7 @@ class MotionGlb {
         for (const float number : numbers_of(keys[i].mValue)) values.push_back(number);
       }
       if (count == 0) return;
-      // Keys that differ by less are equal: quaternion components, metres, scale factors.
+      // Two keys are equal if their numbers (quaternion components, metres, scale factors) differ by less than this.
       constexpr float kSame = 0.01f;
       const std::size_t width = values.size() / count;
       for (std::size_t i = width; i < values.size(); ++i) {
@@ -188,7 +189,7 @@ class MotionGlb {
     };
     const auto vector = [](const aiVector3D& v) { return std::array{v.x, v.y, v.z}; };
     const auto turn = [](const aiQuaternion& q) { return std::array{q.x, q.y, q.z, q.w}; };
-    // Add one channel for each animated property of a node; leave out nodes that are not in the scene.
+    // Add one channel for each animated property of a node. Leave out nodes that are not in the scene.
     std::set<std::size_t> joined;
     for (unsigned i = 0; i < animation.mNumChannels; ++i) {
       const aiNodeAnim& moved = *animation.mChannels[i];

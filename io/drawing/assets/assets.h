@@ -13,7 +13,7 @@ std::string_view ViewerCss();
 std::string_view ViewerJs();
 /// Returns the script of the page on which people compare films.
 std::string_view BlindJs();
-/// Returns the styles of pages with curves for the papers or of growth.
+/// Returns the styles of pages for papers and of pages with growth curves.
 std::string_view PaperCss();
 /// Returns the styles of pages that reports/transitions makes.
 std::string_view TransitionsCss();

@@ -73,8 +73,7 @@
   };
   document.documentElement.classList.add('js');
 
-  // The card that shows the cells of a dot or row, and the command that runs them again: `etude replay` with this
-  // page's folder.
+  // The card of a dot or row: its cells, and the command `etude replay` that runs them again, with this page's folder.
   const folder = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/report\/[^/]*$/, '') : '.';
   const word = (text) => /^[\w.\/=,:@%+-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
   const card = make('div', '', {className: 'row-card', hidden: true});

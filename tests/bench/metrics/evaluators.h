@@ -19,9 +19,9 @@ struct Evaluator {
 };
 
 /// Return the evaluators of each domain; `EvaluateMetric` searches all of them.
-std::span<const Evaluator> IkEvaluators();  ///< tracking, too
+std::span<const Evaluator> IkEvaluators();  ///< also for tracking
 std::span<const Evaluator> CaptureEvaluators();
-std::span<const Evaluator> TransitionEvaluators();  ///< matching, too
+std::span<const Evaluator> TransitionEvaluators();  ///< also for matching
 std::span<const Evaluator> PoseDistanceEvaluators();
 std::span<const Evaluator> DetectionEvaluators();
 std::span<const Evaluator> CoachEvaluators();

@@ -20,7 +20,7 @@ enum class SampleLaw {
   kTies,         ///< normal, but six worlds of ten have a difference of zero
   kShares,       ///< difference of two 0/1 values: −1, 0 or 1
   kCensored,     ///< penalised costs (PAR-2): log-normal; three of ten exceed the limit and count as twice the limit
-  kLogNormal,    ///< of σ = 1
+  kLogNormal,    ///< log-normal with σ = 1
   kFarOff,       ///< normal, but one unit in ten is an outlier by 5 σ
   kBimodal,      ///< −1 or 1, with normal noise of 0.3
 };
@@ -70,7 +70,7 @@ struct VerdictRates {
 /// The numbers of samples to draw.
 struct VerdictRepetitions {
   int without_effect = 10'000;
-  int with_effect = 2'000;  ///< for each effect size
+  int with_effect = 2'000;  ///< number of samples for each effect size
 };
 
 /// Draws the samples of a design, and judges each as the only comparison of its run.
@@ -83,7 +83,7 @@ std::vector<SampleDesign> PublishedDesigns();
 
 /// Returns true if the verdicts of a design keep the promise, as far as the samples of `designs` designs can tell:
 ///   - false alarms do not exceed 5 % (6 % for laws of units): a binomial test finds no excess, at a level of 5 % over
-///     all designs together (Bonferroni). Of many designs with exactly 5 % some draw more by chance;
+///     all designs together (Bonferroni). Among many designs with exactly 5 %, some draw more by chance;
 ///   - there are enough samples: the 95 % interval of false alarms ends at 6.5 % or below;
 ///   - without an effect at least 93 % of the intervals contain the truth.
 bool KeepsPromise(const VerdictRates& rates, std::size_t designs);

@@ -65,7 +65,7 @@ class SmallSession {
     bool seen = true;
     bool moves = true;
     bool claps = false;
-    double evidence = 0;  ///< while a window is open
+    double evidence = 0;  ///< the evidence while a window is open
     std::optional<double> other_side = {};
     std::optional<bool> told_right = {};
     bool moment = false;

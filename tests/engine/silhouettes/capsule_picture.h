@@ -32,7 +32,7 @@ inline TreeState Bent(const SilhouetteBody& body, const std::vector<Bend>& bends
 
 /// A ball in a camera's view.
 struct SeenBall {
-  glm::dvec3 centre;  ///< from the camera, in world axes, metres
+  glm::dvec3 centre;  ///< position relative to the camera, in world axes, metres
   double radius;
 
   bool IsMetBy(const glm::dvec3& ray) const {
@@ -47,7 +47,7 @@ struct SeenBall {
 inline Mask RayCast(const SilhouetteBody& body, const TreeState& state, const Camera& camera, double thickness = 1) {
   const TreeFrames frames = ComputeFrames(body.tree, state);
   struct Limb {
-    SeenBall around;                 ///< contains the whole limb: a ray that misses it misses the limb
+    SeenBall around;                 ///< ball around the whole limb: a ray that misses it misses the limb
     std::array<SeenBall, 13> balls;  ///< balls along the axis
   };
   std::vector<Limb> limbs;

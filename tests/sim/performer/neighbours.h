@@ -42,7 +42,7 @@ inline std::vector<PerformedClip> EveryMoveOf(int number, People people) {
 /// person.
 struct Neighbours {
   double found = 0;                               ///< share of clips nearest to their own move
-  std::vector<double> same_cm, nearest_other_cm;  ///< sorted
+  std::vector<double> same_cm, nearest_other_cm;  ///< distances, sorted
   double duration_variation = 0;                  ///< coefficient of variation over people, mean over moves
 
   static double Quantile(const std::vector<double>& sorted, double q) {

@@ -17,12 +17,12 @@ struct StudioOptions {
   /// How furnished the room is, 0 to 1. At 0 it is a bare studio with a person of capsules in warm colours; at 1 it is
   /// a lived-in room with a dressed person.
   double scene = 0;
-  std::uint64_t seed = 1;  ///< determines the room, its objects and the person's clothes
+  std::uint64_t seed = 1;  ///< seed of the room, its objects and the person's clothes
 };
 
 struct Picture {
   ColourImage colour;
-  Mask person;  ///< 1 where the person is visible
+  Mask person;  ///< mask that is 1 where the person is visible
 };
 
 /// Returns two cameras side by side, placed as a person would place them in front of a body that performs this motion:
@@ -46,7 +46,8 @@ class ETUDE_API Studio {
 
   /// Takes the picture of a frame of the motion. Throws BadInput if the camera or the frame does not exist.
   Picture Shoot(std::size_t camera, std::size_t frame) const;
-  /// Takes a picture of the room before the person enters it. Its moving objects have other positions than in `Shoot`.
+  /// Takes a picture of the room before the person enters it. The room's moving objects have other positions than in
+  /// `Shoot`.
   Picture ShootEmpty(std::size_t camera) const;
 
  private:

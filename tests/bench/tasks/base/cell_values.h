@@ -20,7 +20,7 @@ inline std::optional<double> ValueOf(const CellResult& cell, std::string_view id
   return std::nullopt;
 }
 
-/// A cell's digest of a stage. A stage that the cell does not tell of fails the test.
+/// Returns a cell's digest of a stage. Fails the test if the cell does not list the stage.
 inline std::string DigestOf(const CellResult& cell, std::string_view stage) {
   for (const auto& [name, digest] : cell.digests) {
     if (name == stage) return digest;
