@@ -26,7 +26,7 @@ inline constexpr std::string_view kComparisonLegend =
     "one "
     "side of zero, and a difference that matters; no difference, an interval within what matters. A world in which "
     "only one method failed counts as its loss in p, and the verdict must hold with and without such worlds. The "
-    "verdict about other clips, people or libraries follows from the middle of their mean differences (the "
+    "verdict about other clips, people or libraries follows from the pseudo-median of their mean differences (the "
     "Hodges–Lehmann estimate); with fewer than 6 of them there is no such verdict.";
 
 /// Counts the comparisons in the tables below: each pair of methods under one metric and condition counts once.

@@ -44,7 +44,7 @@ def estimation(pairs, **named):
     # The title gives the condition, if there is one, and both verdicts.
     condition = pairs.condition[0] if len(set(pairs.condition)) == 1 and pairs.condition[0] != "-" else ""
     says = f": {pairs.verdict.verdict} on these worlds" if pairs.verdict else ""
-    beyond = f", {pairs.verdict.beyond} beyond them" if pairs.verdict and pairs.verdict.beyond else ""
+    beyond = f", {pairs.verdict.beyond} for others" if pairs.verdict and pairs.verdict.beyond else ""
     figure.suptitle(f"“{pairs.method_name}” against “{pairs.baseline_name}”{', ' if condition else ''}{condition}"
                     f"{says}{beyond}", fontsize="medium")
     return _shown(figure)

@@ -113,7 +113,7 @@ class Plot {
   }
   bool ShowsUnits() const { return !pairs_.units.empty(); }
   std::string_view UnitsWords() const {
-    return scenario_.unit == SamplingUnit::kLibrary ? "middle, libraries" : "middle, clips";
+    return scenario_.unit == SamplingUnit::kLibrary ? "over libraries" : "over clips";
   }
 
   std::vector<double> Column(const Axis& axis, double PairedWorld::*value) const {

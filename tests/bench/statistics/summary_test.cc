@@ -232,7 +232,7 @@ TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   const ExpectationResult result = JudgeExpectation(below, study, Tabulate(study, rows), 1);
   EXPECT_EQ(result.outcome, ClaimOutcome::kUndecided);
   EXPECT_THAT(result.detail, ::testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
-  EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, 1 more have no pair of values"));
+  EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, 1 more do not have both values"));
 }
 
 TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {

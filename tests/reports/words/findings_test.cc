@@ -210,7 +210,7 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
   EXPECT_EQ(figures.labels,
             (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time",
-                                      "worlds in which “wait-for-end” is better by as much as matters"}));
+                                      "worlds in which “wait-for-end” is better by a difference that matters"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
