@@ -132,7 +132,8 @@ void DefineReport(CLI::App& app, Action& action) {
       ->needs(methods)
       ->check(NumberWithin(1, 1000, "number of pairs"))
       ->capture_default_str();
-  AddSeed(*command, blind->seed, "With --blind: seed of the dice that draw worlds, order and sides")->needs(methods);
+  AddSeed(*command, blind->seed, "With --blind: seed of the random numbers that choose worlds, order and sides")
+      ->needs(methods);
   command->callback([=, &action] {
     action = [=] {
       if (!blind->methods.empty()) return Finish(BlindPageCommand(*folder, *blind, *sealing, *jobs));

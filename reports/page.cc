@@ -118,8 +118,8 @@ it, and with fewer than six clips there is no such verdict. It is about the <b>p
 differences (the median of the means of all pairs of clips), which a single unusual clip hardly changes; the mean must
 have the same sign. A sign in brackets, such as (=), is a verdict on these worlds only.</p>
 <p>Status <b>ok</b> means that a cell was measured, not that it reached its goal: success is reported separately.
-<b>Unsolved</b>: the method answered, but missed its goal. Every failure is counted and named; a missing value is shown as —,
-never as zero.</p>
+<b>Unsolved</b>: the method answered, but missed its goal. Every failure is counted and named; a missing value is
+shown as —, never as zero.</p>
 )";
 
 std::string HowToRead() {
