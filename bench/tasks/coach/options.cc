@@ -24,7 +24,7 @@ const FieldTable<CoachOperatingPoint>& OperatingPointFieldsOfCoach() {
 std::vector<Field<Method>> CoachFields() {
   using Key = Field<Method>;
   return {Key::Number("most_corrections", Path(&Method::coach, &CoachOptions::most_corrections), {0, 100},
-                      "Maximum number of corrections of one performance before the dance goes on."),
+                      "Maximum number of corrections of one performance before the coach continues the dance."),
           Key::Flag("follows_tags", Path(&Method::coach, &CoachOptions::follows_tags),
                     "Whether music-time tags slow down and speed up the dance.")};
 }
@@ -36,7 +36,8 @@ std::vector<Field<Method>> PolicyFields() {
                                        FindPolicy, "When the coach interrupts.")};
   Append(SettingFields<Method>("policy", AllPolicies(), Path(&Method::policy, &Coach::PolicyChoice::settings)), fields);
   fields.push_back(Key::Name("partner", &Method::partner, PolicyNames(), FindPolicy,
-                             "The policy at whose moments, in another person's session, it corrects.")
+                             "The policy of another person's session: this method corrects at the moments at which "
+                             "that policy corrects.")
                        .With("policy", {"yoked"}));
   return fields;
 }
