@@ -80,7 +80,9 @@ std::span<const Policy> AllPolicies() {
   // The policies that need only the recogniser's evidence, then the two for experiments: `oracle` and `yoked`.
   static const std::vector<Policy> policies = {
       {.name = "at-first-mistake", .description = "corrects every mistake (paper A)", .decide = AtFirst},
-      {.name = "never", .description = "never corrects: the dance goes on whatever the player does", .decide = Never},
+      {.name = "never",
+       .description = "never corrects: the dance continues, whatever the player does",
+       .decide = Never},
       {.name = "after-n",
        .description = "corrects after several successive mistakes in a move",
        .settings = AfterSettings().Describe(),

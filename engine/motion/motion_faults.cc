@@ -106,7 +106,7 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
     case kGaps:
       return fmt::format("{} not shown for {:.2f} s {}", fault.joint ? joint + " is" : "joints are", fault.size, when);
     case kPasses:
-      return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their middle", joint, when, cm);
+      return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their centre line", joint, when, cm);
     case kRate:
       return GravitySentence(fault);
     case kSpeed:

@@ -87,7 +87,7 @@ class Streams(EtudeCase):
         self.assertEqual(json.loads((self.out / "summary.json").read_text())["scenarios"][0]["unit"], "person")
         self.ends(0, "report", self.out, "--no-video")
         page = (self.out / "report" / "index.html").read_text()
-        self.assertIn("the moves that nearest takes the danced ones for", page)
+        self.assertIn("the moves that nearest named instead of the danced moves", page)
         # The manifest alone repeats the run, in shards too; a packed cell needs no recording.
         again = self.folder / "again"
         self.ends(0, "run", "--from", self.out / "manifest.json", "-o", again)
