@@ -125,7 +125,7 @@ void DefineReport(CLI::App& app, Action& action) {
       command
           ->add_option("--blind", blind->methods,
                        "Instead, write a page in DIR/blind on which people compare films of these methods' transitions "
-                       "without knowing which is which, and the key")
+                       "without knowing which is which, and the page's key")
           ->expected(2, 16)
           ->excludes("--no-video", "--whole-sessions", "--real");
   command->add_option("--pairs", blind->pairs, "With --blind: the largest number of pairs")

@@ -131,8 +131,8 @@ std::string HowToRead() {
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(
-      " Figures and verdicts use all cells; dots, curves and the reasons for missing values use {} of them: whole "
-      "worlds at equal steps.",
+      " Figures and verdicts use all cells; dots, curves and the reasons for missing values use {} of them: all cells "
+      "of every n-th world.",
       FormatCount(static_cast<long long>(run.rows.size())));
 }
 

@@ -99,7 +99,7 @@ static void Describe(RecordFields& fields, DetectionExtras& extras) {
 
 static void Describe(RecordFields& fields, CoachExtras::Mode& mode) {
   fields.Required("mode", mode.mode, "`dance`, `correct`, …");
-  fields.Required("begin_frame", mode.begin_frame, "its first frame; it lasts until the next mode begins");
+  fields.Required("begin_frame", mode.begin_frame, "first frame of the mode, which lasts until the next mode begins");
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Performance& performance) {
@@ -112,7 +112,7 @@ static void Describe(RecordFields& fields, CoachExtras::Performance& performance
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Words& words) {
-  fields.Required("begin_frame", words.begin_frame, "their first frame; they stay until the next words");
+  fields.Required("begin_frame", words.begin_frame, "first frame of these words; they stay until the next words");
   fields.Required("say", words.say, "a short word to the learner");
   fields.Required("hint", words.hint, "what to do better");
   fields.Optional("picture", words.picture, "the key pose that the hint is about, sixty numbers; absent without one");

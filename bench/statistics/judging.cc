@@ -33,7 +33,8 @@ std::string NoteOnMissing(const Comparison& c) {
 }
 
 std::string NotWithFailures(Verdict of_pairs) {
-  return fmt::format("“{}” where both have a value, but not if a failure counts as a loss", VerdictName(of_pairs));
+  return fmt::format("“{}” in worlds in which both have a value, but not if a failure counts as a loss",
+                     VerdictName(of_pairs));
 }
 
 /// Returns the numbers of worlds in which the method is better and worse, as text. A median hides differences in fewer

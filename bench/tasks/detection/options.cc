@@ -124,8 +124,8 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                    "Lowest evidence at which a move counts as performed; for all methods.")
            .WhenAbsent("(each recogniser's own)"),
        Key{{"operating_point", MappingKind("a mapping", OperatingPointFields().Describe()), "(none)",
-            "Sets each method's thresholds on other people: for spotting, at a rate of false alarms; for judging what "
-            "was asked for, at a recall."},
+            "Sets each method's thresholds on other people: for spotting, by a rate of false alarms; for judging "
+            "requested moves, by a recall."},
            [](Fields& condition, Options& o) {
              if (condition.Raw("operating_point") == nullptr) return;
              ReadNested(condition, "operating_point", OperatingPointFields(), o.operating_point.emplace());

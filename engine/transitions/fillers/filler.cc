@@ -156,7 +156,7 @@ std::span<const Filler> AllFillers() {
        .settings = {HalfLife(kSpring_s, "The time in which half of a difference is gone.")},
        .fill = FillByHalfLife<InertialisedAt, kSpring_s>},
       {.name = "dead-blending",
-       .description = "both ends go on with decaying velocities; one fades into the other",
+       .description = "both ends continue with decaying velocities; one fades into the other",
        .settings = {HalfLife(kDead_s, "The time in which a velocity halves.")},
        .fill = FillByHalfLife<DeadBlendedAt, kDead_s>},
       {.name = "minimum-jerk",

@@ -148,7 +148,7 @@ TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
   EXPECT_EQ(judged(20, 0).verdict, Verdict::kBetter);
   const Comparison open = judged(0, 12);
   EXPECT_EQ(open.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(open.why_open, "“better” where both have a value, but not if a failure counts as a loss");
+  EXPECT_EQ(open.why_open, "“better” in worlds in which both have a value, but not if a failure counts as a loss");
   EXPECT_GT(*open.p_holm, 0.05);
   EXPECT_DOUBLE_EQ(*open.difference, *Compared(Falling(20)).difference);
 }

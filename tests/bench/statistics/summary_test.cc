@@ -192,7 +192,8 @@ TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {
   EXPECT_DOUBLE_EQ(*comparison.difference, -2);
   EXPECT_DOUBLE_EQ(comparison.share_better, 1);
   EXPECT_EQ(comparison.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(comparison.why_open, "“better” where both have a value, but not if a failure counts as a loss");
+  EXPECT_EQ(comparison.why_open,
+            "“better” in worlds in which both have a value, but not if a failure counts as a loss");
   for (Row& row : rows) {
     if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
   }
