@@ -84,8 +84,8 @@ The JSON (`docs/schemas/metrics.schema.json`) contains every definition below wi
 - **A missing value** is null with its reason in `null_reasons`, never zero. A cell without an answer (failed, timeout,
   crashed, out_of_memory, bad_output) has no values, except for metrics that give a failure a value (0 for a solved
   share, twice the limit for PAR-2), so that it stays in the denominator. A skipped cell has no values at all.
-- **A run** aggregates the cells' values by the metric's aggregate, median or mean, with a 95 % bootstrap interval; shares
-  and 0/1 values are aggregated by the mean.
+- **A run** aggregates the cells' values by the metric's aggregate, median or mean, with a 95 % bootstrap interval;
+  shares and 0/1 values are aggregated by the mean.
 - **The practical threshold** is the smallest difference that matters in practice. A smaller difference is never better
   or worse.
 - **∠(u, v)** is atan2(‖u × v‖, u · v), 0 when a vector is zero.
@@ -95,8 +95,8 @@ The JSON (`docs/schemas/metrics.schema.json`) contains every definition below wi
 - A motion: `{"rate_hz": 30, "frames": 3, "joints_m": {"left_hand": [[x, y, z], …]}}`: one position per frame, or one for
   all frames. A joint that is not named stays at the origin; the default of `rate_hz` is 30.
 - A pose: `{"left_hand": [x, y, z], …}`. A joint that is not named is at the origin.
-- A computed value may differ from the expected value by the tolerance, in the metric's unit. `expected: null` means that
-  the metric has no value.
+- A computed value may differ from the expected value by the tolerance, in the metric's unit. `expected: null` means
+  that the metric has no value.
 - `derived:` values were derived from the definition by hand; `published:` values are from the work that is named.
 )";
 
