@@ -373,7 +373,7 @@ std::string WriteGateJunit(const GateReport& report) {
   std::vector<JunitSuite> suites = {
       {"gate",
        {empty("every cell can be judged", report.incomplete), empty("every method has an answer", report.silent),
-        empty("no answer flips", FallenLines(report, true))}}};
+        empty("no answer changed from better to worse", FallenLines(report, true))}}};
   std::map<std::string, std::size_t> places;
   const auto suite_of = [&](const std::string& scenario) -> JunitSuite& {
     const auto [place, is_new] = places.emplace(scenario, suites.size());

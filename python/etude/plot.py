@@ -132,7 +132,7 @@ def _waterfall(budget, metric):
     for share in budget["shares"]:
         bars.append((share["stage"], left, left - scale * share["mean"], share))
         left -= scale * share["mean"]
-    bars.append(("what is left", 0, scale * budget["rest"], None))
+    bars.append(("remaining error", 0, scale * budget["rest"], None))
     for i, (_, begin, end, share) in enumerate(bars):
         colour = _colour(0 if share is None else 2 if end > begin else 1)
         axes.barh(i, end - begin, left=begin, height=0.5, color=colour)

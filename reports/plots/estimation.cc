@@ -284,7 +284,7 @@ std::string EstimationLegend(const ScenarioSummary& scenario, const std::string&
   std::string text =
       fmt::format("Left: both methods, one dot per world, coloured by {}. Right: their differences with 95 % intervals",
                   WorldsAreUnits(scenario.unit)              ? "method"
-                  : scenario.unit == SamplingUnit::kClipPair ? "the clip left"
+                  : scenario.unit == SamplingUnit::kClipPair ? "the clip that is left"
                                                              : "its source");
   if (info != nullptr) {
     text += fmt::format("; shaded: differences of less than {:g}{}, which do not matter", info->practical * words.scale,
