@@ -328,14 +328,15 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
 
 std::string AcrossTableHtml(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
-  return "<p class=\"quiet legend\">Verdicts that are the same under all values of the assumptions (key "
-         "<code>across</code>):</p>" +
+  return "<p class=\"quiet legend\">Verdicts under each value of the assumptions (key <code>across</code>). A verdict "
+         "counts only if it is the same under all values:</p>" +
          TableHtml(AcrossTable(scenario));
 }
 
 std::string AcrossTableMarkdown(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
-  return "\nVerdicts that are the same under all values of the assumptions (key `across`):\n" +
+  return "\nVerdicts under each value of the assumptions (key `across`). A verdict counts only if it is the same under "
+         "all values:\n" +
          TableMarkdown(AcrossTable(scenario));
 }
 
