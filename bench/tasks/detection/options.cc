@@ -57,7 +57,7 @@ const FieldTable<OperatingPoint>& OperatingPointFields() {
   using Key = Field<OperatingPoint>;
   static const FieldTable<OperatingPoint> table{
       {Key::Number("false_alarms_per_min", &OperatingPoint::false_alarms_per_min, {0.01, 60},
-                   "Allowed number of false alarms a minute when moves are spotted without being asked for."),
+                   "Allowed number of false alarms a minute when moves are spotted without a request."),
        Key::Number("recall", &OperatingPoint::recall, {0.01, 1},
                    "Share of the right performances of requested moves that must be judged right."),
        Key::Number("sessions", &OperatingPoint::sessions, {1, 1000},
