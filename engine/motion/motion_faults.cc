@@ -176,7 +176,7 @@ std::vector<FaultRule> MakeFaultRules() {
       {"torn", "m",
        fmt::format(
            "For {:g} s, a joint of trunk, head, shoulders, hips, toes or hands deviates from its usual distance to its "
-           "neighbours by 8 to 14 % of the length of leg and trunk; or in the median frame this distance is 1.6 to 3.5 "
+           "neighbours by 8 to 14 % of the length of leg and trunk. Or this distance in the median frame is 1.6 to 3.5 "
            "times a person's, or differs from that on the other side. Also: the head lies on the neck or points down "
            "the trunk, toes point backwards, shoulders or hips are exchanged or coincide.",
            kTorn_s)},

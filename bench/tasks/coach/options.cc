@@ -101,8 +101,8 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
     Append(FieldsOf<Condition>(DetectionConditionFields(), &Condition::sight, Keep::kThese, sight), fields);
     fields.push_back(
         Key{{"operating_point", MappingKind("a mapping", OperatingPointFieldsOfCoach().Describe()), "(none)",
-             "Sets the threshold of evidence for a right performance on uninterrupted sessions of other people, so "
-             "that a given number of right performances a minute are taken for mistakes."},
+             "Sets the threshold of evidence on uninterrupted sessions of other people, so that a given number of "
+             "right performances a minute are taken for mistakes."},
             [](Fields& condition, Condition& c) {
               if (condition.Raw("operating_point") == nullptr) return;
               ReadNested(condition, "operating_point", OperatingPointFieldsOfCoach(), c.operating_point.emplace());
