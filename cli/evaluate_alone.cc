@@ -32,7 +32,7 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
     for (const auto& entry : fs::directory_iterator(folder, none)) known.push_back(entry.path().stem().string());
     std::ranges::sort(known);
     if (std::ranges::find(known, name) == known.end()) {
-      return Fail({"--limits"}, "no such file, and {}, or a file of limits",
+      return Fail({"--limits"}, "there is no such file; {}, or a file of limits",
                   UnknownName("name of limits", name, known));
     }
     file = shipped;

@@ -169,7 +169,8 @@ FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
   const std::vector<std::string> methods = MethodNames(scenario);
   return {{KnownName("of", &TimeRatio::of, "a method", methods, "The method whose time is judged."),
            KnownName("over", &TimeRatio::over, "a method", methods,
-                     "The method by whose time the time of `of` is divided, world by world."),
+                     "The method in the denominator: in each world the time of `of` is divided by the time of this "
+                     "method."),
            Field<TimeRatio>::Number("at_most", &TimeRatio::at_most, {0.001, 1e6},
                                     "Upper bound of the median of these ratios.")},
           CheckTimeRatio};

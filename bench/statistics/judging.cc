@@ -71,7 +71,7 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
                        comparisons == 1 ? "one comparison" : fmt::format("one of {} comparisons (Holm)", comparisons),
                        needed);
   }
-  if (!c.ci_low) return fmt::format("too few worlds: there is no interval below {}", kMinSample);
+  if (!c.ci_low) return fmt::format("too few worlds: fewer than {} pairs give no interval", kMinSample);
   // The interval and the test disagree.
   const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
   if (!beyond_zero && *c.p_holm > kAlpha) return "the interval contains zero and differences that matter";

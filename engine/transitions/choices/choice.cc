@@ -233,7 +233,7 @@ std::span<const Choice> Table() {
              .description = "goes from the playing clip's last frame into the clip's first frame",
              .plan = PlanBy<PlanWaitForEnd>},
       Choice{.name = "unbroken",
-             .description = "no transition: the playing clip continues, for comparison",
+             .description = "no transition: the playing clip continues, as a reference for unbroken motion",
              .plan = PlanBy<PlanUnbroken>},
   };
   return kChoices;
