@@ -164,14 +164,14 @@ std::span<const Filler> AllFillers() {
        .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt, LeastJerkAt); }},
       // Fillers that learn from the training clips.
       {.name = "nearest-gap",
-       .description = "dead blending, plus its error in the training clips' gap whose ends are nearest",
+       .description = "dead blending, corrected by its error in the training clips' gap whose ends are nearest",
        .uses_library = true,
        .fill =
            [](const Gap& gap, Values) {
              return gap.library ? gap.library->FillLikeNearest(gap, DeadBlend) : std::vector<TreePose>();
            }},
       {.name = "near-gaps",
-       .description = "dead blending, plus its mean error in the training clips' near gaps",
+       .description = "dead blending, corrected by its mean error in similar gaps of the training clips",
        .uses_library = true,
        .fill = FillLikeNear},
       {.name = "planted-feet",
