@@ -86,7 +86,7 @@ void Print(const Preferences& found) {
       "Preferred: the chance that a method is preferred to another one that it was compared with (Bradley and Terry; "
       "“no difference” is half a win). {}\n\n",
       found.raters < kMinSample
-          ? fmt::format("Intervals over raters need {} of them.", kMinSample)
+          ? fmt::format("Intervals need {} raters.", kMinSample)
           : "Intervals are over raters (bootstrap, 95 %), on these films.");
   // Print one row for each metric.
   fmt::print("{:<{}}  {:>9}  {:>16}  {:>10}\n", "metric", width, "agrees", "95 % interval", "pairs");
@@ -96,13 +96,13 @@ void Print(const Preferences& found) {
                InPerCent(metric.interval), metric.decided);
   }
   fmt::print(
-      "Agrees: of the pairs in which more raters prefer one side than the other and the metric's values differ, those "
-      "in which both prefer the same side; interval over pairs (Wilson). A coin agrees in 50 %. The best of {} metrics "
-      "looks better here than it will on other films.\n",
+      "Agrees: the share of pairs in which most raters and the metric prefer the same side. Pairs without a majority "
+      "of raters, or with equal values of the metric, do not count. Intervals are over pairs (Wilson). A coin would "
+      "agree in 50 %. The best of {} metrics looks better here than it will on other films.\n",
       found.metrics.size());
   for (const OneSidedRater& rater : found.one_sided) {
     fmt::print(stderr,
-               "etude: {} chose left in {} of {} decided pairs, and sides were drawn by lot (p < 0.01); leave the file "
+               "etude: {} chose left in {} of {} decided pairs, although sides were random (p < 0.01); leave the file "
                "out if these answers are not about the films\n",
                Visible(rater.rater), rater.left, rater.decided);
   }

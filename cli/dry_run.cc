@@ -59,10 +59,10 @@ void Print(const ScenarioForecast& one) {
   }
   if (WorldsAreUnits(one.unit)) return;
   if (one.units < kMinUnits) {
-    fmt::print("  beyond them: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit), kMinUnits);
+    fmt::print("  for others: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit), kMinUnits);
     return;
   }
-  fmt::print("  beyond them: from {:.2f} standard deviations of the mean differences of {}\n",
+  fmt::print("  for others: from {:.2f} standard deviations of the mean differences of {}\n",
              MinDetectableDifference(one.units, one.comparisons), CountUnits(one.units, one.unit));
 }
 

@@ -32,7 +32,7 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
     for (const auto& entry : fs::directory_iterator(folder, none)) known.push_back(entry.path().stem().string());
     std::ranges::sort(known);
     if (std::ranges::find(known, name) == known.end()) {
-      return Fail({"--limits"}, "no such file, and {}, or a file of limits",
+      return Fail({"--limits"}, "there is no such file; {}, or a file of limits",
                   UnknownName("name of limits", name, known));
     }
     file = shipped;
@@ -67,7 +67,7 @@ void PrintLines(std::string_view heading, const std::vector<std::string>& lines)
 Result<std::string> ScenarioOfMotions(const std::vector<std::string>& files, const AloneOptions& options,
                                       const std::string& people) {
   ASSIGN_OR_RETURN(const auto methods, ReadMotions(files));
-  std::string text = "scenario: evaluate\nquestion: Could a person have moved like this?\ntask: plausibility\n";
+  std::string text = "scenario: evaluate\nquestion: Could a person have made these motions?\ntask: plausibility\n";
   if (options.floor_m) text += fmt::format("floor_m: {}\n", *options.floor_m);
   if (!people.empty()) text += fmt::format("people: {}\n", QuotedInYaml(people));
   if (!options.limits.empty()) {
@@ -107,7 +107,7 @@ Triage TriageOf(const RunData& run) {
 void PrintTriage(const Triage& triage) {
   fmt::print("{} of {} clips without a fault\n", triage.fault_free, triage.clips);
   for (const auto& [kind, clips] : triage.kinds) fmt::print("  {:<10}  {:>6}\n", kind, clips);
-  if (!triage.kinds.empty()) fmt::print("  etude list faults: what each of them is\n");
+  if (!triage.kinds.empty()) fmt::print("  etude list faults: states what each fault is\n");
   if (triage.has_limits) PrintLines("beyond the limits", triage.beyond_limits);
   if (!triage.faulty.empty())
     PrintLines(triage.has_limits ? "with faults, within the limits" : "with faults", triage.faulty);

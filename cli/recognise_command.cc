@@ -38,12 +38,15 @@ struct RecogniseCommandOptions {
 };
 
 constexpr const char* kRecogniseExamples =
-    "\nPrints each move as soon as it is spotted, as a line of JSON. With labels it also prints the accuracy: "
-    "performances\ncalled right or wrong, action points within 333 ms. With --leave-one-person-out each person is "
-    "recognised after\nteaching with the recordings of the others. Recordings and devices: Kinect v1 and v2 rows, "
-    "MSRC-12, UTKinect, NTU, Azure Kinect, CSV, TRC; rows and "
-    "CSV\n"
-    "also live (docs/streams.md).\n\n"
+    "\n"
+    "Prints each move as soon as it is spotted, as a line of JSON. With labels it also prints the accuracy: "
+    "performances\n"
+    "called right or wrong, action points within 333 ms. With --leave-one-person-out the recordings of all other "
+    "people\n"
+    "teach the recogniser of each person. Recordings and devices: Kinect v1 and v2 rows, MSRC-12, UTKinect, NTU, Azure "
+    "Kinect, CSV, TRC; rows and CSV\n"
+    "also live (docs/streams.md).\n"
+    "\n"
     "Try:\n"
     "  etude recognise take.txt --moves moves.yaml\n"
     "  my-kinect-reader | etude recognise - --moves moves.yaml\n"
@@ -241,7 +244,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
   if (!out.verdicts.empty()) {
     fmt::print("accuracy of {} performances, one person left out\n  {:<28} {}\n  {:<28} {}\n", out.verdicts.size(),
                watch.recogniser.kind->name, Percent(accuracy), "nearest whole performance", Percent(nearest));
-    if (accuracy <= nearest) fmt::print("  so it names no better than one nearest neighbour\n");
+    if (accuracy <= nearest) fmt::print("  so this recogniser names moves no better than one nearest neighbour does\n");
     PrintMistakes(out.verdicts);
   }
   if (out.untaught_performances > 0)

@@ -125,14 +125,15 @@ void DefineReport(CLI::App& app, Action& action) {
       command
           ->add_option("--blind", blind->methods,
                        "Instead, write a page in DIR/blind on which people compare films of these methods' transitions "
-                       "without knowing which is which, and the key")
+                       "without knowing which is which, and the page's key")
           ->expected(2, 16)
           ->excludes("--no-video", "--whole-sessions", "--real");
   command->add_option("--pairs", blind->pairs, "With --blind: the largest number of pairs")
       ->needs(methods)
       ->check(NumberWithin(1, 1000, "number of pairs"))
       ->capture_default_str();
-  AddSeed(*command, blind->seed, "With --blind: seed of the dice that draw worlds, order and sides")->needs(methods);
+  AddSeed(*command, blind->seed, "With --blind: seed of the random numbers that choose worlds, order and sides")
+      ->needs(methods);
   command->callback([=, &action] {
     action = [=] {
       if (!blind->methods.empty()) return Finish(BlindPageCommand(*folder, *blind, *sealing, *jobs));

@@ -280,9 +280,9 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   AddReuseKey(*command, options->reuse_key);
   // Define the options for parts of a run, and for continuing a run.
   command->add_option("--shard", *shard, "Run part i of n, given as i/n; etude merge makes one run of all parts");
-  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run that the folder holds");
+  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run in this folder");
   CLI::Option* resume =
-      command->add_flag("--resume", options->resume, "Continue the run that the folder holds")->excludes(overwrite);
+      command->add_flag("--resume", options->resume, "Continue the run in this folder")->excludes(overwrite);
   AddOtherLibraries(*command, options->other_libraries);
   AddOutsideRules(*command, options->outside);
   command->add_option("--sync-seconds", options->sync.seconds, "Longest time until a finished cell is on the disk, s")
@@ -350,7 +350,7 @@ void DefineMerge(CLI::App& app, const std::string& command_line, Action& action)
   CLI::App* command = app.add_subcommand("merge", "Merge the shards of a run into one run");
   command->add_option("folders", options->folders, "The folders of all shards, in any order")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
-  AddOverwrite(*command, options->overwrite, "Replace the run that the folder holds");
+  AddOverwrite(*command, options->overwrite, "Replace the run in this folder");
   AddOtherLibraries(*command, options->other_libraries);
   const Action act = WithSecretKey(*command, nullptr, options->key, [=] { return MergeCommand(*options); });
   command->callback([=, &action] { action = act; });

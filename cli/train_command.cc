@@ -178,7 +178,7 @@ std::string HeaderOf(const TrainOptions& options, const Split& split, const Tune
   text += fmt::format("\n# from {} pairs of frames, {} of them close, of\n#   {}\n# held out:\n#   {}\n", tuned.pairs,
                       tuned.close_pairs, Join(split.learnt_names),
                       split.held_out_names.empty() ? "none" : Join(split.held_out_names));
-  text += "# How well d < 0.4 tells the close pairs:\n";
+  text += "# How well d < 0.4 finds the close pairs:\n";
   for (const std::string& line : comparison) text += "#   " + line + "\n";
   return text;
 }

@@ -72,10 +72,10 @@ std::string SampleInWords(const CellChoice& choice) {
     } else if (missed.empty()) {
       missed.push_back(fmt::format("{} of forgers who change 5 % of the {} cells ({})", share, one.cells, one.forged));
     } else {
-      missed.push_back(fmt::format("{} of forgers who change one", share));
+      missed.push_back(fmt::format("{} of forgers who change one cell", share));
     }
   }
-  if (missed.empty()) return "Every cell that can be run again was.";
+  if (missed.empty()) return "Every cell that can be run again was run again.";
   return fmt::format(
       "The sample does not detect {}. --sample all detects every forger; --sample-seed {} draws this sample again.",
       Join(missed), choice.dice);
@@ -90,7 +90,8 @@ std::vector<std::string> NotVerified(const CellChoice& choice) {
       lines.push_back(fmt::format("{}: all {} cells: {}", name, method.rows, method.why_not));
     for (const auto& [status, rows] : method.by_machine) {
       lines.push_back(
-          fmt::format("{}: {} of {} cells ended with {} on their machine; on another, they may end otherwise", name,
+          fmt::format("{}: {} of {} cells ended with {} on the run's machine; on another machine they may end in "
+                      "another way", name,
                       rows, method.rows, status));
     }
   }

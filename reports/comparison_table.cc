@@ -96,8 +96,8 @@ std::string Legend(const ScenarioSummary& scenario) {
   const std::string with_baselines = Plural(scenario.family, "comparison") + " with baselines";
   if (rivals == 0) return fmt::format("p is corrected over the {} (Holm).", with_baselines);
   return fmt::format(
-      "p is corrected (Holm) over the {}, and apart from these over the {} with the strongest other method. A pair of "
-      "methods that is in both is listed once.",
+      "p is corrected (Holm) over the {}, and separately over the {} with the strongest other method. A pair of "
+      "methods that belongs to both is listed once.",
       with_baselines, FormatCount(static_cast<long long>(rivals)));
 }
 
@@ -152,7 +152,7 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
                                              number("Worlds", true),
                                              number("p (Holm)", true),
                                              number("Effect", true),
-                                             {.head = "Mind", .is_detail = true}});
+                                             {.head = "Notes", .is_detail = true}});
   // Add one row per comparison, below one heading row per metric.
   const std::string* metric = nullptr;
   for (const Shown& one : shown) {
@@ -168,8 +168,8 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   return TableHtml(table);
 }
 
-/// Returns "holds" if all conditions have the same verdict. Otherwise returns how the verdicts differ: "turns round" if
-/// one is better and another worse.
+/// Returns "holds" if all conditions have the same verdict. Otherwise returns how the verdicts differ: "better under
+/// some, worse under others" if one is better and another worse.
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;
@@ -178,7 +178,8 @@ std::string WhatHolds(const AcrossVerdict& across) {
   }
   if (said.size() == 1) return "inconclusive everywhere";
   const auto says = [&](Verdict verdict) { return std::ranges::find(said, verdict) != said.end(); };
-  return says(Verdict::kBetter) && says(Verdict::kWorse) ? "turns round" : "does not hold everywhere";
+  return says(Verdict::kBetter) && says(Verdict::kWorse) ? "better under some, worse under others"
+                                                         : "does not hold everywhere";
 }
 
 std::string MethodsOf(const AcrossVerdict& across) { return across.method + " − " + across.baseline; }
@@ -191,7 +192,8 @@ std::string EachText(const AcrossVerdict& across, const AcrossVerdict::Each& eac
 }
 
 Table AcrossTable(const ScenarioSummary& scenario) {
-  Table table{.label = "What holds under all", .style = "data", .columns = {{"metric"}, {"methods"}, {"condition"}}};
+  Table table{
+      .label = "Verdicts under all assumptions", .style = "data", .columns = {{"metric"}, {"methods"}, {"condition"}}};
   for (const AcrossVerdict::Each& each : scenario.across.front().each) table.columns.push_back({each.value});
   table.columns.push_back({"under all"});
   for (const AcrossVerdict& across : scenario.across) {
@@ -252,7 +254,7 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
                           {"worlds"},
                           {"p (Holm)"},
                           {"effect"},
-                          {"mind"}}};
+                          {"notes"}}};
   for (const Shown& shown : std::span(all).first(std::min(all.size(), kMaxTableRows))) {
     const Line line = LineOf(*shown.condition, *shown.comparison, scenario.unit);
     table.rows.push_back(
@@ -326,12 +328,16 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
 
 std::string AcrossTableHtml(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
-  return "<p class=\"quiet legend\">What holds under all of them:</p>" + TableHtml(AcrossTable(scenario));
+  return "<p class=\"quiet legend\">Verdicts under each value of the assumptions (key <code>across</code>). A verdict "
+         "counts only if it is the same under all values:</p>" +
+         TableHtml(AcrossTable(scenario));
 }
 
 std::string AcrossTableMarkdown(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
-  return "\nA verdict counts only when it is the same under all of them:\n" + TableMarkdown(AcrossTable(scenario));
+  return "\nVerdicts under each value of the assumptions (key `across`). A verdict counts only if it is the same under "
+         "all values:\n" +
+         TableMarkdown(AcrossTable(scenario));
 }
 
 }  // namespace etude

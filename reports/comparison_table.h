@@ -17,16 +17,14 @@ std::string ShortDifference(double difference, const MetricWords& words);
 
 /// Explains the columns of the tables below.
 inline constexpr std::string_view kComparisonLegend =
-    "A difference is method − baseline in the same world: the median over worlds, of shares and penalised costs the "
-    "mean; "
-    "its 95 % interval is a BCa bootstrap (of shares adjusted Wald; †: percentile, where BCa is undefined). p is that "
-    "of Wilcoxon’s signed-rank test (of a sign-flip test where the mean counts), corrected over the scenario’s "
-    "comparisons (Holm). "
-    "Effect is the rank-biserial correlation, −1 to +1, + is better. Better or worse needs p ≤ 0.05, an interval on "
-    "one "
-    "side of zero, and a difference that matters; no difference, an interval within what matters. A world in which "
-    "only one method failed counts as its loss in p, and the verdict must hold with and without such worlds. The "
-    "verdict about other clips, people or libraries follows from the middle of their mean differences (the "
+    "A difference is method − baseline in the same world. The table shows its median over worlds (for shares and "
+    "penalised costs its mean) with a 95 % interval by BCa bootstrap (for shares adjusted Wald; †: percentile, where "
+    "BCa is undefined). p is that of Wilcoxon’s signed-rank test (where the mean counts, of a sign-flip test), "
+    "corrected over the scenario’s comparisons (Holm). Effect is the rank-biserial correlation, −1 to +1; + is better. "
+    "Better and worse need p ≤ 0.05, an interval on one side of zero, and a difference that matters. No difference "
+    "needs an interval that contains only differences that do not matter. A world in which only one method failed "
+    "counts as this method’s loss in p, and the verdict must be the same with and without such worlds. The verdict "
+    "about other clips, people or libraries follows from the pseudo-median of their mean differences (the "
     "Hodges–Lehmann estimate); with fewer than 6 of them there is no such verdict.";
 
 /// Counts the comparisons in the tables below: each pair of methods under one metric and condition counts once.

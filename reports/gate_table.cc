@@ -337,7 +337,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   text += List("**Incomplete**, so there is no overall verdict:", report.incomplete);
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
-  text += List("**Answers that fell** (one from better to worse is a regression):", FallenLines(report));
+  text += List("**Answers that became worse** (a change from better to worse is a regression):", FallenLines(report));
   // Write the changed metrics. Those that fail the gate are visible; all others are folded away.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
@@ -373,7 +373,7 @@ std::string WriteGateJunit(const GateReport& report) {
   std::vector<JunitSuite> suites = {
       {"gate",
        {empty("every cell can be judged", report.incomplete), empty("every method has an answer", report.silent),
-        empty("no answer flips", FallenLines(report, true))}}};
+        empty("no answer changed from better to worse", FallenLines(report, true))}}};
   std::map<std::string, std::size_t> places;
   const auto suite_of = [&](const std::string& scenario) -> JunitSuite& {
     const auto [place, is_new] = places.emplace(scenario, suites.size());

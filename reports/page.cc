@@ -102,21 +102,24 @@ std::string Answers(const RunData& run, const std::vector<ScenarioFindings>& fin
 }
 
 constexpr std::string_view kHowToRead =
-    R"(<p>A <b>world</b> is one simulated trial whose truth is known; every method meets the same worlds, so differences are
-computed world by world. In pictures a dot is a world, a thick line the median (for shares the mean), a box the middle half.
-<b>Better</b> and <b>worse</b> mean that the interval of the difference excludes zero and that the difference matters in
-practice; <b>no difference</b>, that the interval contains only differences that do not matter; <b>inconclusive</b>, that
-the data do not decide, which never means that there is no difference.</p>
-<p>An <b>answer</b> is about <b>success</b> first: which method solves, finds or recovers more, where 5 percentage points
-matter and a failure counts. If success does not decide, the first headline metric does; if that does not either, the
-<b>tail</b> does: the worlds in which a method is far better or far worse. A method <b>loses</b> a world if it is worse
-there by as much as matters.</p>
+    R"(<p>A <b>world</b> is one simulated trial whose truth is known; every method gets the same worlds, so
+differences are computed world by world. In pictures a dot is a world, a thick line the median (for shares the mean),
+and a box covers the middle half of the worlds. <b>Better</b> and <b>worse</b> mean that the interval of the
+difference excludes zero and that the difference matters in practice; <b>no difference</b>, that the interval contains
+only differences that do not matter; <b>inconclusive</b>, that the data do not decide, which never means that there is
+no difference.</p>
+<p>An <b>answer</b> first compares <b>success</b>: which method solves, finds or recovers more. A difference of 5
+percentage points matters, and a failure counts as no success. If success does not decide, the first headline metric
+decides. If that does not decide either, the <b>tail</b> does: the worlds in which a method is far better or far
+worse. A method <b>loses</b> a world if it is worse there by a difference that matters.</p>
 <p>Each comparison has two verdicts. <b>On these worlds</b> (these clips, these people): the differences that were
-measured. <b>Beyond them</b> (for other clips, other people): each clip counts once, however many worlds were drawn
-from it, and with fewer than six clips there is no such verdict. It is about the <b>middle</b> of the clips (the median of
-the means of all pairs), which a single unusual clip does not move; the mean must have the same sign. A sign in brackets,
-such as (=), holds on these worlds only.</p>
-<p>Status <b>ok</b> means that a cell was measured, not that it reached its goal: success is reported separately. <b>Unsolved</b>: it answered, but missed its goal. Every failure is counted and named; a missing value is shown as —, never as zero.</p>
+measured. <b>For others</b> (other clips, other people): each clip counts once, however many worlds were drawn from
+it, and with fewer than six clips there is no such verdict. It is about the <b>pseudo-median</b> of the clips'
+differences (the median of the means of all pairs of clips), which a single unusual clip hardly changes; the mean must
+have the same sign. A sign in brackets, such as (=), is a verdict on these worlds only.</p>
+<p>Status <b>ok</b> means that a cell was measured, not that it reached its goal: success is reported separately.
+<b>Unsolved</b>: the method answered, but missed its goal. Every failure is counted and named; a missing value is
+shown as —, never as zero.</p>
 )";
 
 std::string HowToRead() {
@@ -128,8 +131,8 @@ std::string HowToRead() {
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(
-      " Figures and verdicts use all cells; dots, curves and the reasons for missing values use {} of them: whole "
-      "worlds at equal steps.",
+      " Figures and verdicts use all cells; dots, curves and the reasons for missing values use {} of them: all cells "
+      "of every n-th world.",
       FormatCount(static_cast<long long>(run.rows.size())));
 }
 

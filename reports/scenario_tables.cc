@@ -108,17 +108,17 @@ std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& con
   return fmt::format(
       "{}{}{} Medians (for shares, means) with their 95 % intervals; n: number of cells that have the value, of those "
       "attempted. Difference: method − baseline in the same world, its median (for shares and penalised costs, its "
-      "mean) with its 95 % interval; a second row compares with the strongest other method. The last columns hold the "
-      "verdict on {} "
-      "and "
-      "the one for {} (--: none, with fewer than 6 of them). p is Holm-corrected over this scenario’s {}: ",
+      "mean) with its 95 % interval; a second row compares with the strongest other method. The last columns contain "
+      "the verdict on {} and the verdict for {} (--: none, with fewer than 6 of them). p is Holm-corrected over this "
+      "scenario’s {}: ",
       title, label.empty() ? "" : fmt::format(" ({})", label), answer, TheseUnits(scenario.unit),
       OtherUnits(scenario.unit), Plural(scenario.family, "comparison"));
 }
 
 constexpr std::string_view kStarsCaption =
     "$^{*}$~$p \\le 0.05$, $^{**}$~$p \\le 0.01$, $^{***}$~$p \\le 0.001$. Better and worse also need an interval on "
-    "one side of zero and a difference that matters; no difference, an interval within what matters.";
+    "one side of zero and a difference that matters. No difference needs an interval that contains only differences "
+    "that do not matter.";
 
 std::string Float(const std::string& caption, const Table& table) {
   return fmt::format(

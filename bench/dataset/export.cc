@@ -31,15 +31,16 @@ namespace fs = std::filesystem;
 constexpr const char* kReadme =
     R"(# A data set of Etude
 
-- `inputs/` is what a method may see: give this folder away.
-- `truth/` is what the answers are judged by. Do not give it away, nor `manifest.json`, from which Etude can make the truth.
+- `inputs/` contains what a method may see. Share this folder.
+- `truth/` contains the truth for judging answers. Do not share it, nor `manifest.json`, from which Etude can make the
+  truth.
 
-`inputs/index.csv` lists the problems. A problem is `SCENARIO/CONDITION/TRIAL/problem.json` with its files beside it; what
-the problems of a condition share is `SCENARIO/CONDITION/setting.json` (of recorded people, whom others taught, one
-beside each problem). What they hold, and what an answer looks like,
-stands in Etude's `docs/outside-methods.md`, task by task. A method's predictions are a folder of answers, one JSON
-object per problem, under the same names: `SCENARIO/CONDITION/TRIAL.json`. Pictures that `problem.json` names but that are
-not there are the frames of a film: `ffmpeg -i camera-1.mkv -start_number 0 camera-1-%04d.png`. Judge the answers with
+`inputs/index.csv` lists the problems. A problem is `SCENARIO/CONDITION/TRIAL/problem.json`, with its files in the
+same folder. `SCENARIO/CONDITION/setting.json` contains the data that the problems of a condition share; recorded
+people have a `setting.json` beside each problem. Etude's `docs/outside-methods.md` describes problems and answers of
+every task. A method's predictions are a folder of answers, one JSON object per problem, with the names
+`SCENARIO/CONDITION/TRIAL.json`. If pictures that `problem.json` names are missing, they are the frames of a film:
+`ffmpeg -i camera-1.mkv -start_number 0 camera-1-%04d.png`. This command judges the answers:
 
     etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
 )";

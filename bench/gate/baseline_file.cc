@@ -217,7 +217,7 @@ class BaselineReader {
     ASSIGN_OR_RETURN(const Json* statuses, head.List("statuses"));
     ASSIGN_OR_RETURN(const Json* values, head.List("values"));
     if (statuses->size() == cells && values->size() == lists) return {};
-    return Fail(head.place(), "{} lines of statuses and {} of values, but its scenarios have {} and {}",
+    return Fail(head.place(), "{} lines of statuses and {} of values, but its scenarios need {} and {}",
                 statuses->size(), values->size(), cells, lists);
   }
 

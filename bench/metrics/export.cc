@@ -69,34 +69,36 @@ Json EncodeMetric(const MetricInfo& metric) {
 
 constexpr std::string_view kIntroduction = R"(# Metrics
 
-Written by `etude list metrics --markdown`; a test compares. What every number of `cells.jsonl` means, precisely enough
-that another implementation can prove its agreement:
+Written by `etude list metrics --markdown`; a test compares the two. This page defines every number of `cells.jsonl` so
+precisely that another implementation can prove its agreement:
 
     etude list metrics --json | python3 tests/bench/metrics/second_implementation.py
 
-The JSON (`docs/schemas/metrics.schema.json`) holds every definition below with its test vectors, inputs included.
+The JSON (`docs/schemas/metrics.schema.json`) contains every definition below with its test vectors and their inputs.
 
-## What holds for all
+## All metrics
 
-- **Identity.** An id carries its unit. A definition that changes raises its version: values of two versions are two things.
+- **Identity.** An id contains its unit. A changed definition has a higher version; values of two versions are not
+  comparable.
 - **Motions** are judged at 30 Hz, in metres, Y up, as positions of twenty joints; a limb is the line from a joint to its
-  parent (`joints` of the JSON). In transitions the body's hips stand at 0.90 m.
+  parent (`joints` of the JSON). In transitions the hips of the standing body are at 0.90 m.
 - **A missing value** is null with its reason in `null_reasons`, never zero. A cell without an answer (failed, timeout,
-  crashed, out_of_memory, bad_output) has no values, but for those metrics that give failing a value (0 for a solved
-  share, twice the limit for PAR-2), so that it stays in the denominator; a skipped one has none at all.
-- **A run** sums up the cells' values by each metric's aggregate, median or mean, with a 95 % bootstrap interval; shares and
-  0/1 values by their mean.
-- **The practical threshold** is the smallest difference that anybody would act on. A comparison calls nothing better or
-  worse below it.
+  crashed, out_of_memory, bad_output) has no values, except for metrics that give a failure a value (0 for a solved
+  share, twice the limit for PAR-2), so that it stays in the denominator. A skipped cell has no values at all.
+- **A run** aggregates the cells' values by the metric's aggregate, median or mean, with a 95 % bootstrap interval;
+  shares and 0/1 values are aggregated by the mean.
+- **The practical threshold** is the smallest difference that matters in practice. A smaller difference is never better
+  or worse.
 - **∠(u, v)** is atan2(‖u × v‖, u · v), 0 when a vector is zero.
 
-## The vectors' inputs
+## Inputs of the test vectors
 
 - A motion: `{"rate_hz": 30, "frames": 3, "joints_m": {"left_hand": [[x, y, z], …]}}`: one position per frame, or one for
-  all frames; a joint that is not named stays at the origin; `rate_hz` is 30 when it is not said.
-- A pose: `{"left_hand": [x, y, z], …}`, a joint that is not named is at the origin.
-- A vector's value must lie within its tolerance, absolute, in the metric's unit; `expected: null` means no value.
-- `derived:` values follow from the definition by hand; `published:` ones stand in the work named.
+  all frames. A joint that is not named stays at the origin; the default of `rate_hz` is 30.
+- A pose: `{"left_hand": [x, y, z], …}`. A joint that is not named is at the origin.
+- A computed value may differ from the expected value by the tolerance, in the metric's unit. `expected: null` means
+  that the metric has no value.
+- `derived:` values were derived from the definition by hand; `published:` values are from the work that is named.
 )";
 
 std::string Amount(double value, const std::string& unit) {

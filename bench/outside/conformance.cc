@@ -300,7 +300,7 @@ class ConformanceTest {
     Report("answers problems with another setting", fault.empty(),
            fault.empty() ? "answers that can be scored" : fault);
     if (fault.empty()) {
-      ReportDifference("gives the same answers when the first setting returns",
+      ReportDifference("gives the same answers when the first setting is sent again",
                        Compare(Ask(specimens_[0].problems[0]), 0));
     }
   }

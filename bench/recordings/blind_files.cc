@@ -15,8 +15,8 @@ constexpr std::string_view kAnswersFormat = "etude-blind-answers";
 static void Describe(RecordFields& fields, BlindKey::Metric& metric) {
   fields.Required("id", metric.id, "a metric with a better direction");
   fields.Required("higher_is_better", metric.higher_is_better, "which direction is better");
-  fields.Required("left", metric.left, "its value for the film on the left; null if it has none");
-  fields.Required("right", metric.right, "the same for the film on the right");
+  fields.Required("left", metric.left, "the metric's value for the film on the left; null if there is none");
+  fields.Required("right", metric.right, "the metric's value for the film on the right, likewise");
 }
 
 static void Describe(RecordFields& fields, BlindKey::Pair& pair) {
@@ -30,7 +30,7 @@ static void Describe(RecordFields& fields, BlindKey::Pair& pair) {
 static void Describe(RecordFields& fields, BlindKey& key) {
   fields.Format(kKeyFormat, 1);
   fields.Required("page", key.page, "digest of the page's content");
-  fields.Required("seed", key.seed, "of the dice that drew worlds, order and sides");
+  fields.Required("seed", key.seed, "seed of the random numbers that chose worlds, order and sides");
   fields.Required("worlds", key.worlds, "worlds from which the pairs were drawn");
   fields.Required("left_out", key.left_out, "worlds in which a method made no transition that can be shown");
   fields.List("pairs", key.pairs, "the pairs in the page's order");
@@ -40,7 +40,7 @@ static void Describe(RecordFields& fields, BlindAnswers& answers) {
   fields.Format(kAnswersFormat, 1);
   fields.Required("page", answers.page, "digest of the page's content");
   fields.Required("rater", answers.rater, "the name that the rater gave");
-  fields.List("preferred", answers.preferred, "by pair: left, right, same, or empty");
+  fields.List("preferred", answers.preferred, "the answer to each pair: left, right, same, or empty");
 }
 
 std::string WriteBlindKey(const BlindKey& key) { return RecordFields::Write(key) + "\n"; }

@@ -130,7 +130,7 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     extras.moments.push_back(ToMoment(json_moment));
     const CaptureExtras::Moment& moment = extras.moments.back();
     if (moment.frame >= extras.brightness.size() || moment.marks.size() != extras.views.size()) {
-      return Fail({}, "a capture recording with a moment of another take");
+      return Fail({}, "a capture recording with a moment that does not fit its frames or cameras");
     }
   }
   extras.bvh = json.at("bvh");

@@ -11,16 +11,16 @@ static void Describe(RecordFields& fields, IkExtras& extras) {
   fields.Tolerated("iterations", extras.iterations, "the iteration that each frame shows, from 0, never decreasing");
   fields.Tolerated("position_error_max_cm", extras.position_error_max_cm, "per frame, of the worst end effector");
   fields.Tolerated("orientation_error_max_deg", extras.orientation_error_max_deg,
-                   "per frame, of the worst end effector, the mean of its axes");
+                   "per frame, of the worst end effector: the mean error of its axes");
   fields.Tolerated("axis_error_max_deg", extras.axis_error_max_deg, "per frame, of the worst single axis");
   fields.Tolerated("targets_m", extras.targets_m,
                    "[x, y, z] of each end effector's target, in the tree's order; null without a target position");
 }
 
 static void Describe(RecordFields& fields, TransitionExtras::Point& point) {
-  fields.Tolerated("from", point.from, "the clip left; `in-between`: frames that the method made");
+  fields.Tolerated("from", point.from, "the clip that is left; `in-between`: frames that the method made");
   fields.Tolerated("from_frame", point.from_frame, "the last frame of that clip that is shown");
-  fields.Tolerated("to", point.to, "the clip entered");
+  fields.Tolerated("to", point.to, "the clip that is entered");
   fields.Tolerated("to_frame", point.to_frame, "the frame of that clip that is aligned with `from_frame`");
   fields.Tolerated("distance", point.distance, "fuzzy distance between the two frames");
   fields.Tolerated("partials", point.partials, "by feature, S_k Δ_k², which sum to the distance's square");
@@ -28,8 +28,8 @@ static void Describe(RecordFields& fields, TransitionExtras::Point& point) {
 
 static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidate) {
   fields.Tolerated("point", candidate.point, "index of its transition point, from 0");
-  fields.Required("from_frame", candidate.from_frame, "frame of the clip left at that point");
-  fields.Required("to_frame", candidate.to_frame, "frame of the clip entered there");
+  fields.Required("from_frame", candidate.from_frame, "the frame at which the clip is left at that point");
+  fields.Required("to_frame", candidate.to_frame, "frame of the clip that is entered there");
   fields.Required("distance", candidate.distance, "fuzzy distance between the two frames");
   fields.Tolerated("partials", candidate.partials, "as at a transition point");
   fields.Tolerated("cost", candidate.cost, "the cost by which the choice ranks; null if that is the distance");
@@ -40,10 +40,10 @@ static void Describe(RecordFields& fields, TransitionExtras& extras) {
   fields.Tolerated("transition_frame", extras.transition_frame, "the first of `transition_frames`");
   fields.ToleratedList("transition_frames", extras.transition_frames,
                        "the last frames of the recording before each change of clip");
-  fields.Tolerated("from", extras.from, "the clip left");
-  fields.Tolerated("to", extras.to, "the clip wanted");
-  fields.Tolerated("branch", extras.branch, "the way that was taken: `front half`, `in-between`, …");
-  fields.Tolerated("why", extras.why, "why this way was taken, one sentence");
+  fields.Tolerated("from", extras.from, "the clip that is left");
+  fields.Tolerated("to", extras.to, "the wanted clip");
+  fields.Tolerated("branch", extras.branch, "how the transition was made: `front half`, `in-between`, …");
+  fields.Tolerated("why", extras.why, "why it was made in this way, one sentence");
   fields.Tolerated("request_frame", extras.request_frame,
                    "frame of the request; negative if it is before the recording");
   fields.Tolerated("wait_s", extras.wait_s, "from the request until the wanted clip plays");
@@ -61,7 +61,7 @@ static void Describe(RecordFields& fields, TransitionExtras& extras) {
 
 static void Describe(RecordFields& fields, DetectionExtras::Target& target) {
   fields.Required("feature", target.feature, "one of paper A's ten");
-  fields.Required("degrees", target.degrees, "the angle wanted");
+  fields.Required("degrees", target.degrees, "the wanted angle");
   fields.Required("tolerance_deg", target.tolerance_deg, "largest deviation that is accepted");
 }
 
@@ -99,7 +99,7 @@ static void Describe(RecordFields& fields, DetectionExtras& extras) {
 
 static void Describe(RecordFields& fields, CoachExtras::Mode& mode) {
   fields.Required("mode", mode.mode, "`dance`, `correct`, …");
-  fields.Required("begin_frame", mode.begin_frame, "its first frame; it lasts until the next mode begins");
+  fields.Required("begin_frame", mode.begin_frame, "first frame of the mode, which lasts until the next mode begins");
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Performance& performance) {
@@ -112,7 +112,7 @@ static void Describe(RecordFields& fields, CoachExtras::Performance& performance
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Words& words) {
-  fields.Required("begin_frame", words.begin_frame, "their first frame; they stay until the next words");
+  fields.Required("begin_frame", words.begin_frame, "first frame of these words; they stay until the next words");
   fields.Required("say", words.say, "a short word to the learner");
   fields.Required("hint", words.hint, "what to do better");
   fields.Optional("picture", words.picture, "the key pose that the hint is about, sixty numbers; absent without one");
@@ -129,9 +129,9 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
   fields.Required("song", extras.song, "the dance's title");
   fields.List("modes", extras.modes, "what the coach did, from the first frame on");
   fields.List("performances", extras.performances, "the performances that were asked for");
-  fields.List("words", extras.words, "what the screen shows, whenever it changes");
+  fields.List("words", extras.words, "the words on the screen, each time that they change");
   fields.List("decisions", extras.decisions, "decisions of the coach's policy");
-  fields.List("corrections", extras.corrections, "frames in which a correction was decided on");
+  fields.List("corrections", extras.corrections, "frames in which the policy decided on a correction");
   fields.List("transitions", extras.transitions, "the last frames before the coach changes clips");
   fields.List("beats_s", extras.beats_s, "when the music's beats sounded, seconds since the first frame");
   fields.List("joint_states", extras.joint_states, "as in `detection`");
@@ -150,10 +150,10 @@ static void Describe(RecordFields& fields, PlausibilityExtras& extras) {
 }
 
 std::string RecordingsAsMarkdown() {
-  return "# What recordings hold beside their motions\n\n"
+  return "# What recordings contain besides their motions\n\n"
          "Written by `etude list recordings`; a test compares the two. A file of `recordings/` names its version\n"
          "(`recording`: 2; version 1 named no joints and is refused), the `joints` in the order of a pose's numbers\n"
-         "(x, y, z of each), their `unit` and the axis that points `up`. Its `tracks` hold the cell's motions by\n"
+         "(x, y, z of each), their `unit` and the axis that points `up`. Its `tracks` contain the cell's motions by\n"
          "name, its `extras` an object of the task. Frames count from the first of the recording unless said\n"
          "otherwise. `bench/recordings` has the extras of `capture` and of `evaluation`, whose motions are no tracks\n"
          "but have joints of their own (`capture_extras.h`, `evaluation_extras.h`).\n\n"
@@ -163,7 +163,7 @@ std::string RecordingsAsMarkdown() {
          "Tracks: `coach`, from some seconds before the transition to some seconds after the judged frames; `left`,\n"
          "the clip that is left, in the same frames and up to 0.4 s longer; `wanted`, the wanted clip without the\n"
          "join, from the last of `transition_frames` on; `through`, a clip that is played in between, without\n"
-         "joins, from the first of them on. Recordings of older runs hold only `coach`.\n\n" +
+         "joins, from the first of them on. Recordings of older runs contain only `coach`.\n\n" +
          RecordFields::Page<TransitionExtras>() +
          "\n## detection\n\nTracks `truth` and `sensed`, as the recogniser saw it.\n\n" +
          RecordFields::Page<DetectionExtras>() +

@@ -57,7 +57,7 @@ Result<Digests> ReadSeal(const FilePath& path) {
       return Fail({path.string()}, "a seal of version {}; this program reads {}", json.at("version").dump(),
                   kSealVersion);
     }
-    if (json.size() != 3) return Fail({path.string()}, "not a seal: has keys beside format, version and files");
+    if (json.size() != 3) return Fail({path.string()}, "not a seal: it has keys other than format, version and files");
     return json.at("files").get<Digests>();
   } catch (const Json::exception& error) {
     return Fail({path.string()}, "not a seal: {}", error.what());

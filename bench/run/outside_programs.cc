@@ -58,8 +58,8 @@ Result<void> CheckShown(const PreparedScenario& scenario, const ScenarioProgram&
     for (const auto& [what, path] : secrets) {
       if (path.empty() || !Holds(Canonical(shown), Canonical(path))) continue;
       return Fail({scenario.setup().file},
-                  "{} '{}' would be shown '{}', which holds {} of secret worlds ('{}'); its key 'files' lists what "
-                  "it needs",
+                  "{} '{}' could see '{}', which contains {} of secret worlds ('{}'); list in its key 'files' only "
+                  "what it needs",
                   program.role, program.entry->name, shown.string(), what, path.string());
     }
   }

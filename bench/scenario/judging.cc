@@ -141,7 +141,7 @@ FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::v
            {{"where",
              {"a mapping of swept parameters to one of their values", R"({"type":"object"})"},
              "{}",
-             "The only conditions in which it is judged."},
+             "The conditions in which the expectation is judged; by default all."},
             [&](Fields& fields, Expectation& expectation) { expectation.where = ReadWhere(fields, scenario); }}},
           CheckExpectation};
 }
@@ -158,8 +158,8 @@ std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& 
 }
 
 FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics) {
-  return {{KnownName("metric", &Scenario::success, "a share that the task reports and of which more is better", metrics,
-                     "A share of cells, or of each cell.")
+  return {{KnownName("metric", &Scenario::success, "a share that the task reports; higher values are better", metrics,
+                     "The metric that measures success: a share of the cells, or a share within each cell.")
                .WhenAbsent("(the task's)"),
            Field<Scenario>::Number("matters", &Scenario::success_matters, {0.001, 1},
                                    "The smallest difference of two methods that matters, as a share.")}};
@@ -169,7 +169,8 @@ FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
   const std::vector<std::string> methods = MethodNames(scenario);
   return {{KnownName("of", &TimeRatio::of, "a method", methods, "The method whose time is judged."),
            KnownName("over", &TimeRatio::over, "a method", methods,
-                     "The method by whose time it is divided, world by world."),
+                     "The method in the denominator: in each world the time of `of` is divided by the time of this "
+                     "method."),
            Field<TimeRatio>::Number("at_most", &TimeRatio::at_most, {0.001, 1e6},
                                     "Upper bound of the median of these ratios.")},
           CheckTimeRatio};
@@ -201,7 +202,7 @@ FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std
            Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
                      "threshold: only a difference that matters is a regression; exact: every difference is."),
            {{"tail", MappingKind("a mapping", TailFields().Describe()), "{}",
-             "When single worlds are a regression, whatever the verdict of the whole comparison; not with `exact`."},
+             "When far worse single worlds are a regression, even if the whole comparison is none; not with `exact`."},
             [](Fields& gate, GateRules& rules) { ReadNested(gate, "tail", TailFields(), rules.tail); }},
            {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
              "Bounds on ratios of processor times within the run."},

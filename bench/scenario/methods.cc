@@ -117,10 +117,10 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
   static const FieldTable<MethodEntry> table{
       {{{"name", PlainNameKind(), "", "The method's name, unique in the scenario."},
         [](Fields& method, MethodEntry& entry) { entry.name = ReadPlainName(method, "name"); }},
-       {{"against", TextKind("a method"), "(the first method)", "The method that it is compared with."},
+       {{"against", TextKind("a method"), "(the first method)", "The method with which this method is compared."},
         [](Fields&, MethodEntry&) {}},  // read once all names are known
        {{"description", TextKind("a sentence"), "(its settings)",
-         "Describes the method to readers of the results; does not change them."},
+         "Describes the method to readers of the results; does not change the results."},
         [](Fields&, MethodEntry&) {}},  // read for all methods in ReadMethods
        {{"exec",
          {"a list: a program and its arguments",

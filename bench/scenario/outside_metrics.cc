@@ -112,7 +112,7 @@ const FieldTable<MetricExample>& MetricExampleFields() {
        {{"expected",
          {"a number, or null where the metric has no value", R"({"type":["number","null","string"]})"},
          "null",
-         "The value that it must answer."},
+         "The value that the program must answer."},
         ReadExpected},
        Key::Number("tolerance", &MetricExample::tolerance, {0, 1e9}, "Largest absolute error of the answer.")}};
   return table;
@@ -124,14 +124,14 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
     const auto info = [](auto member) { return Path(&OutsideMetric::info, member); };
     std::vector<Field<OutsideMetric>> fields = {
         {{"name", TextKind("a letter, then at most 59 of a…z, 0…9, '_'", kIdPattern), "",
-          "Its id in rows and tables; not that of a built-in metric."},
+          "The metric's id in rows and tables; not that of a built-in metric."},
          ReadName}};
     // The keys about the program are those of an outside method, but their descriptions differ.
     for (auto& field : FieldsOf<OutsideMetric>(OutsideMethodFields(), &OutsideMetric::program, Keep::kThese,
                                                {"exec", "options", "files", "time_s"})) {
       if (field.info.key == "exec") {
         field.info.fallback = "";
-        field.info.meaning = "The program that measures; its process is never a method's.";
+        field.info.meaning = "The program that measures; it never runs in the process of a method.";
       }
       if (field.info.key == "time_s") field.info.meaning = "Time limit for one cell, in seconds.";
       fields.push_back(std::move(field));
@@ -158,13 +158,14 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
                     {"yes-no", Reading::kYesNo},
                     {"share", Reading::kShare},
                     {"score", Reading::kScore}},
-                   "The kind of value: all kinds except an amount are between 0 and 1 and shown in per cent."),
-         Key::Text("label", info(&MetricInfo::label), "a text", "Its name for people.").WhenAbsent("(`name`)"),
+                   "The kind of value: all kinds except `amount` lie between 0 and 1, and are shown in per cent."),
+         Key::Text("label", info(&MetricInfo::label), "a text", "The metric's name for readers.")
+             .WhenAbsent("(`name`)"),
          Key::Text("definition", info(&MetricInfo::definition), "a text", "What it measures, in one sentence.")
              .WhenAbsent("(none)"),
          // Add the key of its test vectors.
          {{"vectors", ListKind("a list of test vectors", MappingKind("", MetricExampleFields().Describe())), "[]",
-           "Cells of known value; the program must reproduce it before the first cell is run."},
+           "Cells whose value is known; the program must reproduce these values before the first cell is run."},
           [](Fields& metric, OutsideMetric& own) {
             own.vectors = ReadListed(metric, "vectors", "a test vector", MetricExampleFields());
           }}},

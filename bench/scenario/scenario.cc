@@ -151,7 +151,7 @@ const FieldTable<Scenario>& ScenarioFields() {
        {{"question", TextKind("a text"), "", "The scenario's question, in one sentence."},
         [](Fields& fields, Scenario& s) { s.question = fields.RequiredText("question"); }},
        Key::Text("description", &Scenario::description, "a sentence",
-                 "Describes its worlds to readers of the results; does not change them.")
+                 "Describes the worlds to readers of the results; does not change the results.")
            .WhenAbsent("(none)"),
        {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The task that the methods solve."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
@@ -163,19 +163,20 @@ const FieldTable<Scenario>& ScenarioFields() {
                   "Recordings that replace `clips` and simulated people, one trial each; `etude run --streams` "
                   "replaces them."),
        Key::Text("labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
-                 "Who did which move when in `streams`, or in `clips`, whose people then replace simulated ones.")
+                 "Who did which move when, in `streams` or in `clips`; the people of `clips` then replace simulated "
+                 "people.")
            .WhenAbsent("(a recording is one performance, named by its file)"),
        {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}", "How `streams` are read."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
        Key::Text("joint_map", &Scenario::joint_map, "a file",
                  "Assigns the clips' joints to roles if their names do not determine the roles.")
-           .WhenAbsent("(names tell)"),
+           .WhenAbsent("(by the names)"),
        // The worlds and the conditions.
        Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
        Key::Number("seed", &Scenario::seed, {0, kMaxSeed}, "Seed of all worlds; `etude run --seed` overrides it.")
            .WhenAbsent("1"),
        {{"unit", NameKind(NamesOf(kSamplingUnits)), "(the task's)",
-         "The units from which worlds are drawn; verdicts beyond these worlds count each unit once."},
+         "The units from which worlds are drawn; verdicts for other worlds count each unit once."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.unit = ReadUnit(fields, kind); })},
        {{"sweep",
          {"a mapping of the task's parameters to lists or ranges", R"({"type":"object"})"},
@@ -186,7 +187,7 @@ const FieldTable<Scenario>& ScenarioFields() {
          {"a mapping of names to lists like `clips`", R"({"type":"object"})"},
          "(none)",
          "Libraries that replace `clips`: every condition runs once per library, on its clips alone; `etude run "
-         "--library` adds some."},
+         "--library` adds libraries."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           AddLibraries(ReadLibraries(fields, kind), s);
           CheckStreams(fields, s, kind);
@@ -206,7 +207,7 @@ const FieldTable<Scenario>& ScenarioFields() {
           s.across = ReadNames(fields, "across", swept);
         })},
        {{"rival", TextKind("a method"), "(the best is found)",
-         "The strongest method: all others are compared with it, too, beside their baseline."},
+         "The strongest method; all others are compared with it in addition to their baseline."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
           s.rival = fields.Choice("rival", MethodNames(s), "");
         })},
@@ -217,8 +218,7 @@ const FieldTable<Scenario>& ScenarioFields() {
           s.metrics = ReadHeadline(fields, kind, s.outside_metrics);
         })},
        {{"success", MappingKind("a mapping", SuccessFields({}).Describe()), "{}",
-         "What counts as success of a cell. A verdict is about success first, then about the first other headline "
-         "metric."},
+         "What counts as success of a cell. An answer compares success first, then the first other headline metric."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.success = kind.success;
           ReadNested(fields, "success", SuccessFields(SuccessMetricsOf(kind, s)), s);
@@ -237,7 +237,7 @@ const FieldTable<Scenario>& ScenarioFields() {
           if (fields.Raw("video") != nullptr) s.recordings = selection;
         })},
        {{"limits", MappingKind("a mapping", LimitFields().Describe()), "{}",
-         "Limits of time and memory for a cell, or for building a world, after which it is stopped."},
+         "Limits of time and memory for a cell, or for building a world; what exceeds them is stopped."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "limits", LimitFields(), s.limits); }},
        {{"gate", MappingKind("a mapping", GateFields(unread, {}).Describe()), "{}",
          "The rules by which `etude gate` compares the run with a baseline."},

@@ -173,27 +173,27 @@ std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& met
 
 std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons) {
   if (beyond.units < kMinUnits) {
-    return fmt::format("{}: no verdict beyond them; at least {} are needed", CountUnits(beyond.units, unit), kMinUnits);
+    return fmt::format("{}: no verdict for others; at least {} are needed", CountUnits(beyond.units, unit), kMinUnits);
   }
-  if (!beyond.low) return "all worlds show the same clip: no verdict beyond it";
+  if (!beyond.low) return "all worlds show the same clip: no verdict for other clips";
   if (beyond.verdict != Verdict::kInconclusive) return "";
   const bool within = *beyond.low >= -metric.practical && *beyond.high <= metric.practical;
   if (within && beyond.differing < kMinUnits) {
     return fmt::format("{} of {} differ: too few to exclude rare differences", beyond.differing,
                        CountUnits(beyond.units, unit));
   }
-  if (within) return "the middle is too small to matter, but the mean may not be";
+  if (within) return "the pseudo-median is too small to matter, but the mean may be large enough";
   if (!IsOnOneSide(beyond)) return "the interval contains zero and differences that matter";
   if (!MeanAgrees(beyond))
-    return "the middle differs, but the mean does not differ in the same direction: a few outweigh the others";
+    return "the pseudo-median is not zero, but the mean does not have the same sign: a few outweigh the others";
   if (*beyond.p_holm > kAlpha) {
-    return *beyond.test.p > kAlpha
-               ? "the interval excludes zero, but the test does not confirm it"
-               : fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", *beyond.test.p, comparisons);
+    return *beyond.test.p > kAlpha ? "the interval excludes zero, but the test does not confirm it"
+                                   : fmt::format("p = {:.2g} is significant alone, but not among {} comparisons (Holm)",
+                                                 *beyond.test.p, comparisons);
   }
   if (std::abs(*beyond.difference) < metric.practical)
-    return "it differs, but it is undecided whether enough to matter";
-  return "it differs, but neither direction is better";
+    return "there is a difference, but it is undecided whether it is large enough to matter";
+  return "there is a difference, but neither direction is better";
 }
 
 }  // namespace etude

@@ -28,12 +28,13 @@ std::string NoteOnMissing(const Comparison& c) {
   add(fmt::format("only “{}” has a value", c.baseline), c.only_baseline);
   add(fmt::format("only “{}” has a value", c.method), c.only_method);
   add("neither has one", c.neither);
-  return fmt::format("{} of {} worlds are not in the difference: {}{}", without, c.pairs + without, who,
-                     c.pairs > 0 && c.only_baseline + c.only_method > 0 ? " (survivorship)" : "");
+  return fmt::format("the difference does not include {} of {} worlds: {}{}", without, c.pairs + without, who,
+                     c.pairs > 0 && c.only_baseline + c.only_method > 0 ? " (survivorship bias)" : "");
 }
 
 std::string NotWithFailures(Verdict of_pairs) {
-  return fmt::format("“{}” where both have a value, but not if a failure counts as a loss", VerdictName(of_pairs));
+  return fmt::format("“{}” in worlds in which both have a value, but not if a failure counts as a loss",
+                     VerdictName(of_pairs));
 }
 
 /// Returns the numbers of worlds in which the method is better and worse, as text. A median hides differences in fewer
@@ -42,8 +43,9 @@ std::string DescribeWhatMedianHides(const Comparison& c) {
   const int tied = c.pairs - c.differing;
   const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // `share_better` counts ties as half
   const std::string ties = 2 * tied > c.pairs ? "in most worlds the same, " : "";
-  return fmt::format("the median is too small to matter, but the mean may not be: {}in {} of {} better, in {} worse",
-                     ties, better, c.pairs, c.differing - better);
+  return fmt::format(
+      "the median is too small to matter, but the mean may be large enough: {}in {} of {} better, in {} worse", ties,
+      better, c.pairs, c.differing - better);
 }
 
 /// Returns the reason why the verdict is open; if several reasons hold, the first in the order in which a reader would
@@ -69,7 +71,7 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
                        comparisons == 1 ? "one comparison" : fmt::format("one of {} comparisons (Holm)", comparisons),
                        needed);
   }
-  if (!c.ci_low) return fmt::format("too few worlds: no interval below {}", kMinSample);
+  if (!c.ci_low) return fmt::format("too few worlds: fewer than {} pairs give no interval", kMinSample);
   // The interval and the test disagree.
   const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
   if (!beyond_zero && *c.p_holm > kAlpha) return "the interval contains zero and differences that matter";
@@ -80,11 +82,12 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
   const double p = *DecidingP(c, metric);
   if (*c.p_holm > kAlpha) {
     if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
-    return fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", p, comparisons);
+    return fmt::format("p = {:.2g} is significant alone, but not among {} comparisons (Holm)", p, comparisons);
   }
   // The interval and the test both find a difference, but it is too small, or the metric has no direction.
-  if (std::abs(*c.difference) < metric.practical) return "it differs, but it is undecided whether enough to matter";
-  return "it differs, but neither direction is better";
+  if (std::abs(*c.difference) < metric.practical)
+    return "there is a difference, but it is undecided whether it is large enough to matter";
+  return "there is a difference, but neither direction is better";
 }
 
 /// Returns a note if the mean difference exceeds the threshold and the median difference does not; otherwise "".
@@ -240,7 +243,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
   // Derive met, unmet or undecided from the verdict.
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
-  const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
+  const std::string missing = without == 0 ? "" : fmt::format(", {} more do not have both values", without);
   if (!found.ci_low)
     return {ClaimOutcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
   const ClaimOutcome outcome = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet

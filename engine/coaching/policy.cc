@@ -60,9 +60,8 @@ PolicyDecision AfterN(const PolicyInput& input, Values values) {
 PolicyDecision Confident(const PolicyInput& input, Values values) {
   if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const double sure = ConfidenceSettings().Apply(values).sure_below * input.right_from;
-  return {
-      input.evidence < sure || input.evidence == 0,
-      fmt::format("evidence {:.2f} of a right performance; below {:.2f} a mistake is certain", input.evidence, sure)};
+  return {input.evidence < sure || input.evidence == 0,
+          fmt::format("evidence {:.2f} that it was right; below {:.2f} a mistake is certain", input.evidence, sure)};
 }
 
 PolicyDecision Fading(const PolicyInput& input, Values values) {
@@ -80,7 +79,9 @@ std::span<const Policy> AllPolicies() {
   // The policies that need only the recogniser's evidence, then the two for experiments: `oracle` and `yoked`.
   static const std::vector<Policy> policies = {
       {.name = "at-first-mistake", .description = "corrects every mistake (paper A)", .decide = AtFirst},
-      {.name = "never", .description = "never corrects: the dance goes on whatever the player does", .decide = Never},
+      {.name = "never",
+       .description = "never corrects: the dance continues, whatever the player does",
+       .decide = Never},
       {.name = "after-n",
        .description = "corrects after several successive mistakes in a move",
        .settings = AfterSettings().Describe(),

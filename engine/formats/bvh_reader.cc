@@ -282,7 +282,7 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
     Apply(channels[i], value, pose[channels[i].joint]);
   }
   if (const Token extra = scanner.NextInLine(); !extra.text.empty()) {
-    return Fail(scanner.At(extra), "frame {} goes on with {} after its {} numbers, one for each channel", number,
+    return Fail(scanner.At(extra), "frame {} continues with {} after its {} numbers, one for each channel", number,
                 Quote(extra.text), channels.size());
   }
   return {};

@@ -106,7 +106,7 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
     case kGaps:
       return fmt::format("{} not shown for {:.2f} s {}", fault.joint ? joint + " is" : "joints are", fault.size, when);
     case kPasses:
-      return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their middle", joint, when, cm);
+      return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their centre line", joint, when, cm);
     case kRate:
       return GravitySentence(fault);
     case kSpeed:
@@ -154,9 +154,10 @@ std::vector<FaultRule> MakeFaultRules() {
            whole_body, cm(kJumpAlongFloor_m), cm(kJump_m))},
       {"pops", "m",
        fmt::format(
-           "One joint alone is displaced from one frame to the next: its third difference is above {} and {:g} times "
-           "its {}th percentile in the clip; above {} it always counts. In clips of {:g} to {:.0f} frames it also "
-           "counts above {} and {:g} times what all but {:g} of its third differences stay below.",
+           "One joint alone is displaced from one frame to the next: its third difference is above {}, and above {:g} "
+           "times its {}th percentile in the clip; a third difference above {} always counts. In clips of {:g} to "
+           "{:.0f} frames a third difference also counts if it is above {}, and above {:g} times the value that all "
+           "but {:g} of the joint's third differences stay below.",
            cm(kPop_m), kPopTimesUsual, 100 * kUsualPop, cm(kSurePop_m), kShortClipFrames, kPopFrames / (1 - kUsualPop),
            cm(kShortPop_m), kPopTimesUsual, kPopFrames)},
       {"freezes", "s",
@@ -174,15 +175,15 @@ std::vector<FaultRule> MakeFaultRules() {
            kBend_deg, kBend_s)},
       {"torn", "m",
        fmt::format(
-           "For {:g} s, a joint of trunk, head, shoulders, hips, toes or hands is not as far from its neighbours "
-           "as usual: by 8 to 14 % of leg and trunk; or in the median frame 1.6 to 3.5 times as far as people "
-           "are, or not as far as on the other side. Also: the head lies on the neck or points down the trunk, toes "
-           "point backwards, shoulders or hips are exchanged or coincide.",
+           "For {:g} s, a joint of trunk, head, shoulders, hips, toes or hands deviates from its usual distance to its "
+           "neighbours by 8 to 14 % of the length of leg and trunk. Or this distance in the median frame is 1.6 to 3.5 "
+           "times a person's, or differs from that on the other side. Also: the head lies on the neck or points down "
+           "the trunk, toes point backwards, shoulders or hips are exchanged or coincide.",
            kTorn_s)},
       {"gaps", "s",
        fmt::format(
-           "For {:g} s, every frame lacks a joint that other frames show; or the file continues for as long before "
-           "or after the frames that show all needed joints.",
+           "For {:g} s, every frame lacks a joint that other frames show; or the file has frames for as long before or "
+           "after those that show all needed joints.",
            kGap_s)},
       {"passes", "m",
        fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm within that of "

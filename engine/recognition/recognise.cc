@@ -15,7 +15,8 @@ Result<void> CheckAsked(std::span<const AskedMove> asked, std::size_t moves, std
       return Fail({}, "a move is asked for in frames {} to {}, but the stream has {}", begin, end, frames);
     }
     if (begin < free_from) {
-      return Fail({}, "a move is asked for from frame {} on, but the one before it lasts until {}", begin, free_from);
+      return Fail({}, "a move is requested from frame {} on, but the request before it lasts until {}", begin,
+                  free_from);
     }
     free_from = end;
   }

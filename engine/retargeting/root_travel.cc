@@ -80,11 +80,11 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
   constexpr double kAsWell = 1.5, kImpossible = 3;  // kAsWell is a ratio, kImpossible in statures per second
   if (best < 1 && as_it_is < kImpossible) return "";
   if (slide(0) > kAsWell * least) {
-    return fmt::format("its feet slide unless the root's positions are {:.4g} times as large: they look as if in "
+    return fmt::format("its feet slide unless the root's positions are {:.4g} times as large: they seem to have "
                        "another unit than the limbs",
                        best);
   }
-  return "its root's positions look as if in a smaller unit than the limbs, because no foot ever stands";
+  return "its root's positions seem to have a smaller unit than the limbs, because no foot ever stands";
 }
 
 }  // namespace etude

@@ -44,7 +44,7 @@ def estimation(pairs, **named):
     # The title gives the condition, if there is one, and both verdicts.
     condition = pairs.condition[0] if len(set(pairs.condition)) == 1 and pairs.condition[0] != "-" else ""
     says = f": {pairs.verdict.verdict} on these worlds" if pairs.verdict else ""
-    beyond = f", {pairs.verdict.beyond} beyond them" if pairs.verdict and pairs.verdict.beyond else ""
+    beyond = f", {pairs.verdict.beyond} for others" if pairs.verdict and pairs.verdict.beyond else ""
     figure.suptitle(f"“{pairs.method_name}” against “{pairs.baseline_name}”{', ' if condition else ''}{condition}"
                     f"{says}{beyond}", fontsize="medium")
     return _shown(figure)
@@ -132,7 +132,7 @@ def _waterfall(budget, metric):
     for share in budget["shares"]:
         bars.append((share["stage"], left, left - scale * share["mean"], share))
         left -= scale * share["mean"]
-    bars.append(("what is left", 0, scale * budget["rest"], None))
+    bars.append(("remaining error", 0, scale * budget["rest"], None))
     for i, (_, begin, end, share) in enumerate(bars):
         colour = _colour(0 if share is None else 2 if end > begin else 1)
         axes.barh(i, end - begin, left=begin, height=0.5, color=colour)

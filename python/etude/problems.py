@@ -71,8 +71,8 @@ class IkRoot(Message):
 class IkTarget(Message):
     """The target of an effector.
 
-    effector: The name of the effector that it is for.
-    position_m: Where the effector shall be in the world, in metres.
+    effector: The name of the effector that must reach the target.
+    position_m: The position that the effector must reach in the world, in metres.
     rotation: The rotation from the effector's frame into the world's.
     """
     effector: str
@@ -94,7 +94,7 @@ class IkFrame(Message):
 
 @dataclass
 class IkSetting(Message):
-    """The body, and what is asked for.
+    """The body, and what an answer must reach.
 
     joints: The joints, parents first.
     angles: One per degree of freedom, in the order of answers.
@@ -132,8 +132,8 @@ class IkProblem(Message):
 class IkAnswer(Message):
     """The pose found.
 
-    angles_deg: As many as the setting's angles; one that breaks its limit by more than 10⁻⁶ degrees is measured,
-        and counts as unsolved.
+    angles_deg: As many angles as in the setting. An answer with an angle more than 10⁻⁶ degrees beyond its limit is
+        measured, and counts as unsolved.
     iterations: The number of the method's own steps.
     fk_evaluations: The number of its forward-kinematics passes over the whole tree.
     """
@@ -159,7 +159,7 @@ class TrackingSetting(Message):
 
 @dataclass
 class TrackingProblem(Message):
-    """A motion to be followed, by a body of its own.
+    """A motion, and the body that must follow it.
 
     joints: The joints, parents first.
     angles: One per degree of freedom, in the order of answers.
@@ -179,8 +179,8 @@ class TrackingProblem(Message):
 class TrackingAnswer(Message):
     """The angles of every frame.
 
-    angles_deg: Per frame as many as the problem's angles; a frame with one that breaks its limit by more than 10⁻⁶
-        degrees is measured, and counts as unsolved.
+    angles_deg: Per frame as many angles as in the problem. A frame with an angle more than 10⁻⁶ degrees beyond its
+        limit is measured, and counts as unsolved.
     iterations: Per frame, the number of the method's own steps.
     """
     angles_deg: List[List[float]]
@@ -223,7 +223,7 @@ class TransitionProblem(Message):
     from: The index of the current clip.
     to: The index of the wanted clip.
     request_frame: The frame of the current clip at which the transition is requested.
-    max_wait_s: The longest wait that the caller would like.
+    max_wait_s: The longest wait that is wanted, in seconds.
     """
     from_: int
     to: int
@@ -316,7 +316,7 @@ class PoseDistanceAnswer(Message):
     """The distance of each pair.
 
     distances: One per pair, 0 or more, on any scale; larger means less similar.
-    alike: Per pair, whether a transition would go unnoticed.
+    alike: Per pair, whether the poses are so similar that nobody would notice a transition between them.
     """
     distances: List[float]
     alike: List[bool]
@@ -346,7 +346,7 @@ class InbetweenProblem(Message):
     gap: How many frames are missing.
     past: The frames before the gap: of each, 3 + 4 numbers per joint. First the position of the first joint,
         metres, Y up; then each joint's rotation in its parent's frame, a unit quaternion w, x, y, z.
-    future: The frames behind the gap, likewise.
+    future: The frames after the gap, likewise.
     """
     rate_hz: float
     joints: List[str]
@@ -371,7 +371,7 @@ class KeyTarget(Message):
     """An angle of a key pose.
 
     feature: One of paper A's ten.
-    degrees: What the feature should be, in degrees.
+    degrees: The target value of the feature, in degrees.
     tolerance_deg: Its largest deviation, in degrees.
     """
     feature: str
@@ -482,7 +482,7 @@ class DetectionProblem(Message):
 
     rate_hz: Frames a second.
     frames: What the sensor saw, frame after frame.
-    events: What was asked for, in order of time.
+    events: The requested performances, in order of time.
     file: The positions as TRC.
     person: The name of the recorded person who is judged.
     starts: The first frames of all recordings of this person but the first.
@@ -501,7 +501,7 @@ class DetectionCall(Message):
     """The judgement of an event.
 
     right_at_frame: The frame in its window at which it is called right; null if it is called wrong.
-    score: How right it is, on any scale; higher: more right.
+    score: The confidence that the performance is right, on any scale.
     """
     right_at_frame: Optional[int]
     score: float
@@ -649,7 +649,7 @@ class CaptureMask(Message):
 
 @dataclass
 class CaptureSegmenterAnswer(Message):
-    """What has changed against the empty room.
+    """The person in the picture.
 
     mask: Which pixels are the person.
     """
@@ -688,7 +688,7 @@ class CoachSetting(Message):
 
     joints: The twenty joints, in the order of poses.
     parents: The name of each joint's parent; null for the first.
-    moves: Those of the dance, their examples at the song's tempo.
+    moves: The moves of the dance, with examples at the song's tempo.
     dance: What is danced, in order.
     """
     HOLDS: ClassVar[dict] = {"moves": [Move], "dance": CoachDance}
@@ -709,7 +709,7 @@ class CoachBegin(Message):
 
 @dataclass
 class CoachAsk(Message):
-    """What is asked for from this frame on.
+    """The move that is requested from this frame on.
 
     move: The move's name; null: nothing is asked for.
     """
@@ -723,7 +723,7 @@ class CoachRecogniserStep(Message):
     pose: The learner's joints as the sensor sees them.
     states: Per joint a letter: tracked, inferred, not tracked.
     body_seen: False if nobody was seen; the pose is then the last one that was seen.
-    ask: What is asked for from this frame on; left out if it does not change.
+    ask: The move that is requested from this frame on; absent if it does not change.
     """
     HOLDS: ClassVar[dict] = {"ask": CoachAsk}
     pose: Pose
@@ -737,7 +737,7 @@ class CoachRecogniserAnswer(Message):
     """The evidence that performances are right.
 
     asked: The evidence so far that the requested performance is right, 0 to 1.
-    spotted: The same for every move, asked for or not.
+    spotted: The evidence for every move, requested or not.
     """
     asked: float
     spotted: Optional[List[float]] = None
@@ -762,7 +762,7 @@ class CoachVerdict(Message):
 
 @dataclass
 class CoachPolicyStep(Message):
-    """What the coach shows, and how it went.
+    """What the coach shows, and its verdicts.
 
     mode: What the coach does, such as dance, correct, demonstrate, praise.
     move: The name of the move that it shows; null: none.
@@ -780,7 +780,7 @@ class CoachPolicyStep(Message):
 class CoachPolicyAnswer(Message):
     """What the coach does next.
 
-    correct: Whether to interrupt the dance, now or as soon as there is one.
+    correct: Whether to interrupt the dance; if the coach does not dance now, as soon as it dances again.
     """
     correct: bool
 
@@ -798,7 +798,7 @@ class CoachTest(Message):
 
 @dataclass
 class CoachLearnerStep(Message):
-    """What the coach shows. After the session, a step holds only a test.
+    """What the coach shows. After the session, a step contains only a test.
 
     pose: The coach's pose, as the learner sees it.
     mode: What the coach does, such as dance, correct, demonstrate, praise.
@@ -830,7 +830,7 @@ class CoachLearnerAnswer(Message):
     """What the learner does.
 
     pose: The learner's pose, a quarter of a second later.
-    right: Whether the performance that it dances is right; null: neither right nor wrong.
+    right: Whether the learner's present performance is right; null: neither right nor wrong.
     given_up: Whether the learner gives up, which ends the session.
     """
     pose: Optional[Pose] = None
@@ -872,10 +872,10 @@ class MetricTrack(Message):
 
 @dataclass
 class MetricProblem(Cell):
-    """A finished cell, as a recording keeps it (docs/reference/recordings.md).
+    """A finished cell, with the content of its recording (docs/reference/recordings.md).
 
     tracks: The cell's motions, truth among them.
-    extras: What the task keeps beside motions.
+    extras: The task's data other than motions.
     """
     HOLDS: ClassVar[dict] = {"tracks": [MetricTrack]}
     tracks: List[MetricTrack]

@@ -51,7 +51,7 @@ Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell) {
   if (!extras) return Fail(place, "its extras are not those of a coached session: {}", extras.error().message);
   static_cast<CoachExtras&>(facts) = *std::move(extras);
   KeepWithin(facts);
-  if (facts.modes.empty() || facts.words.empty()) return Fail(place, "its extras hold no mode or words");
+  if (facts.modes.empty() || facts.words.empty()) return Fail(place, "its extras contain no mode or words");
   return facts;
 }
 

@@ -183,7 +183,7 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions&
     const ScenarioSummary& scenario = run.scenarios[i];
     Film film;
     if (scenario.task == "ik") {
-      film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
+      film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two solvers by iteration",
                                                  paths.films / FilmName(run, i, kConvergence), options.watch);
     } else if (auto race = FindTransitionRace(run, scenario)) {
       film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",

@@ -29,7 +29,7 @@ std::vector<Bar> BarsOf(const ErrorBudget& budget, double scale) {
     bars.push_back({share.stage, left * scale, (left - share.mean) * scale, &share});
     left -= share.mean;
   }
-  bars.push_back({"what is left", 0, budget.rest * scale});
+  bars.push_back({"remaining error", 0, budget.rest * scale});
   return bars;
 }
 
@@ -44,7 +44,7 @@ std::string Describe(const ErrorBudget& budget, const MetricWords& words) {
     }
     text += ".";
   }
-  return text + fmt::format(" What is left: {}.", FormatNumber(budget.rest * words.scale));
+  return text + fmt::format(" Remaining error: {}.", FormatNumber(budget.rest * words.scale));
 }
 
 std::string BarSvg(const Bar& bar, double y, const Axis& axis, double scale) {

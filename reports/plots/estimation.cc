@@ -113,7 +113,7 @@ class Plot {
   }
   bool ShowsUnits() const { return !pairs_.units.empty(); }
   std::string_view UnitsWords() const {
-    return scenario_.unit == SamplingUnit::kLibrary ? "middle, libraries" : "middle, clips";
+    return scenario_.unit == SamplingUnit::kLibrary ? "over libraries" : "over clips";
   }
 
   std::vector<double> Column(const Axis& axis, double PairedWorld::*value) const {
@@ -284,7 +284,7 @@ std::string EstimationLegend(const ScenarioSummary& scenario, const std::string&
   std::string text =
       fmt::format("Left: both methods, one dot per world, coloured by {}. Right: their differences with 95 % intervals",
                   WorldsAreUnits(scenario.unit)              ? "method"
-                  : scenario.unit == SamplingUnit::kClipPair ? "the clip left"
+                  : scenario.unit == SamplingUnit::kClipPair ? "the clip that is left"
                                                              : "its source");
   if (info != nullptr) {
     text += fmt::format("; shaded: differences of less than {:g}{}, which do not matter", info->practical * words.scale,

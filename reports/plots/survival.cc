@@ -94,8 +94,8 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
   const std::string condition_label = ConditionLabel(condition.condition);
   const MetricWords words = WordsFor(std::string(rule.metric));
   return fmt::format(
-      "<figure><figcaption>{}{}: {}, per cent, by {}{}. Worlds that are never solved "
-      "remain.</figcaption>{}{}{}{}</svg></figure>",
+      "<figure><figcaption>{}{}: {}, per cent, by {}{}. Worlds that were never solved stay in the "
+      "denominator.</figcaption>{}{}{}{}</svg></figure>",
       EscapeMarkup(condition_label), condition_label.empty() ? "How long it takes" : "", rule.share,
       EscapeMarkup(words.plain_label), words.suffix.empty() ? "" : " (" + words.suffix.substr(1) + ")",
       BeginPanel(kCurveHeight, described), VerticalAxisGrid(share), HorizontalAxisGrid(time, kCurveTop, kCurveBottom),

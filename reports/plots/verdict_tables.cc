@@ -122,12 +122,12 @@ std::string Confusions(const ScenarioSummary& scenario, const std::string& prefi
     if (confusion.counts.empty() || confusion.moves.size() > kMaxMoves || method >= kMaxMethods) continue;
     const std::string& name = scenario.methods[method];
     std::string& html = name == asked || asked.empty() ? open : folded;
-    html +=
-        ConfusionTable(fmt::format("{}the moves that {} takes the danced ones for, per cent", prefix, name), confusion);
+    html += ConfusionTable(fmt::format("{}the moves that {} named instead of the danced moves, per cent", prefix, name),
+                           confusion);
   }
   if (folded.empty()) return open;
-  return open + "<details><summary>The moves that the other methods take the danced ones for</summary>" + folded +
-         "</details>";
+  return open + "<details><summary>The moves that the other methods named instead of the danced moves</summary>" +
+         folded + "</details>";
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ std::string WaitOf(const TransitionFacts& facts) {
 }
 
 std::string WaysTable(const RecordedRequest& world) {
-  Table table{.label = "The way that each method took",
+  Table table{.label = "How each method made the transition",
               .columns = {{"Method"},
                           {"Branch"},
                           {"Frames, left → entered"},
@@ -148,7 +148,7 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
   if (has_costs) {
     table.columns.push_back(NumberColumn(facts.cost_unit.empty() ? "Cost" : fmt::format("Cost ({})", facts.cost_unit)));
   }
-  table.columns.push_back({"d² is mostly"});
+  table.columns.push_back({"largest part of d²"});
   const std::size_t shown = std::min(facts.candidates.size(), kMaxCandidates);
   for (std::size_t i = 0; i < shown; ++i) table.rows.push_back(CandidateRow(facts.candidates[i], facts, has_costs));
   return fmt::format("<h4>What {} looked at</h4>{}{}{}", EscapeMarkup(methods), HowMany(facts), TableHtml(table),
@@ -186,7 +186,8 @@ std::string WorldHtml(const RecordedRequest& world) {
 
 std::string WorldMarkdown(const RecordedRequest& world) {
   Table table{
-      .columns = {{"method"}, {"branch"}, {"frames, left → entered"}, {"wait"}, {"d"}, {"d² is mostly"}, {"why"}}};
+      .columns = {
+          {"method"}, {"branch"}, {"frames, left → entered"}, {"wait"}, {"d"}, {"largest part of d²"}, {"why"}}};
   for (const RecordedTransition& taken : Shown(world)) {
     const TransitionFacts& facts = taken.facts;
     const auto worst =

@@ -36,8 +36,8 @@ const std::vector<TrackLook>& Looks() {
       {"ik", "start", "start", "ghost"},
       {"ik", "solution", "", "shown", {"truth"}},
       {"transition", "coach", "", "shown", {"left", "wanted"}, true},
-      {"transition", "left", "clip left", "ghost"},
-      {"transition", "wanted", "clip wanted", "ghost"},
+      {"transition", "left", "old clip", "ghost"},
+      {"transition", "wanted", "wanted clip", "ghost"},
       {"capture", "truth", "truth", "ghost", {}, true},
       {"capture", "recovered", "", "shown", {"truth"}},
       {"detection", "truth", "performer", "ghost", {}, true},
@@ -63,7 +63,7 @@ TrackLook LookOf(const std::string& task, const std::string& track) {
 std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   if (task == "capture" || task == "evaluation") return {"distance from the true joint", "mm"};
   if (task == "ik") return {"distance from the true joint", "cm"};
-  if (task == "transition") return {"distance from the clip played", "cm"};
+  if (task == "transition") return {"distance from the clip that plays", "cm"};
   return {"error of the sensor", "cm"};
 }
 

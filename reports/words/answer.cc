@@ -30,7 +30,7 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
     low = -*c.ci_high;
     high = -*c.ci_low;
   }
-  return fmt::format("“{}” {} the {} by {} (95 % CI {}) against {}, by as much as matters in {}", c.method,
+  return fmt::format("“{}” {} the {} by {} (95 % CI {}) against {}; the difference matters in {}", c.method,
                      VerbFor(difference, words), words.label, Amount(std::abs(difference), words),
                      FormatInterval(low, high, words), other, worlds);
 }
@@ -254,19 +254,20 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
   const auto verdict = CommonVerdict(judged);
   const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
-  const std::string phrase = twice_better ? "better than the strongest other one too, " + rival + ChangeOf(judged, what)
-                                          : PhraseOf(judged, what);
+  const std::string phrase = twice_better
+                                 ? "also better than the strongest other method, " + rival + ChangeOf(judged, what)
+                                 : PhraseOf(judged, what);
   const bool is_led = verdict == Verdict::kWorse;
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
 /// Returns the typical (pseudo-median) difference over sampling units, with its interval, from which the generalised
-/// verdict follows: " Middle of 8 clips 2.39 cm (−6.3 to 11.0).". Returns "" if every world is its own unit, or if the
-/// difference or its interval is missing.
+/// verdict follows: " Pseudo-median of 8 clips: 2.39 cm (−6.3 to 11.0).". Returns "" if every world is its own unit, or
+/// if the difference or its interval is missing.
 std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
   if (WorldsAreUnits(unit) || !c.beyond.low || !c.beyond.difference) return "";
-  return fmt::format(" Middle of {} {} ({}).", CountUnits(c.beyond.units, unit), Amount(*c.beyond.difference, words),
-                     FormatInterval(c.beyond.low, c.beyond.high, words));
+  return fmt::format(" Pseudo-median of {}: {} ({}).", CountUnits(c.beyond.units, unit),
+                     Amount(*c.beyond.difference, words), FormatInterval(c.beyond.low, c.beyond.high, words));
 }
 
 /// Returns further facts behind an answer: the difference in the worlds where both methods succeeded and, if the far
@@ -286,7 +287,7 @@ std::string FurtherSteps(const Judged& judged) {
   if (const auto& success = answer->success;
       open && success && success->difference && success->ci_low && success->verdict == Verdict::kInconclusive) {
     const MetricWords words = WordsFor(success->metric);
-    text += fmt::format(" Whether success differs is open: {} {} ({}).", words.label,
+    text += fmt::format(" It is undecided whether success differs: {} {} ({}).", words.label,
                         Amount(*success->difference, words), FormatInterval(success->ci_low, success->ci_high, words));
   }
   if (answer->decided_by == AnswerStep::kTail) {

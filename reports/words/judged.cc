@@ -19,10 +19,10 @@ constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUn
      {"these libraries", "other libraries"}}};
 
 /// Returns the numbers behind a generalised verdict, which are the typical (pseudo-median) difference over sampling
-/// units and its interval: "middle of 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
+/// units and its interval: "pseudo-median of 12 clips: −4.50 mm, 95 % CI −6.00 to −3.00".
 std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
   if (!beyond.difference) return CountUnits(beyond.units, unit);
-  std::string text = fmt::format("middle of {} {}{}", CountUnits(beyond.units, unit),
+  std::string text = fmt::format("pseudo-median of {}: {}{}", CountUnits(beyond.units, unit),
                                  FormatNumber(*beyond.difference * words.scale), words.difference_suffix);
   if (beyond.low) text += ", 95 % CI " + FormatInterval(beyond.low, beyond.high, words);
   return text;

@@ -70,7 +70,7 @@ class Blind(EtudeCase):
         jump = next(metric for metric in facts["metrics"] if metric["metric"] == "jump_cm")
         self.assertEqual((jump["agreed"], jump["decided"]), (2, 2))
         told = self.ends(0, "blind", self.key_file, files[0])
-        self.assertIn("Intervals over raters need 6 of them", told.stdout)
+        self.assertIn("Intervals need 6 raters", told.stdout)
 
     def test_a_damaged_file_is_one_line_with_its_place(self):
         for changed, words in [({"preferred": ["left", "up"]}, "ben.json: preferred[1]: 'up'; allowed"),

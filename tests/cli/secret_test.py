@@ -329,7 +329,8 @@ class SecretWorlds(EtudeCase):
         scenario.write_text(ik_scenario(trials=1) + shown)
         stderr = self.refuse("run", scenario, "-o", self.shared / "out", "--seed-file", self.key)
         if "cannot be fenced" not in stderr:
-            self.assertIn(f"method 'mine' would be shown '{self.folder}', which holds the scenario of secret worlds", stderr)
+            self.assertIn(f"method 'mine' could see '{self.folder}', which contains the scenario of secret "
+                          "worlds", stderr)
         self.assertFalse((self.shared / "out").exists())
         scenario.write_text(ik_scenario(trials=1) + MINE.replace("]}", "], files: [no-such-folder]}"))
         self.assertIn("'no-such-folder' is not a file or folder", self.refuse("run", scenario, "-o", self.shared / "out"))

@@ -87,7 +87,7 @@ class Streams(EtudeCase):
         self.assertEqual(json.loads((self.out / "summary.json").read_text())["scenarios"][0]["unit"], "person")
         self.ends(0, "report", self.out, "--no-video")
         page = (self.out / "report" / "index.html").read_text()
-        self.assertIn("the moves that nearest takes the danced ones for", page)
+        self.assertIn("the moves that nearest named instead of the danced moves", page)
         # The manifest alone repeats the run, in shards too; a packed cell needs no recording.
         again = self.folder / "again"
         self.ends(0, "run", "--from", self.out / "manifest.json", "-o", again)
@@ -160,7 +160,7 @@ class Streams(EtudeCase):
         noisy = self.write("noisy.yaml", SCENARIO + "noise: 2\n")
         self.assertIn("'noise' cannot be used here", refused(noisy, "--streams", takes, "--labels", labels))
         alone = self.write("alone.csv", "clip,from_s,to_s,move,truth,person\nanna,0,3,raise,right,anna\n")
-        self.assertIn("only anna was recorded; leaving one person out needs two people",
+        self.assertIn("only anna was recorded; to leave one person out, two people are needed",
                       refused(scenario, "--streams", takes / "anna.txt", "--labels", alone))
         both = self.write("both.yaml", SCENARIO + f"streams: ['{takes}']\nclips: ['builtin:*']\n")
         self.assertIn("'streams' replaces 'clips'", refused(both))

@@ -161,7 +161,7 @@ class Triage(EtudeCase):
                          {"good": "ok", "nan": "failed", "none": "failed", "short": "failed"})
         for name in "nan", "none":
             self.assertIn(f"{name}.", rows[name]["reason"])
-        self.assertIn("3 frames; faults are sought in 8 or more", rows["short"]["reason"])
+        self.assertIn("3 frames; a search for faults needs 8 or more", rows["short"]["reason"])
         self.assertIn("3 not judged:", said)
 
     def test_bad_input_is_one_line(self):

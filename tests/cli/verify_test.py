@@ -65,7 +65,7 @@ class Verify(EtudeCase):
                      "20 of 20 cells and 4 that left a recording, run again", "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
         self.assertRegex(text, r"10 of 10 agree")
-        self.assertIn("Every cell that can be run again was.", text)
+        self.assertIn("Every cell that can be run again was run again.", text)
         self.assertNotIn("run again:", self.verify("--sample", 0, expect=0))
 
     def test_a_change_without_a_new_seal_is_told_of_and_the_rest_all_the_same(self):

@@ -9,9 +9,9 @@ import sys
 ROOT = pathlib.Path(__file__).parents[2]
 HEAD = """# The protocol, field by field
 
-Written by `scripts/docs` from [protocol.schema.json](../schemas/protocol.schema.json); a test compares the two. How a conversation goes, and
-what answers are judged by: [methods outside](../outside-methods.md). Of a task, `setting`, `problem` and `answer` hold the objects of its name.
-What stands in *italics* may be left out.
+Written by `scripts/docs` from [protocol.schema.json](../schemas/protocol.schema.json); a test compares the two.
+[Methods outside](../outside-methods.md) describes the conversation, and how answers are judged. The objects in
+`setting`, `problem` and `answer` are named after the task. Fields in *italics* may be absent.
 """
 PLAIN = {"string": "text", "number": "number", "integer": "whole number", "boolean": "true or false", "object": "object", "null": "null"}
 

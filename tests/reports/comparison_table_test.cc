@@ -36,7 +36,7 @@ TEST(ComparisonTable, CountsTheComparisonsOfEachCorrection) {
   ScenarioSummary scenario = ExampleRun().scenarios[0];
   scenario.conditions[0].rivals.assign(3, scenario.conditions[0].comparisons[0]);
   EXPECT_THAT(ComparisonTableHtml(scenario),
-              HasSubstr("(Holm) over the 2 comparisons with baselines, and apart from these over the 3 with the strongest"));
+              HasSubstr("(Holm) over the 2 comparisons with baselines, and separately over the 3 with the strongest"));
 }
 
 TEST(ComparisonTable, SaysWhyAVerdictIsOpenAndMarksAnIntervalThatIsNoBca) {
@@ -138,7 +138,7 @@ TEST(AcrossTable, TellsWhatHoldsAndElseWhyNot) {
   };
   EXPECT_THAT(text(kBetter, kBetter, kBetter), HasSubstr("better: holds |"));
   EXPECT_THAT(text(kNoDifference, kNoDifference, kNoDifference), HasSubstr("no difference: holds |"));
-  EXPECT_THAT(text(kBetter, kWorse, kInconclusive), HasSubstr("inconclusive: turns round |"));
+  EXPECT_THAT(text(kBetter, kWorse, kInconclusive), HasSubstr("inconclusive: better under some, worse under others |"));
   EXPECT_THAT(text(kBetter, kInconclusive, kInconclusive), HasSubstr("inconclusive: does not hold everywhere |"));
   EXPECT_THAT(text(kInconclusive, kInconclusive, kInconclusive), HasSubstr("inconclusive everywhere |"));
 }

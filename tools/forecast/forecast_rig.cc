@@ -234,9 +234,9 @@ std::string PlacesCsv(const RigForecast& forecast) {
 std::string JointsText(const RigForecast& forecast) {
   if (forecast.joints.empty()) return "No place shows all joints of a standing body to two cameras.\n";
   std::string text = fmt::format(
-      "\nErrors of a standing body, root mean square, mean over the {:.0f} % of the floor where two cameras see every "
-      "joint: of the joint as\n"
-      "triangulated, and in a body fitted to all of them; then of the direction of the limb that ends in the joint\n"
+      "\nErrors of a standing body (root mean square, mean over the {:.0f} % of the floor where two cameras see every "
+      "joint): of each joint as\n"
+      "triangulated and in a body fitted to all joints, and of the direction of the limb that ends in the joint\n"
       "{:<16}{:>15}{:>18}{:>12}{:>24}{:>18}\n",
       100 * forecast.bodies, "joint", "keypoints, px", "triangulated, mm", "fitted, mm", "limb triangulated, deg",
       "limb fitted, deg");

@@ -33,7 +33,7 @@ struct FileStudy {
 };
 
 /// Returns the error for a request that concerns outside programs: a task that judges files has no problems for them.
-inline tl::unexpected<Error> FailOfFileTask() { return Fail({}, "a task that judges files asks no program"); }
+inline tl::unexpected<Error> FailOfFileTask() { return Fail({}, "a task that judges files runs no program"); }
 
 /// A world of a task that judges files. It sends no problem to a program.
 class FileWorld : public TaskWorld {

@@ -14,10 +14,10 @@ namespace etude {
 namespace {
 
 void ReportMasks(const MaskScore& score, CellResult& cell) {
-  cell.MeasureOr("iou", score.iou, "no picture shows or finds a person");
-  cell.MeasureOr("mask_precision", score.precision, "nobody was found in any picture");
+  cell.MeasureOr("iou", score.iou, "no picture shows a person, and none was found");
+  cell.MeasureOr("mask_precision", score.precision, "no person was found in any picture");
   cell.MeasureOr("mask_recall", score.recall, "no picture shows a person");
-  cell.MeasureOr("mask_f1", score.f1, "no picture shows or finds a person");
+  cell.MeasureOr("mask_f1", score.f1, "no picture shows a person, and none was found");
   cell.MeasureOr("shadow_error", score.shadow_error, "no picture shows a shadow");
   cell.MeasureOr("pwc", score.pwc, "there is no picture");
 }
@@ -60,7 +60,7 @@ void ReportStages(const CaptureWorld& world, const CaptureRun& run, CellResult& 
 
 std::string ReasonForNoSkeleton(const CaptureRun& run) {
   if (run.method.recovery == Recovery::kSilhouettes) {
-    return "no skeleton: in no frame do two cameras' pictures show anybody";
+    return "no skeleton: in no frame do the pictures of two cameras show a person";
   }
   if (run.method.recovery != Recovery::kIk) {
     return "no skeleton: no joint was ever marked in two pictures, or no body explains the marks";
@@ -74,7 +74,7 @@ std::string ReasonForNoSkeleton(const CaptureRun& run) {
   return "no skeleton: the limbs that were marked fit no body";
 }
 
-constexpr const char* kNoStages = "only a built-in method has the stages that it measures";
+constexpr const char* kNoStages = "this metric measures a stage, and only built-in methods have stages";
 
 constexpr std::array kStageMetrics = {"reprojection_rms_px",
                                       "iou",
@@ -173,7 +173,7 @@ void ReportSeen(const CaptureWorld& world, const Observation& observation, const
 
 void ReportLengths(const CaptureWorld& world, const CaptureRun& run, CellResult& cell) {
   if (run.method.lengths == LengthSource::kKnown) {
-    cell.Missing("limb_length_error_mm", "the method is told the limb lengths");
+    cell.Missing("limb_length_error_mm", "the method is given the limb lengths");
     return;
   }
   cell.Measure("limb_length_error_mm", LimbLengthErrorMm(ListOf(run.body.lengths), ListOf(world.person.lengths)));

@@ -154,7 +154,7 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
 
 TaskKind MakeCoachTaskKind() {
   return {.name = "coach",
-          .question = "Does the learner end up better for having been coached?",
+          .question = "Does coaching improve the learner?",
           .default_metrics = {"retention", "answered_share", "corrections_unneeded_per_min"},
           .success = "retention",
           .metrics = CoachMetrics(),

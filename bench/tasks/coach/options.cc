@@ -24,7 +24,7 @@ const FieldTable<CoachOperatingPoint>& OperatingPointFieldsOfCoach() {
 std::vector<Field<Method>> CoachFields() {
   using Key = Field<Method>;
   return {Key::Number("most_corrections", Path(&Method::coach, &CoachOptions::most_corrections), {0, 100},
-                      "Maximum number of corrections of one performance before the dance goes on."),
+                      "Maximum number of corrections of one performance before the coach continues the dance."),
           Key::Flag("follows_tags", Path(&Method::coach, &CoachOptions::follows_tags),
                     "Whether music-time tags slow down and speed up the dance.")};
 }
@@ -36,7 +36,8 @@ std::vector<Field<Method>> PolicyFields() {
                                        FindPolicy, "When the coach interrupts.")};
   Append(SettingFields<Method>("policy", AllPolicies(), Path(&Method::policy, &Coach::PolicyChoice::settings)), fields);
   fields.push_back(Key::Name("partner", &Method::partner, PolicyNames(), FindPolicy,
-                             "The policy at whose moments, in another person's session, it corrects.")
+                             "The policy of another person's session: this method corrects at the moments at which "
+                             "that policy corrects.")
                        .With("policy", {"yoked"}));
   return fields;
 }
@@ -100,8 +101,8 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
     Append(FieldsOf<Condition>(DetectionConditionFields(), &Condition::sight, Keep::kThese, sight), fields);
     fields.push_back(
         Key{{"operating_point", MappingKind("a mapping", OperatingPointFieldsOfCoach().Describe()), "(none)",
-             "Sets the threshold of evidence for a right performance on uninterrupted sessions of other people, so "
-             "that a given number of right performances a minute are taken for mistakes."},
+             "Sets the threshold of evidence on uninterrupted sessions of other people, so that a given number of "
+             "right performances a minute are taken for mistakes."},
             [](Fields& condition, Condition& c) {
               if (condition.Raw("operating_point") == nullptr) return;
               ReadNested(condition, "operating_point", OperatingPointFieldsOfCoach(), c.operating_point.emplace());

@@ -36,7 +36,7 @@ std::vector<MethodKey> FilterFields() {
       one_euro("beta_per_m", &OneEuroOptions::beta_per_m, {0, 1000},
                "Increase of the cut-off frequency per metre a second."),
       one_euro("derivative_cutoff_hz", &OneEuroOptions::derivative_cutoff_hz, {0.01, 100},
-               "Cut-off frequency of the low pass that smooths this speed.")};
+               "Cut-off frequency of the low pass that smooths the speed.")};
 }
 
 }  // namespace
@@ -56,9 +56,9 @@ const FieldTable<OperatingPoint>& OperatingPointFields() {
   using Key = Field<OperatingPoint>;
   static const FieldTable<OperatingPoint> table{
       {Key::Number("false_alarms_per_min", &OperatingPoint::false_alarms_per_min, {0.01, 60},
-                   "Allowed number of false alarms a minute when moves are spotted without being asked for."),
+                   "Allowed number of false alarms a minute when moves are spotted without a request."),
        Key::Number("recall", &OperatingPoint::recall, {0.01, 1},
-                   "Share of the right performances of requested moves that must be called right."),
+                   "Share of the right performances of requested moves that must be judged right."),
        Key::Number("sessions", &OperatingPoint::sessions, {1, 1000},
                    "Number of sessions of other people on which the thresholds are set.")}};
   return table;
@@ -78,7 +78,8 @@ FieldTable<DetectionOptions> MakeConditionFields() {
        Key::Number("events", Path(&Options::session, &SessionOptions::events), {1, 200},
                    "Number of performances in a session."),
        Key::Number("fault_share", Path(&Options::session, &SessionOptions::fault_share), kShare,
-                   "Share of them with a fault; whether such a performance is wrong depends on the fault's severity."),
+                   "Share of the performances that have a fault; whether such a performance is wrong depends on the "
+                   "fault's severity."),
        Key::Number("severity", Path(&Options::session, &SessionOptions::severity), kShare,
                    "Severity of every fault: 0 changes nothing, 1 is the worst of its kind.")
            .WhenAbsent("(drawn uniformly for each)"),
@@ -122,8 +123,8 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                    "Lowest evidence at which a move counts as performed; for all methods.")
            .WhenAbsent("(each recogniser's own)"),
        Key{{"operating_point", MappingKind("a mapping", OperatingPointFields().Describe()), "(none)",
-            "Sets each method's thresholds on other people: for spotting, at a rate of false alarms; for judging what "
-            "was asked for, at a recall."},
+            "Sets each method's thresholds on other people: for spotting, by a rate of false alarms; for judging "
+            "requested moves, by a recall."},
            [](Fields& condition, Options& o) {
              if (condition.Raw("operating_point") == nullptr) return;
              ReadNested(condition, "operating_point", OperatingPointFields(), o.operating_point.emplace());

@@ -122,7 +122,7 @@ Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught) {
                 set.nobody);
   }
   if (!are_taught && set.people.size() < 2) {
-    return Fail({set.file}, "only {} was recorded; leaving one person out needs two people, or 'moves'",
+    return Fail({set.file}, "only {} was recorded; to leave one person out, two people are needed, or 'moves'",
                 set.people.front().name);
   }
   const LabelledPart* before = nullptr;

@@ -236,7 +236,7 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   note += NoteOnRoots(truth, answer);
   const bool is_resampled = !HaveSameRate(truth, answer) || matched.lag;
   note += fmt::format(", {} frames at {:g} Hz", matched.pair.truth.FrameCount(), truth.rate_hz);
-  if (is_resampled) note += fmt::format(", the answer's {:g} Hz interpolated linearly", answer.rate_hz);
+  if (is_resampled) note += fmt::format(", the answer was interpolated linearly from {:g} Hz", answer.rate_hz);
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
   if (!clock.empty()) note += ", " + clock;
   if (matched.uncovered > 0) note += fmt::format(", {} frames of the truth outside the answer", matched.uncovered);
@@ -282,8 +282,8 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     matched.lag = FindTimeShift(matched.pair.truth, rate_hz, found, answer.rate_hz);
     if (!matched.lag) {
       return Fail({answer.name},
-                  "no lag within ±{:g} s is found: the motion is too short, stands or glides, or "
-                  "fits best at the end of that range",
+                  "no lag within ±{:g} s is found: the motion is too short, or it stands or glides, or the best lag is "
+                  "at the end of that range",
                   kMaxTimeShift_s);
     }
   }
@@ -317,7 +317,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) ++matched.uncovered;
   }
   if (SeenShare(matched.pair).value_or(0) == 0) {
-    return Fail({answer.name}, "no joint of '{}' is ever seen by both", truth.name);
+    return Fail({answer.name}, "no joint of '{}' is ever seen in both motions", truth.name);
   }
   matched.note = NoteOn(truth, answer, clock.note, matched);
   return matched;

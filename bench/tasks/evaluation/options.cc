@@ -62,7 +62,7 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
            "noise_mm", &EvaluationOptions::noise_mm, {0, 1000},
            "Standard deviation of white noise, along each axis, that is added to every control's answer first."),
        Key::Text("people", &EvaluationOptions::people, "a pattern such as '{person}_*'",
-                 "Which part of a pair's name is the person; verdicts beyond these files count each person once.")
+                 "Which part of a pair's name is the person; verdicts for other files count each person once.")
            .WhenAbsent("(each pair counts for itself)"),
        Key::Name("lag", &EvaluationOptions::lag, {{"none", Lag::kNone}, {"find", Lag::kFind}},
                  "none: frames of equal times belong together if both files state a clock, else the first frames; "
@@ -113,7 +113,7 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
                    "Standard deviation of white noise, independent for each joint and axis."),
        Key::Number("smoothed_ms", part(&Spoiler::smoothed_ms), {0, 10'000}, "Length of a centred moving mean."),
        Key::Number("faded_percent", part(&Spoiler::faded_percent), {0, 100},
-                   "Each joint's distance from its mean position is reduced by this much."),
+                   "Each joint's distance from its mean position is reduced by this share."),
        Key::Number("scaled_percent", part(&Spoiler::scaled_percent), {-90, 1000}, "Scaling about the world's origin."),
        Key::Number("moved_cm", part(&Spoiler::moved_cm), {-1e5, 1e5}, "Shift along X."),
        Key::Number("lifted_cm", part(&Spoiler::lifted_cm), {-1e5, 1e5}, "Shift upwards."),

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kNoFit = "the alignment is not determined: fewer than three joints are seen by both";
+constexpr const char* kNoFit = "the alignment is not determined: fewer than three joints are seen in both motions";
 constexpr const char* kNoRoot = "no root is seen in both";
 constexpr const char* kNoFeet = "the answer has no ankles and toes, or fewer than two frames";
 
@@ -19,7 +19,7 @@ struct AlignedError {
   Alignment alignment;
   const char* why_missing;
 };
-constexpr AlignedError kErrors[] = {{"mpjpe_unaligned_mm", Alignment::kNone, "no joint is seen by both"},
+constexpr AlignedError kErrors[] = {{"mpjpe_unaligned_mm", Alignment::kNone, "no joint is seen in both motions"},
                                     {"mpjpe_root_mm", Alignment::kRoot, kNoRoot},
                                     {"mpjpe_root_scaled_mm", Alignment::kRootScaled, kNoRoot},
                                     {"mpjpe_first_frame_mm", Alignment::kFirst, kNoFit},
@@ -83,18 +83,18 @@ void MeasureErrors(const EvaluatedPair& pair, const PairFits& fits, CellResult& 
   result.MeasureOr("w_mpjpe_mm@wham", by_segments(2), kNoFit);
   result.MeasureOr("wa_mpjpe_mm@wham", by_segments(kSegmentFrames), kNoFit);
   result.MeasureOr("rte@wham", RootTranslationError(pair),
-                   "fewer than three roots are seen by both, or the true root stands");
+                   "the root is seen in both motions in fewer than three frames, or the true root does not move");
 }
 
 void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
   const double rate = pair.rate_hz;
-  constexpr const char* kTooShort = "no joint is seen by both in three frames in a row";
+  constexpr const char* kTooShort = "no joint is seen in both motions in three frames in a row";
   constexpr double kToMm = 1000;
   const auto acceleration = AccelerationError(pair.found, pair.truth);
   result.MeasureOr("accel_error_mm@human_dynamics", Times(kToMm, acceleration), kTooShort);
   result.MeasureOr("accel_error_mps2", Times(rate * rate, acceleration), kTooShort);
   result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, RootAccelerationError(pair)),
-                   "no joint and root are seen by both in five frames");
+                   "no joint and root are seen in both motions in five frames");
   result.MeasureOr("jitter@wham", Jitter(pair.found, rate), "no joint is seen in four frames in a row");
 }
 
@@ -110,7 +110,8 @@ void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
       "contact_f1", ContactF1(pair.found_contacts, pair.true_contacts),
       have_contacts ? "neither foot ever touches the floor" : "one of the two files has no contacts");
   result.MeasureOr("pfc@edge", PhysicalFootContact(pair.feet, pair.found_root, pair.rate_hz),
-                   "the answer lacks ankles, toes, root or three frames, or its root does not accelerate");
+                   "the answer has no ankles, toes or root, has fewer than three frames, or its root does not "
+                   "accelerate");
   const FloorErrors floor = MeasureFloor(pair.found);
   result.MeasureOr("penetration_mm", floor.penetration_mm, "no joint of the answer is seen");
   result.MeasureOr("floating_mm", floor.floating_mm, "no joint of the answer is seen");
@@ -141,7 +142,7 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
   constexpr const char* kNoRotations = "one of the two files has no rotations";
   const auto rotations = RotationsOf(matched.pair);
   result.MeasureOr("l2q@lafan1", rotations ? MeanChannelDistance(rotations->found, rotations->truth) : std::nullopt,
-                   rotations ? "no frame shows every joint in both" : kNoRotations);
+                   rotations ? "no frame shows every joint in both motions" : kNoRotations);
   // Measure L2P, if the statistics contain every joint.
   std::string why = "needs `statistics`: means and deviations of joints";
   std::vector<glm::dvec3> means, deviations;
@@ -157,7 +158,7 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
   }
   std::optional<double> l2p;
   if (means.size() == matched.joints.size()) {
-    why = "no frame shows every joint in both";
+    why = "no frame shows every joint in both motions";
     l2p = MeanChannelDistance(StandardisedChannels(matched.pair.found.positions, means, deviations),
                               StandardisedChannels(matched.pair.truth.positions, means, deviations));
   }
@@ -166,7 +167,7 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
   const auto measure = [&](PowerOf kind) {
     return rotations ? MeasurePowerSpectrum(rotations->found, rotations->truth, kWindowFrames, kind) : std::nullopt;
   };
-  const char* no_window = rotations ? "no 30 frames in a row show every joint in both" : kNoRotations;
+  const char* no_window = rotations ? "no 30 frames in a row show every joint in both motions" : kNoRotations;
   const auto real = measure(PowerOf::kRealPart), magnitude = measure(PowerOf::kMagnitude);
   const auto part = [](const auto& error, double PowerSpectrumError::*which) {
     return error ? std::optional<double>((*error).*which) : std::nullopt;
@@ -237,7 +238,7 @@ CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& 
   MeasureMovement(matched.pair, result);
   MeasureFeet(matched.pair, result);
   result.MeasureOr("bend_error_deg", BendErrorDeg(matched.pair.found, matched.pair.truth, matched.bends),
-                   "no knee or elbow with its neighbours is seen by both");
+                   "no knee or elbow with its neighbours is seen in both motions");
   MeasureAngles(matched, result);
   MeasureInbetweening(matched, side, result);
   MeasureBeats(matched.pair, side, result);

@@ -103,7 +103,7 @@ const FieldTable<IkMethod>& IkMethodFields() {
         Key::Flag("limits", Path(&IkMethod::options, &IkOptions::limits), "Whether joint limits are kept."),
         ToleranceField(&IkMethod::options, "Largest change of an angle from its start."),
         Key::Number("tolerance_times_noise", &IkMethod::tolerance_times_noise, {0, 100},
-                    "The same as a multiple of joint_noise_deg; 1.2 is read from paper B.")
+                    "The same bound as a multiple of joint_noise_deg; paper B's value is about 1.2.")
             .WhenAbsent("(no bound)")};
     Append(std::move(own), made.fields);
     return made;

@@ -17,10 +17,10 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
            .WhenAbsent("(required)"),
        Key::Texts("training", &Options::training, "a list of motion files, patterns, folders",
                   "The motions for L2P's standard deviations, for the joints' offsets and for fillers that use a "
-                  "library (`planted-feet`, `near-gaps`, `nearest-gap`); none of `truth`.")
+                  "library (`planted-feet`, `near-gaps`, `nearest-gap`); they must not be among those of `truth`.")
            .WhenAbsent("(required)"),
        Key::Text("people", &Options::people, "a pattern such as '*_{person}'",
-                 "Which part of a file's name is the person; verdicts beyond these files count each person once.")
+                 "Which part of a file's name is the person; verdicts for other files count each person once.")
            .WhenAbsent("(each file counts for itself)"),
        Key::Number("window", &Options::window, kFrames, "Length of a window, in frames."),
        Key::Number("offset", &Options::offset, kFrames, "Frames from the beginning of one window to that of the next."),
@@ -42,8 +42,8 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
         const auto& [past, gap, future, given] = std::tie(options.past, options.gap, options.future, options.given);
         if (past + gap + future <= options.window && past <= options.training_window && given <= future) return;
         fields.Complain(fields.node().place,
-                        fmt::format("past {}, gap {} and future {} must fit into a window of {} frames, past into "
-                                    "a training window of {}, given {} into future",
+                        fmt::format("past {}, gap {} and future {} must fit together into a window of {} frames, past "
+                                    "must fit into a training window of {}, and given {} into future",
                                     past, gap, future, options.window, options.training_window, given));
       }};
   return table;
@@ -55,12 +55,11 @@ const FieldTable<InbetweenMethod>& InbetweenMethodFields() {
   static const FieldTable<Method> table = [] {
     NamedValues<const Filler*> values;
     for (const Filler& filler : AllFillers()) values.emplace_back(filler.name, &filler);
-    FieldTable<Method> made{
-        {Key::Name("filler", &Method::filler, values, "How the hidden frames are filled in.")
-             .WhenAbsent("(required, unless `oracle` is given)"),
-         Key::Flags(
-             "oracle", {{"frames", &Method::knows_frames}},
-             "`frames`: the answer is the hidden frames themselves, to show the metrics' values of the truth.")}};
+    FieldTable<Method> made{{Key::Name("filler", &Method::filler, values, "How the hidden frames are filled in.")
+                                 .WhenAbsent("(required, unless `oracle` is given)"),
+                             Key::Flags("oracle", {{"frames", &Method::knows_frames}},
+                                        "`frames`: the answer is the hidden frames themselves, to show the values of "
+                                        "the metrics for the truth.")}};
     for (const Key& key : SettingFields<Method>("filler", AllFillers(), &Method::settings)) made.fields.push_back(key);
     made.check = [](Fields& fields, Method& method) {
       if (method.knows_frames == (method.filler != nullptr))

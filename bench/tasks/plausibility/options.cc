@@ -31,7 +31,7 @@ const FieldTable<PlausibilityOptions>& PlausibilityConditionFields() {
       {Key::Number("floor_m", &PlausibilityOptions::floor_m, {-1000, 1000}, "The height of the floor, metres.")
            .WhenAbsent("(0; the height at which the feet rest, if a clip stays more than 60 cm from 0)"),
        Key::Text("people", &PlausibilityOptions::people, "a pattern such as '{person}_*'",
-                 "Which part of a clip's name is the person; verdicts beyond these files count each person once.")
+                 "Which part of a clip's name is the person; verdicts for other files count each person once.")
            .WhenAbsent("(each clip counts for itself)"),
        {{"at_most", MappingKind("a mapping", LimitKeys()), "{}",
          "The largest allowed values of metrics; the metric `within_limits` shows which clips keep all of them."},

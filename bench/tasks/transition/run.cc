@@ -200,7 +200,7 @@ std::optional<double> TransitionFailureValue(std::string_view metric) {
 void MeasureNoWay(CellResult& result) {
   for (const char* id : kTransitionMetrics) {
     const std::optional<double> value = TransitionFailureValue(id);
-    value ? result.Measure(id, *value) : result.Missing(id, "no way was found");
+    value ? result.Measure(id, *value) : result.Missing(id, "no transition was found");
   }
 }
 

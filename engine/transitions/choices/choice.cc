@@ -46,12 +46,13 @@ PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& re
 std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool is_rear, const PairSurvey& survey,
                      const MatchRules& rules) {
   if (rules.pick == Pick::kFirst) {
-    return fmt::format("first match: {}, d = {:.2f} < {:g}; of {} matching pairs {} that are nearer come later", pair,
-                       point.distance.value, rules.threshold, survey.matching, survey.nearer);
+    return fmt::format("first match: {}, d = {:.2f} < {:g}; {} matching pairs, of which {} are nearer but come later",
+                       pair, point.distance.value, rules.threshold, survey.matching, survey.nearer);
   }
-  return fmt::format("smallest distance{}: {}, d = {:.2f} < {:g}, of {} matching pairs",
-                     is_rear ? ", in the rear half because no pair matches in the front half" : " in the front half",
-                     pair, point.distance.value, rules.threshold, survey.matching);
+  return fmt::format(
+      "smallest distance{}: {}, d = {:.2f} < {:g}, of {} matching pairs",
+      is_rear ? ", in the clip's rear half, because no pair matches in its front half" : " in the front half", pair,
+      point.distance.value, rules.threshold, survey.matching);
 }
 
 std::string WhyNone(const MotionLibrary& library, const TransitionRequest& request, const PairSurvey& survey,
@@ -59,7 +60,8 @@ std::string WhyNone(const MotionLibrary& library, const TransitionRequest& reque
   if (survey.allowed.leave.empty()) {
     return fmt::format("{} has no bridge frame within {:g} s", library.names[request.from], request.budget_s);
   }
-  if (survey.allowed.enter.empty()) return fmt::format("{} has no bridge frame to enter at", library.names[request.to]);
+  if (survey.allowed.enter.empty())
+    return fmt::format("{} has no bridge frame at which it can be entered", library.names[request.to]);
   return DescribeNoMatch(survey.nearest, survey.allowed.Pairs(), "bridge frames", rules);
 }
 
@@ -231,7 +233,7 @@ std::span<const Choice> Table() {
              .description = "goes from the playing clip's last frame into the clip's first frame",
              .plan = PlanBy<PlanWaitForEnd>},
       Choice{.name = "unbroken",
-             .description = "no transition: the playing clip continues, for comparison",
+             .description = "no transition: the playing clip continues, as a reference for unbroken motion",
              .plan = PlanBy<PlanUnbroken>},
   };
   return kChoices;

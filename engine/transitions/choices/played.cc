@@ -198,7 +198,7 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
                        stance.is_down ? "lies, sits or kneels" : "stands", stance.hips);
   };
   const std::string why = fmt::format(
-      "{} in all frames in which it may be left, {} where it may be entered: no join can {} a body without support",
+      "{} whenever it can be left, and {} when it can be entered: no join can {} a body without support",
       describe(request.from, left), describe(request.to, wanted), wanted.hips > left.hips ? "raise" : "lower");
   // Find a clip that changes the stance.
   const auto through = FindThroughClip(library, request, allowed, options.most_through_s);

@@ -156,7 +156,7 @@ std::span<const Filler> AllFillers() {
        .settings = {HalfLife(kSpring_s, "The time in which half of a difference is gone.")},
        .fill = FillByHalfLife<InertialisedAt, kSpring_s>},
       {.name = "dead-blending",
-       .description = "both ends go on with decaying velocities; one fades into the other",
+       .description = "both ends continue with decaying velocities; one fades into the other",
        .settings = {HalfLife(kDead_s, "The time in which a velocity halves.")},
        .fill = FillByHalfLife<DeadBlendedAt, kDead_s>},
       {.name = "minimum-jerk",
@@ -164,14 +164,14 @@ std::span<const Filler> AllFillers() {
        .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt, LeastJerkAt); }},
       // Fillers that learn from the training clips.
       {.name = "nearest-gap",
-       .description = "dead blending, plus its error in the training clips' gap whose ends are nearest",
+       .description = "dead blending, corrected by its error in the training clips' gap whose ends are nearest",
        .uses_library = true,
        .fill =
            [](const Gap& gap, Values) {
              return gap.library ? gap.library->FillLikeNearest(gap, DeadBlend) : std::vector<TreePose>();
            }},
       {.name = "near-gaps",
-       .description = "dead blending, plus its mean error in the training clips' near gaps",
+       .description = "dead blending, corrected by its mean error in similar gaps of the training clips",
        .uses_library = true,
        .fill = FillLikeNear},
       {.name = "planted-feet",

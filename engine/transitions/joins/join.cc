@@ -43,7 +43,7 @@ std::span<const JoinKind> Table() {
                .begin = SpringDefaults},
       JoinKind{
           .name = "dead-blending",
-          .description = "the old motion goes on with decaying velocities while the new one fades in (Holden 2023)",
+          .description = "the old motion continues with decaying velocities while the new one fades in (Holden 2023)",
           .settings = DeadSettings().Describe(),
           .begin = BeginWith<DeadBlending, DeadSettings>},
       // Our own joins.

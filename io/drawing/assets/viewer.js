@@ -278,7 +278,7 @@ const flatRenderer = (canvas) => {
 };
 
 const KEYS = 'k plays and stops; ← → a frame, with Shift a second; on the picture arrows turn it; + − zoom; 0 the first view; ' +
-    '[ ] last, next moment; Home End first, last frame; s side by side; e colour by error; Escape closes.';
+    '[ ] previous, next moment; Home End first, last frame; s side by side; e colour by error; Escape closes.';
 const make = (tag, attributes = {}, ...children) => {
   const element = document.createElement(tag);
   for (const [key, value] of Object.entries(attributes)) {
@@ -409,7 +409,7 @@ const show = (world, cells) => {
     const bodies = [...chosen].map((i) => world.bodies[i]).filter((b) => b.errors);
     cellsNow = [];
     table.replaceChildren();
-    if (!bodies.length) { table.append('No error is known of what is shown.'); return; }
+    if (!bodies.length) { table.append('The errors of the shown bodies are not known.'); return; }
     const rows = [...new Set(bodies.flatMap((body) => body.tree.joints)), 'all joints'].map((name) =>
       make('tr', {}, make('th', {scope: 'row'}, name), ...bodies.flatMap((body) => {
         const joints = body.tree.joints.flatMap((joint, j) => joint === name || name === 'all joints' ? [j] : []);

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Readers of the parts of test vectors' inputs (docs/reference/metrics.md, "The vectors' inputs"). All throw
+/// Readers of the parts of test vectors' inputs (docs/reference/metrics.md, "Inputs of the test vectors"). All throw
 /// Json::exception for input that does not fit; `EvaluateMetric` turns that into an Error.
 
 /// Reads [x, y, z].

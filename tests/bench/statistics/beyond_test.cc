@@ -58,7 +58,7 @@ TEST(MeasureBeyond, CountsUnitsAndNotWorlds) {
   EXPECT_FALSE(few.low);
   EXPECT_FALSE(few.test.p);
   EXPECT_EQ(few.left_out.size(), 4u) << "does one clip carry it?";
-  EXPECT_EQ(few.why_open, "4 clips: no verdict beyond them; at least 6 are needed");
+  EXPECT_EQ(few.why_open, "4 clips: no verdict for others; at least 6 are needed");
   EXPECT_EQ(*Judged(OneWay({-4, -6, -5, -9, 3, 2}, 1)).low, *Judged(OneWay({-4, -6, -5, -9, 3, 2}, 99)).low);
 }
 
@@ -153,7 +153,7 @@ TEST(MeasureBeyond, KnowsNothingBeyondWhatEveryWorldShows) {
   EXPECT_EQ(always.units, 7);
   EXPECT_EQ(always.left_out.size(), 6u);
   EXPECT_FALSE(always.verdict);
-  EXPECT_EQ(always.why_open, "all worlds show the same clip: no verdict beyond it");
+  EXPECT_EQ(always.why_open, "all worlds show the same clip: no verdict for other clips");
   EXPECT_EQ(Judged({}).units, 0);
 }
 

@@ -101,7 +101,7 @@ TEST(JudgeFamily, SaysWhyADifferenceIsNotYetAVerdict) {
   for (double& difference : small) difference = dice.Normal(-0.95, 0.6);
   const Comparison open = JudgedAmong(1, Compared(small, "jump_cm"));
   EXPECT_EQ(open.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(open.why_open, "it differs, but it is undecided whether enough to matter");
+  EXPECT_EQ(open.why_open, "there is a difference, but it is undecided whether it is large enough to matter");
 }
 
 TEST(JudgeFamily, TellsATestThatFoundSomethingFromOneThatDidNot) {
@@ -125,11 +125,11 @@ TEST(JudgeFamily, WarnsOfWorldsThatOnlyOneSurvived) {
   lossy.neither = 1;
   EXPECT_THAT(
       JudgedAmong(1, lossy).notes,
-      ElementsAre("8 of 28 worlds are not in the difference: only “fixed” has a value in 7, neither has one in 1 "
-                  "(survivorship)"));
+      ElementsAre("the difference does not include 8 of 28 worlds: only “fixed” has a value in 7, neither has one in 1 "
+                  "(survivorship bias)"));
   lossy.only_baseline = 0;
   EXPECT_THAT(JudgedAmong(1, lossy).notes,
-              ElementsAre("1 of 21 worlds are not in the difference: neither has one in 1"));
+              ElementsAre("the difference does not include 1 of 21 worlds: neither has one in 1"));
 }
 
 TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
@@ -148,7 +148,7 @@ TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
   EXPECT_EQ(judged(20, 0).verdict, Verdict::kBetter);
   const Comparison open = judged(0, 12);
   EXPECT_EQ(open.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(open.why_open, "“better” where both have a value, but not if a failure counts as a loss");
+  EXPECT_EQ(open.why_open, "“better” in worlds in which both have a value, but not if a failure counts as a loss");
   EXPECT_GT(*open.p_holm, 0.05);
   EXPECT_DOUBLE_EQ(*open.difference, *Compared(Falling(20)).difference);
 }

@@ -192,7 +192,8 @@ TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {
   EXPECT_DOUBLE_EQ(*comparison.difference, -2);
   EXPECT_DOUBLE_EQ(comparison.share_better, 1);
   EXPECT_EQ(comparison.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(comparison.why_open, "“better” where both have a value, but not if a failure counts as a loss");
+  EXPECT_EQ(comparison.why_open,
+            "“better” in worlds in which both have a value, but not if a failure counts as a loss");
   for (Row& row : rows) {
     if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
   }
@@ -232,7 +233,7 @@ TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   const ExpectationResult result = JudgeExpectation(below, study, Tabulate(study, rows), 1);
   EXPECT_EQ(result.outcome, ClaimOutcome::kUndecided);
   EXPECT_THAT(result.detail, ::testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
-  EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, 1 more have no pair of values"));
+  EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, 1 more do not have both values"));
 }
 
 TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {

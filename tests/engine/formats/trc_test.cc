@@ -105,7 +105,7 @@ TEST(ReadTrc, TakesTimesInMillisecondsWhereOnlyTheyAgreeWithDataRate) {
   EXPECT_EQ(read->rate_hz, 50);
   EXPECT_EQ(read->frames.size(), 60u);
   EXPECT_NEAR(read->start_s.value_or(0), 7, 1e-9);
-  EXPECT_EQ(read->remark, "the column Time is taken as milliseconds, by which its rows come at the DataRate of 50 Hz");
+  EXPECT_EQ(read->remark, "the column Time is taken as milliseconds; its rows then have the DataRate of 50 Hz");
   EXPECT_EQ(ReadTrc(AtFiftyHertz(50, 60), "a.trc")->remark, "");
 }
 

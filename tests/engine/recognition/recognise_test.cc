@@ -226,7 +226,7 @@ TEST(FollowStream, RefusesWindowsThatItCannotFollow) {
     EXPECT_THAT(complaint({{kRaise, window}}), HasSubstr(", but the stream has 90"));
   }
   EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {74, 80}}}),
-            "a move is asked for from frame 74 on, but the one before it lasts until 75");
+            "a move is requested from frame 74 on, but the request before it lasts until 75");
 }
 
 TEST(JudgeWindow, OfNoFramesIsNothing) {

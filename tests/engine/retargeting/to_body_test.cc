@@ -465,7 +465,7 @@ TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
   for (std::size_t f = 0; f < 60; ++f) At(glides, f, "Hips").translation.z = 5.0 * static_cast<double>(f);
   EXPECT_THAT(Convert(glides)->doubts, ::testing::IsEmpty());
   for (std::size_t f = 0; f < 60; ++f) At(glides, f, "Hips").translation.z *= 100;
-  EXPECT_THAT(Convert(glides)->doubts, ::testing::ElementsAre(HasSubstr("as if in a smaller unit than the limbs")));
+  EXPECT_THAT(Convert(glides)->doubts, ::testing::ElementsAre(HasSubstr("seem to have a smaller unit than the limbs")));
 }
 
 TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {

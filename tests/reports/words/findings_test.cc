@@ -43,17 +43,15 @@ std::string AnswerTo(const Comparison& comparison) {
 }
 
 TEST(Answer, SaysHowMuchBetterOnHowManyWorlds) {
-  EXPECT_EQ(
-      AnswerTo(Figures(60, -12.3, -14.0, -10.1, 58.0 / 60, Verdict::kBetter)),
-      "“adaptive” lowers the effector orientation error by 12.3° (95 % CI 10.1–14.0) against “fixed”, by as much as "
-      "matters in 58 of 60 worlds.");
+  EXPECT_EQ(AnswerTo(Figures(60, -12.3, -14.0, -10.1, 58.0 / 60, Verdict::kBetter)),
+            "“adaptive” lowers the effector orientation error by 12.3° (95 % CI 10.1–14.0) against “fixed”; the "
+            "difference matters in 58 of 60 worlds.");
 }
 
 TEST(Answer, CountsTheWorldsLostWhenWorse) {
-  EXPECT_THAT(
-      AnswerTo(Figures(20, 3.0, 2.0, 4.0, 0.1, Verdict::kWorse)),
-      HasSubstr("raises the effector orientation error by 3.00° (95 % CI 2.00–4.00) against “fixed”, by as much as "
-                "matters in 18 of 20 worlds."));
+  EXPECT_THAT(AnswerTo(Figures(20, 3.0, 2.0, 4.0, 0.1, Verdict::kWorse)),
+              HasSubstr("raises the effector orientation error by 3.00° (95 % CI 2.00–4.00) against “fixed”; the "
+                        "difference matters in 18 of 20 worlds."));
 }
 
 TEST(Answer, ClaimsNothingThatIsNotSettled) {
@@ -210,7 +208,7 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
   EXPECT_EQ(figures.labels,
             (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time",
-                                      "worlds in which “wait-for-end” is better by as much as matters"}));
+                                      "worlds in which “wait-for-end” is better by a difference that matters"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");

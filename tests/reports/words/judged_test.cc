@@ -34,7 +34,7 @@ BeyondFinding InWords(const std::vector<Comparison>& comparisons, SamplingUnit u
 
 TEST(Beyond, SaysHowManyClipsCarryIt) {
   const BeyondFinding found = InWords({OnClips(Verdict::kBetter, Verdict::kBetter, 12)}, SamplingUnit::kClip);
-  EXPECT_EQ(found.words, "for other clips: better (middle of 12 clips −4.50 mm, 95 % CI −6.00 to −3.00)");
+  EXPECT_EQ(found.words, "for other clips: better (pseudo-median of 12 clips: −4.50 mm, 95 % CI −6.00 to −3.00)");
   EXPECT_TRUE(found.as_on_these);
   EXPECT_FALSE(found.on_these_only);
 }
@@ -63,7 +63,7 @@ TEST(Beyond, SaysWhyItIsOpen) {
   Comparison open = OnClips(Verdict::kBetter, Verdict::kInconclusive, 7);
   open.beyond.why_open = "too few clips";
   const BeyondFinding found = InWords({open}, SamplingUnit::kClipPair);
-  EXPECT_THAT(found.words, HasSubstr("for other clips: inconclusive (middle of 7 clips"));
+  EXPECT_THAT(found.words, HasSubstr("for other clips: inconclusive (pseudo-median of 7 clips"));
   EXPECT_THAT(found.words, ::testing::EndsWith(": too few clips"));
   EXPECT_FALSE(found.as_on_these);
 }

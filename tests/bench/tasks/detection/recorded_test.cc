@@ -193,7 +193,7 @@ TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
   EXPECT_THAT(ComplaintAbout("methods: [{name: a, oracle: [stream]}]\n", set), HasSubstr("is unknown"));
   LabelledStreams alone = SetOf(Record(1, kDanced, 5));
   EXPECT_THAT(ComplaintAbout(method, alone),
-              HasSubstr("only person-0 was recorded; leaving one person out needs two people"));
+              HasSubstr("only person-0 was recorded; to leave one person out, two people are needed"));
   LabelledStreams unnamed = set;
   unnamed.nobody = "take";
   EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("the person of take is unknown"));

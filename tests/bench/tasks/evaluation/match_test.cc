@@ -54,7 +54,8 @@ TEST(Match, AShiftIsAllThatIsLeftOfAnAnswerAtAnotherRate) {
   EXPECT_NEAR(ValueIn(result, "mpjpe_take_mm"), 0, 1e-9);
   EXPECT_NEAR(ValueIn(result, "accel_error_mps2"), 0, 1e-9);
   EXPECT_EQ(ValueIn(result, "seen_share"), 1);
-  EXPECT_THAT(result.reason, HasSubstr("20 joints, root hip_centre, 60 frames at 30 Hz, the answer's 12.5 Hz interpolated linearly"));
+  EXPECT_THAT(result.reason, HasSubstr("20 joints, root hip_centre, 60 frames at 30 Hz, the answer was interpolated "
+                                       "linearly from 12.5 Hz"));
 }
 
 TEST(Match, AnAnswerThatEndsEarlyIsJudgedWhereItIs) {
@@ -146,7 +147,7 @@ TEST(Match, FailsWithoutACommonJointOrAnySeen) {
   for (glm::dvec3& p : blind.positions) p = NotSeen();
   const auto unseen = Match(Gliding(30, 3), blind, "roles", Lag::kNone);
   ASSERT_FALSE(unseen);
-  EXPECT_THAT(ToString(unseen.error()), HasSubstr("ever seen by both"));
+  EXPECT_THAT(ToString(unseen.error()), HasSubstr("ever seen in both motions"));
 }
 
 /// The standing body whose limbs sway, each in its own time, `late_s` later.

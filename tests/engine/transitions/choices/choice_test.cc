@@ -52,8 +52,8 @@ TEST(FuzzyBridge, TellsOfThePairsItDidNotTake) {
   expect(3, 2, 19, 3.05, CandidateOutcome::kTooFar);
   expect(4, 3, 0, 0.05, CandidateOutcome::kLater);
   EXPECT_EQ(record.why,
-            "first match: still frame 0 (0.00 s after the request) and between frame 0, d = 0.05 < 0.4; of 15 "
-            "matching pairs 1 that are nearer come later");
+            "first match: still frame 0 (0.00 s after the request) and between frame 0, d = 0.05 < 0.4; 15 "
+            "matching pairs, of which 1 are nearer but come later");
 }
 
 TEST(FuzzyBridge, TakesTheSmallestDistanceWhenToldTo) {
