@@ -13,14 +13,14 @@ Rotation = List[List[float]]
 
 @dataclass
 class IkJoint(Message):
-    """A joint of the body that a solver turns.
+    """A joint of the body whose pose is computed.
 
     name: The joint's name.
-    parent: null: it is the root.
+    parent: The parent's name; null for the root.
     offset_m: The joint's position from its parent, in the parent's frame, in metres.
-    rest: The rotation from its frame into its parent's while all its angles are 0.
-    axes: The axes that it turns about, in order.
-    first_angle: The index of its first angle in the setting's angles.
+    rest: The rotation from the joint's frame into its parent's frame if all its angles are 0.
+    axes: The rotation axes of the joint's angles, in order.
+    first_angle: The index of the joint's first angle in the setting's list of angles.
     """
     name: str
     parent: Optional[int]
@@ -35,8 +35,8 @@ class IkAngle(Message):
     """One degree of freedom.
 
     name: The angle's name.
-    lower_deg: Its lower limit, in degrees.
-    upper_deg: Its upper limit, in degrees.
+    lower_deg: The angle's lower limit, in degrees.
+    upper_deg: The angle's upper limit, in degrees.
     """
     name: str
     lower_deg: float
@@ -48,8 +48,8 @@ class IkEffector(Message):
     """The free end of a limb.
 
     name: The effector's name.
-    joint: The joint that it is attached to.
-    offset_m: Its position in that joint's frame, in metres.
+    joint: The joint to which the effector is attached.
+    offset_m: The effector's position in that joint's frame, in metres.
     """
     name: str
     joint: int
@@ -58,10 +58,10 @@ class IkEffector(Message):
 
 @dataclass
 class IkRoot(Message):
-    """Where the root joint is; it does not move.
+    """The pose of the root joint, which is given and not solved for.
 
-    position_m: Its position in the world, in metres.
-    rotation: The rotation from its frame into the world's.
+    position_m: The root's position in the world, in metres.
+    rotation: The rotation from the root's frame into the world's.
     """
     position_m: Vector
     rotation: Rotation
@@ -84,7 +84,7 @@ class IkTarget(Message):
 class IkFrame(Message):
     """A frame of the motion to follow.
 
-    root: Where the root joint is in this frame.
+    root: The pose of the root joint in this frame.
     targets: One target per effector, in order.
     """
     HOLDS: ClassVar[dict] = {"root": IkRoot, "targets": [IkTarget]}
@@ -97,12 +97,13 @@ class IkSetting(Message):
     """The body, and what an answer must reach.
 
     joints: The joints, parents first.
-    angles: One per degree of freedom, in the order of answers.
+    angles: The angles, one per degree of freedom, in the order in which answers list them.
     effectors: The free ends that have targets.
-    max_steps: The step limit of built-in solvers; like the goals, for information.
-    position_goal_cm: How near an effector has to come to its target, in centimetres.
-    orientation_goal_deg: How far each of an effector's axes may be from its target's, in degrees.
-    asked: Which parts of its target each effector must reach: position, orientation, or both.
+    max_steps: The step limit of the built-in solvers. It is for information, as are the goals.
+    position_goal_cm: The largest distance from an effector to its target that counts as solved, in centimetres.
+    orientation_goal_deg: The largest angle between an axis of the effector and that of its target that counts as
+        solved, in degrees.
+    asked: The parts of its target that each effector must reach: position, orientation, or both.
     """
     HOLDS: ClassVar[dict] = {"joints": [IkJoint], "angles": [IkAngle], "effectors": [IkEffector]}
     joints: List[IkJoint]
@@ -116,9 +117,9 @@ class IkSetting(Message):
 
 @dataclass
 class IkProblem(Message):
-    """One pose to be found.
+    """A pose to be computed.
 
-    root: Where the root joint is.
+    root: The pose of the root joint.
     start_angles_deg: The angles to start from, within all limits.
     targets: One target per effector, in order.
     """
@@ -130,7 +131,7 @@ class IkProblem(Message):
 
 @dataclass
 class IkAnswer(Message):
-    """The pose found.
+    """The computed pose.
 
     angles_deg: As many angles as in the setting. An answer with an angle more than 10⁻⁶ degrees beyond its limit is
         measured, and counts as unsolved.
@@ -146,10 +147,11 @@ class IkAnswer(Message):
 class TrackingSetting(Message):
     """The frame rate, and the limits of built-in solvers in each frame.
 
-    rate_hz: Frames a second.
-    max_steps: The step limit of built-in solvers; like the goals, for information.
-    position_goal_cm: How near an effector has to come to its target, in centimetres.
-    orientation_goal_deg: How far each of an effector's axes may be from its target's, in degrees.
+    rate_hz: Frames per second.
+    max_steps: The step limit of the built-in solvers. It is for information, as are the goals.
+    position_goal_cm: The largest distance from an effector to its target that counts as solved, in centimetres.
+    orientation_goal_deg: The largest angle between an axis of the effector and that of its target that counts as
+        solved, in degrees.
     """
     rate_hz: float
     max_steps: int
@@ -162,7 +164,7 @@ class TrackingProblem(Message):
     """A motion, and the body that must follow it.
 
     joints: The joints, parents first.
-    angles: One per degree of freedom, in the order of answers.
+    angles: The angles, one per degree of freedom, in the order in which answers list them.
     effectors: The free ends that have targets.
     start_angles_deg: The angles to start from in the first frame.
     frames: The frames of the motion, in order.
@@ -204,10 +206,10 @@ class TransitionClip(Message):
 class TransitionSetting(Message):
     """The library of clips.
 
-    rate_hz: Frames a second, of all clips.
+    rate_hz: Frames per second of all clips.
     joints: The twenty joints, in the order of poses.
     parents: The name of each joint's parent; null for the first.
-    clips: The library; problems name its clips by their index, from 0.
+    clips: The clips of the library. Problems refer to a clip by its index, from 0.
     """
     HOLDS: ClassVar[dict] = {"clips": [TransitionClip]}
     rate_hz: float
@@ -233,11 +235,11 @@ class TransitionProblem(Message):
 
 @dataclass
 class TransitionStop(Message):
-    """A clip that is played between the two.
+    """A clip that is played between the current and the wanted clip.
 
-    clip: Its index in the library.
-    enter_frame: The frame at which it is entered, in place of the previous clip's last frame.
-    leave_frame: The last of its frames that is shown.
+    clip: The clip's index in the library.
+    enter_frame: The frame of this clip that replaces the last shown frame of the previous clip.
+    leave_frame: The last frame of this clip that is shown.
     """
     clip: int
     enter_frame: int
@@ -246,14 +248,14 @@ class TransitionStop(Message):
 
 @dataclass
 class TransitionAnswer(Message):
-    """At which frames one clip is left and the other entered, or why no transition was found.
+    """The frames at which the transition leaves one clip and enters the other, or the reason why no transition was found.
 
-    leave_frame: The last frame that is shown of the current clip: request_frame or a later one.
-    enter_frame: The frame of the wanted clip that corresponds to leave_frame, any but the clip's last. The frame
-        after it is shown next, then the rest of the clip.
-    through: Clips that are played between the two, 16 at most.
+    leave_frame: The last frame of the current clip that is shown: request_frame or a later one.
+    enter_frame: The frame of the wanted clip that corresponds to leave_frame; it must not be the clip's last. The
+        clip is shown from the frame after it on.
+    through: The clips that are played between the current and the wanted clip, 16 at most.
     join: Any built-in join (etude list methods); cut by default.
-    join_s: Blend length of minimum-jerk or planted-feet, 0 to 5 seconds; other joins have lengths of their own.
+    join_s: The blend length of minimum-jerk or planted-feet, 0 to 5 seconds. Other joins choose their own lengths.
     fades: Only with join_s. True: the old clip continues and fades out; false: its offset from the new clip decays.
     direct: Only with join_s: each limb moves with minimum jerk to its pose in the new clip at the end of the join.
     between: Up to 300 poses that the method makes itself. They are shown after leave_frame, at its position and
@@ -262,8 +264,8 @@ class TransitionAnswer(Message):
     between_start: Only with between: the pose that the method computed for leave_frame. It is not shown, but the
         gaps at the first transition point are measured to it. Without it, the first poses of between are taken to
         move at a constant speed.
-    matched: Whether the two frames were chosen because they are alike; false_smooth is measured only then.
-    unsolved: Why no transition was found.
+    matched: True if the two frames were chosen because their poses are similar. Only then is false_smooth measured.
+    unsolved: The reason why no transition was found.
     """
     HOLDS: ClassVar[dict] = {"through": [TransitionStop]}
     leave_frame: Optional[int] = None
@@ -315,7 +317,7 @@ class PoseDistanceProblem(Message):
 class PoseDistanceAnswer(Message):
     """The distance of each pair.
 
-    distances: One per pair, 0 or more, on any scale; larger means less similar.
+    distances: One distance per pair, 0 or more, on any scale. A larger distance means less similar poses.
     alike: Per pair, whether the poses are so similar that nobody would notice a transition between them.
     """
     distances: List[float]
@@ -326,9 +328,9 @@ class PoseDistanceAnswer(Message):
 class InbetweenSetting(Message):
     """The numbers of frames in each problem.
 
-    past: How many frames before the gap are given (past).
-    gap: How many frames are hidden.
-    given: How many frames after the gap are given (future).
+    past: The number of given frames before the gap (past).
+    gap: The number of frames in the gap, which are hidden.
+    given: The number of given frames after the gap (future).
     """
     past: int
     gap: int
@@ -343,7 +345,7 @@ class InbetweenProblem(Message):
     joints: The names of the joints, parents first.
     parents: The index of each joint's parent; -1 for the first.
     offsets_m: Each joint's position in its parent's frame, in metres.
-    gap: How many frames are missing.
+    gap: The number of missing frames.
     past: The frames before the gap: of each, 3 + 4 numbers per joint. First the position of the first joint,
         metres, Y up; then each joint's rotation in its parent's frame, a unit quaternion w, x, y, z.
     future: The frames after the gap, likewise.
@@ -361,7 +363,7 @@ class InbetweenProblem(Message):
 class InbetweenAnswer(Message):
     """The missing frames.
 
-    frames: As many as are missing, in the form of past; a quaternion's length may be off by a hundredth.
+    frames: The missing frames, gap in number, in the form of past. A quaternion's length may differ from 1 by 0.01.
     """
     frames: List[List[float]]
 
@@ -370,9 +372,9 @@ class InbetweenAnswer(Message):
 class KeyTarget(Message):
     """An angle of a key pose.
 
-    feature: One of paper A's ten.
+    feature: One of paper A's ten pose features.
     degrees: The target value of the feature, in degrees.
-    tolerance_deg: Its largest deviation, in degrees.
+    tolerance_deg: The largest allowed deviation from that value, in degrees.
     """
     feature: str
     degrees: float
@@ -381,10 +383,10 @@ class KeyTarget(Message):
 
 @dataclass
 class KeyPose(Message):
-    """What a move looks like at a beat.
+    """The pose that a move must have at a beat.
 
-    beat: When the pose is reached, in beats from the move's beginning; absent for recorded moves.
-    targets: The features that count in it.
+    beat: The time of the pose in beats from the beginning of the move; absent for recorded moves.
+    targets: The pose features that are compared.
     """
     HOLDS: ClassVar[dict] = {"targets": [KeyTarget]}
     targets: List[KeyTarget]
@@ -393,11 +395,11 @@ class KeyPose(Message):
 
 @dataclass
 class DetectionFrame(Message):
-    """What the sensor saw in a frame.
+    """The sensor's output for one frame.
 
     pose: The sensed positions of the joints.
-    states: Per joint a letter: tracked, inferred, not tracked.
-    body_seen: False if nobody was seen; the pose is then the last one that was seen.
+    states: One letter per joint: tracked, inferred or not tracked.
+    body_seen: False if the sensor saw nobody. The pose is then the last pose that it saw.
     """
     pose: Pose
     states: str
@@ -406,13 +408,13 @@ class DetectionFrame(Message):
 
 @dataclass
 class TaughtExample(Message):
-    """A recorded performance that taught a move, by somebody who is not judged.
+    """A recorded performance from which a move is learnt, by a person who is not judged.
 
     person: The name of the performer; empty if it is unknown.
     is_right: True if the performance was right.
-    fault: The fault that the label names; empty if the performance was right.
-    rate_hz: Frames a second.
-    frames: What the sensor saw, frame after frame.
+    fault: The fault that the performance has by its label; empty if it was right.
+    rate_hz: Frames per second.
+    frames: The sensor's output, one entry per frame.
     """
     HOLDS: ClassVar[dict] = {"frames": [DetectionFrame]}
     person: str
@@ -427,14 +429,14 @@ class Move(Message):
     """A move that may be performed.
 
     name: The move's name.
-    tempo_bpm: Beats a minute of the example; absent for recorded moves.
-    beats: How many beats it lasts; absent for recorded moves.
+    tempo_bpm: The tempo of the example in beats per minute; absent for recorded moves.
+    beats: The duration of the move in beats; absent for recorded moves.
     span_s: The longest duration of a performance; only for recorded moves.
-    rate_hz: Frames a second of the example.
-    poses: The poses of one perfect performance; of a recorded move those of the first right example, none if there
-        is no such example.
+    rate_hz: Frames per second of the example.
+    poses: The poses of one perfect performance. For a recorded move, they are those of the first right example, or
+        none if there is no such example.
     file: The same motion as a BVH file; absent without poses.
-    key_poses: What paper A's recogniser looks for, in order.
+    key_poses: The poses that paper A's recogniser looks for, in order.
     examples: All performances by people who are not judged; only for recorded moves.
     """
     HOLDS: ClassVar[dict] = {"key_poses": [KeyPose], "examples": [TaughtExample]}
@@ -451,7 +453,7 @@ class Move(Message):
 
 @dataclass
 class DetectionSetting(Message):
-    """The moves. Each recorded person has a setting of its own, with what all other people taught.
+    """The moves. For recorded people, each person has a separate setting, whose examples are by all other people.
 
     joints: The twenty joints, in the order of poses.
     parents: The name of each joint's parent; null for the first.
@@ -465,9 +467,9 @@ class DetectionSetting(Message):
 
 @dataclass
 class DetectionEvent(Message):
-    """A performance that was asked for.
+    """A requested performance of a move.
 
-    move: The name of the move asked for.
+    move: The name of the requested move.
     begin_frame: The first frame of its window.
     end_frame: The first frame after its window.
     """
@@ -478,14 +480,14 @@ class DetectionEvent(Message):
 
 @dataclass
 class DetectionProblem(Message):
-    """A session, as a sensor saw it.
+    """A session as recorded by a sensor.
 
-    rate_hz: Frames a second.
-    frames: What the sensor saw, frame after frame.
+    rate_hz: Frames per second.
+    frames: The sensor's output, one entry per frame.
     events: The requested performances, in order of time.
-    file: The positions as TRC.
+    file: The joint positions as a TRC file.
     person: The name of the recorded person who is judged.
-    starts: The first frames of all recordings of this person but the first.
+    starts: The index of the first frame of each recording of this person, except the first recording.
     """
     HOLDS: ClassVar[dict] = {"frames": [DetectionFrame], "events": [DetectionEvent]}
     rate_hz: float
@@ -500,7 +502,8 @@ class DetectionProblem(Message):
 class DetectionCall(Message):
     """The judgement of an event.
 
-    right_at_frame: The frame in its window at which it is called right; null if it is called wrong.
+    right_at_frame: The frame in the event's window at which the performance is called right; null if it is called
+        wrong.
     score: The confidence that the performance is right, on any scale.
     """
     right_at_frame: Optional[int]
@@ -520,11 +523,11 @@ class DetectionAlarm(Message):
 
 @dataclass
 class DetectionAnswer(Message):
-    """Which performances were right, and when.
+    """Which performances are called right, and at which frame.
 
-    events: One per event, in order.
-    alarms: Every detection of a move, at any time; those in a window in which that move was asked for or performed
-        do no harm.
+    events: One judgement per event, in order.
+    alarms: All detections of moves, at any time. A detection within a window in which its move was requested or
+        performed is not a false alarm.
     """
     HOLDS: ClassVar[dict] = {"events": [DetectionCall], "alarms": [DetectionAlarm]}
     events: List[DetectionCall]
@@ -544,11 +547,11 @@ class CaptureStroke(Message):
 
 @dataclass
 class CaptureSetting(Message):
-    """The pictures, and what the annotator marks in them.
+    """The format of the pictures, and the limbs and joints that the annotator marks in them.
 
-    rate_hz: Pictures a second.
-    image_width: Pixels.
-    image_height: Pixels.
+    rate_hz: Pictures per second.
+    image_width: The width of a picture, in pixels.
+    image_height: The height of a picture, in pixels.
     joints: The twenty joints, in the order of poses.
     parents: The name of each joint's parent; null for the first.
     strokes: The limbs that the annotator marks.
@@ -568,8 +571,9 @@ class CaptureSetting(Message):
 class CapturePoint(Message):
     """A point of known position.
 
-    world_m: Where it is in the world, in metres.
-    pixel: u right, v down; (0.5, 0.5) is the centre of the first pixel.
+    world_m: The point's position in the world, in metres.
+    pixel: The point's position in the picture, in pixels: u to the right, v down; (0.5, 0.5) is the centre of the
+        first pixel.
     """
     world_m: Vector
     pixel: List[float]
@@ -579,9 +583,9 @@ class CapturePoint(Message):
 class CaptureCamera(Message):
     """A camera and its film.
 
-    calibration: Points that somebody clicked in the picture, from which the camera is calibrated.
+    calibration: Points that a person clicked in the picture, from which the camera is calibrated.
     background: A picture of the empty room.
-    pictures: PNG files, one per frame.
+    pictures: The names of the PNG files, one per frame.
     """
     HOLDS: ClassVar[dict] = {"calibration": [CapturePoint]}
     calibration: List[CapturePoint]
@@ -595,8 +599,8 @@ class CaptureProblem(Message):
 
     frames: The number of frames.
     limb_lengths_m: The limb lengths of the person filmed, by name.
-    cameras: The cameras and their films, which are synchronous.
-    marks: By segmenter, then [camera][frame]: null, or strokes and discs in pixels.
+    cameras: The cameras and their films, which are synchronised.
+    marks: The annotator's marks by segmenter, then [camera][frame]: null, or strokes and discs in pixels.
     """
     HOLDS: ClassVar[dict] = {"cameras": [CaptureCamera]}
     frames: int
@@ -609,16 +613,16 @@ class CaptureProblem(Message):
 class CaptureAnswer(Message):
     """The motion.
 
-    poses: Per frame, a pose, or null if there is none.
+    poses: One pose per frame, or null for a frame without a pose.
     """
     poses: List[Optional[Pose]]
 
 
 @dataclass
 class CaptureSegmenterBegin(Message):
-    """A camera's film begins.
+    """The start of a camera's film.
 
-    seat: Always segmenter.
+    seat: The program's part in the loop, always segmenter.
     camera: The camera's number, from 1.
     background: A picture of the empty room, binary PPM.
     """
@@ -638,10 +642,10 @@ class CaptureSegmenterStep(Message):
 
 @dataclass
 class CaptureMask(Message):
-    """COCO's uncompressed run lengths, down the columns.
+    """A mask as uncompressed run lengths in COCO's format, column by column.
 
-    size: Height, width.
-    counts: Background and person in turn, background first.
+    size: The height, then the width, in pixels.
+    counts: The run lengths of background and person in turn, background first.
     """
     size: List[int]
     counts: List[int]
@@ -651,7 +655,7 @@ class CaptureMask(Message):
 class CaptureSegmenterAnswer(Message):
     """The person in the picture.
 
-    mask: Which pixels are the person.
+    mask: The mask of the person.
     """
     HOLDS: ClassVar[dict] = {"mask": CaptureMask}
     mask: CaptureMask
@@ -661,18 +665,18 @@ class CaptureSegmenterAnswer(Message):
 class CoachRepetition(Message):
     """A performance of the dance.
 
-    move: The name of the move that is danced.
+    move: The name of the danced move.
     """
     move: str
 
 
 @dataclass
 class CoachDance(Message):
-    """What is danced, in order.
+    """The dance: the moves in order, and their tempo.
 
     title: The song's title.
-    tempo_bpm: Beats a minute.
-    rate_hz: Steps a second.
+    tempo_bpm: Beats per minute.
+    rate_hz: Steps per second.
     repetitions: The moves of the song, in the order in which they are danced.
     """
     HOLDS: ClassVar[dict] = {"repetitions": [CoachRepetition]}
@@ -689,7 +693,7 @@ class CoachSetting(Message):
     joints: The twenty joints, in the order of poses.
     parents: The name of each joint's parent; null for the first.
     moves: The moves of the dance, with examples at the song's tempo.
-    dance: What is danced, in order.
+    dance: The dance: the moves in order, and their tempo.
     """
     HOLDS: ClassVar[dict] = {"moves": [Move], "dance": CoachDance}
     joints: List[str]
@@ -700,9 +704,9 @@ class CoachSetting(Message):
 
 @dataclass
 class CoachBegin(Message):
-    """A session begins.
+    """The start of a session.
 
-    seat: Which part of the coach, or the learner, the program is.
+    seat: The part that the program takes: a part of the coach, or the learner.
     """
     seat: str
 
@@ -711,18 +715,18 @@ class CoachBegin(Message):
 class CoachAsk(Message):
     """The move that is requested from this frame on.
 
-    move: The move's name; null: nothing is asked for.
+    move: The move's name; null if no move is requested.
     """
     move: Optional[str]
 
 
 @dataclass
 class CoachRecogniserStep(Message):
-    """What the sensor reports.
+    """The sensor's output for one frame.
 
-    pose: The learner's joints as the sensor sees them.
-    states: Per joint a letter: tracked, inferred, not tracked.
-    body_seen: False if nobody was seen; the pose is then the last one that was seen.
+    pose: The learner's joint positions as measured by the sensor.
+    states: One letter per joint: tracked, inferred or not tracked.
+    body_seen: False if the sensor saw nobody. The pose is then the last pose that it saw.
     ask: The move that is requested from this frame on; absent if it does not change.
     """
     HOLDS: ClassVar[dict] = {"ask": CoachAsk}
@@ -748,10 +752,10 @@ class CoachVerdict(Message):
     """The verdict on a window that has just closed.
 
     move: The name of the move that was asked for.
-    repetition: Which performance of the dance it was, from 0.
-    verdict: The coach's verdict; unjudged: it saw too little.
-    mistake: What was wrong: none, not reached, stood still or wrong side.
-    evidence: The evidence that it was right, 0 to 1.
+    repetition: The index of the performance in the dance, from 0.
+    verdict: The coach's verdict; unjudged if the coach saw too little.
+    mistake: The mistake: none, not reached, stood still or wrong side.
+    evidence: The evidence that the performance was right, 0 to 1.
     """
     move: Optional[str]
     repetition: int
@@ -764,10 +768,10 @@ class CoachVerdict(Message):
 class CoachPolicyStep(Message):
     """What the coach shows, and its verdicts.
 
-    mode: What the coach does, such as dance, correct, demonstrate, praise.
-    move: The name of the move that it shows; null: none.
-    repetition: Which performance of the dance it is, from 0; -1: none.
-    verdicts: The verdicts on the windows that have just closed; mostly none.
+    mode: The coach's activity, such as dance, correct, demonstrate or praise.
+    move: The name of the move that the coach shows; null if there is none.
+    repetition: The index of the performance in the dance, from 0; -1 if there is none.
+    verdicts: The verdicts on the windows that have just closed; the list is usually empty.
     """
     HOLDS: ClassVar[dict] = {"verdicts": [CoachVerdict]}
     mode: str
@@ -778,19 +782,19 @@ class CoachPolicyStep(Message):
 
 @dataclass
 class CoachPolicyAnswer(Message):
-    """What the coach does next.
+    """The coach's next decision.
 
-    correct: Whether to interrupt the dance; if the coach does not dance now, as soon as it dances again.
+    correct: True if the coach must interrupt the dance, at once or as soon as it dances again.
     """
     correct: bool
 
 
 @dataclass
 class CoachTest(Message):
-    """After the session: whether a move is danced right.
+    """A test after the session: the learner dances a move without the coach.
 
-    move: The name of the move to be danced.
-    after: How many performances later.
+    move: The name of the move that the learner must dance.
+    after: The time from the end of the session to the test, as the number of performances that would fill it.
     """
     move: str
     after: int
@@ -798,19 +802,18 @@ class CoachTest(Message):
 
 @dataclass
 class CoachLearnerStep(Message):
-    """What the coach shows. After the session, a step contains only a test.
+    """The coach's output for one frame. After the session, a step contains only a test.
 
-    pose: The coach's pose, as the learner sees it.
-    mode: What the coach does, such as dance, correct, demonstrate, praise.
-    clip: The clip that the coach plays: dance, an act, or slow_ and a move.
+    pose: The coach's pose as the learner sees it.
+    mode: The coach's activity, such as dance, correct, demonstrate or praise.
+    clip: The clip that the coach plays: dance, the name of an act, or slow_ followed by the name of a move.
     clip_frame: The frame of that clip.
-    move: The name of the move that the coach shows; null: none.
-    repetition: Which performance of the dance it is, from 0; -1: none.
-    say: A short word to the learner.
-    hint: What to do better.
-    events: What the coach has just decided.
-    test: Only after the session, when all other fields are left out: a move that the learner dances without a
-        coach.
+    move: The name of the move that the coach shows; null if there is none.
+    repetition: The index of the performance in the dance, from 0; -1 if there is none.
+    say: A short spoken message to the learner.
+    hint: Advice on how to improve.
+    events: The decisions that the coach has just made.
+    test: A test, only after the session. All other fields are then absent.
     """
     HOLDS: ClassVar[dict] = {"test": CoachTest}
     pose: Optional[Pose] = None
@@ -827,11 +830,11 @@ class CoachLearnerStep(Message):
 
 @dataclass
 class CoachLearnerAnswer(Message):
-    """What the learner does.
+    """The learner's reaction.
 
     pose: The learner's pose, a quarter of a second later.
-    right: Whether the learner's present performance is right; null: neither right nor wrong.
-    given_up: Whether the learner gives up, which ends the session.
+    right: True if the learner's current performance is right; null if it is neither right nor wrong.
+    given_up: True if the learner gives up, which ends the session.
     """
     pose: Optional[Pose] = None
     right: Optional[bool] = None
@@ -840,7 +843,7 @@ class CoachLearnerAnswer(Message):
 
 @dataclass
 class MetricSetting(Message):
-    """What a metric is measured on: cells of one scenario.
+    """The scenario whose cells are measured.
 
     metric: The metric's name in the scenario.
     version: The metric's version in the scenario.
@@ -861,8 +864,8 @@ class MetricSetting(Message):
 class MetricTrack(Message):
     """A motion of a cell.
 
-    name: Which motion it is, such as truth, solution or sensed.
-    rate_hz: Frames a second.
+    name: The motion's name, such as truth, solution or sensed.
+    rate_hz: Frames per second.
     poses: One pose per frame.
     """
     name: str
@@ -886,8 +889,8 @@ class MetricProblem(Cell):
 class MetricAnswer(Message):
     """The metric's value.
 
-    value: The value; null if there is none.
-    reason: Why there is none.
+    value: The metric's value; null if it has none.
+    reason: The reason why the metric has no value.
     """
     value: Optional[float]
     reason: Optional[str] = None
