@@ -129,7 +129,7 @@ Json WithAngles(const Json& answer, double factor, bool is_angle = false) {
   return changed;
 }
 
-/// A seated program that receives additional keys, which it does not know.
+/// A program in a seat that receives additional keys, which the protocol does not define.
 class ProgramWithUnknownKeys final : public SeatedProgram {
  public:
   using SeatedProgram::SeatedProgram;
@@ -196,7 +196,8 @@ class ConformanceTest {
     return attempt;
   }
 
-  /// Runs a whole session with the program in its seat. The attempt contains the digest of the program's answers.
+  /// Runs a whole session in which the program takes its seat (TaskKind::seats). The result contains the digest of the
+  /// program's answers.
   template <typename Program>
   Attempt Play(const SpecimenProblem& problem, const std::string& id) {
     const auto start = Clock::now();

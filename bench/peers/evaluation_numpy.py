@@ -26,7 +26,7 @@ BENDS = [(4, 5, 6), (8, 9, 10), (12, 13, 14), (16, 17, 18)]
 
 
 def similarity(a, b):
-    """Returns rotations, scales and both means of the best similarities from a to b, batches of points (Umeyama)."""
+    """Fits a similarity (Umeyama) to each pair of point sets in a and b. Returns rotations, scales and both means."""
     mean_a, mean_b = a.mean(1, keepdims=True), b.mean(1, keepdims=True)
     x, y = a - mean_a, b - mean_b
     u, s, vt = np.linalg.svd(y.transpose(0, 2, 1) @ x)

@@ -24,7 +24,8 @@ struct ScenarioForecast {
   SamplingUnit unit = SamplingUnit::kWorld;
   /// Number of sampling units in the first condition; equals the number of worlds if each world is its own unit.
   int units = 0;
-  /// The value metric that answers compare (ValueMetricOf); the success metric if there is none.
+  /// The metric of `spread`: the value metric of the scenario's answers (ValueMetricOf), or, if there is none, the
+  /// success metric.
   std::string metric = {};
   /// The standard deviation, over worlds, of the paired differences in `metric`, in the metric's unit. The compared
   /// methods are the first method that has a baseline, and its baseline. The value is the median over conditions. It is

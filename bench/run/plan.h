@@ -32,7 +32,7 @@ struct Shard {
 Result<Shard> ParseShard(const std::string& text);
 std::string ToString(const Shard& shard);
 
-/// An order for a worker: a world, and the ascending indices of those of its methods that must be run.
+/// A piece of work for a worker: a world, and the ascending indices of those of its methods that must be run.
 struct Order {
   std::size_t world = 0;
   std::vector<std::size_t> methods;
@@ -58,7 +58,7 @@ class Plan {
   bool IsIn(const Shard& shard, std::size_t world) const {
     return world % static_cast<std::size_t>(shard.count) == static_cast<std::size_t>(shard.index - 1);
   }
-  /// Returns the orders that remain to be run in a shard. `done` has one flag per cell.
+  /// Returns orders for all cells of a shard that are not done. `done` has one flag per cell.
   std::vector<Order> OrdersFor(const Shard& shard, const std::vector<bool>& done) const;
 
  private:
@@ -86,7 +86,7 @@ class OrderQueue {
   /// Removes and returns the next order; there must be one. `condition` is the worker's condition, which this function
   /// updates.
   Order Take(std::size_t& condition);
-  /// Returns an unfinished order to the front of its condition's queue.
+  /// Puts back an order that a worker did not finish: it becomes the first one of its condition again.
   void PutBack(Order order);
 
  private:

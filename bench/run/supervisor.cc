@@ -69,7 +69,7 @@ struct Pace {
 
 class Supervisor {
  public:
-  /// If `answered` is null, workers run the methods of the orders. Otherwise they measure the cells in `answered`.
+  /// If `answered` is null, workers run the methods that `orders` list. Otherwise they measure the cells in `answered`.
   Supervisor(const Plan& plan, std::vector<Order> orders, CellTable* answered, const SupervisorOptions& options,
              const Deliver& deliver)
       : plan_(plan),

@@ -65,7 +65,7 @@ Result<void> Measure(const std::string& line, const Plan& plan, std::span<const 
   return Answer(head->cell, runner.Measure(world.condition, std::move(answered)), out);
 }
 
-/// Runs the methods of one order, and writes a line after each method.
+/// Runs the methods that an order (Order) lists for its world, and writes a line after each method.
 Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunner>> runners, std::ostream& out) {
   const Json& world = order.at("world");
   const auto scenario = world.at(0).get<std::size_t>();

@@ -48,11 +48,11 @@ class PoseFitter {
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:
-  /// The first role with a target on a chain outwards from a limb, and its position relative to the limb when all
-  /// angles beyond the limb are zero.
+  /// A role at whose target a limb L can be pointed: a role on the limb, or the first one that has a target on a chain
+  /// of limbs beyond it.
   struct Aim {
     Role role;
-    glm::dvec3 p_LQ{0};
+    glm::dvec3 p_LQ{0};  ///< position of the role relative to L if all angles beyond L are zero
     bool is_on_limb = false;
   };
 

@@ -34,7 +34,7 @@ struct RecoverOptions {
   /// The solver, which must be set: one of AllIkSolvers(), or the caller's own.
   const IkSolver* solver = nullptr;
   /// The options of the solver. Set `angle_change_tolerance`, which limits how far an angle may move from its start
-  /// (paper B, section 3.7.2), if limb directions are more accurate than the positions of the ends.
+  /// (paper B, section 3.7.2), if limb directions are more accurate than the end effectors' positions.
   IkOptions ik = {};
 };
 
@@ -50,10 +50,10 @@ struct RecoveredFrame {
 /// Recovers a skeleton in every frame from its observation (paper B, chapter 3): fix the limb lengths, then move every
 /// end effector back to its observed position with the solver. For paper B's body, lengths are fixed as in section 3.2
 /// (`FixLimbLengths`) and start angles found as in 3.3 (`FindStartState`). For another body, `PoseFitter` does both: it
-/// fits the body to all joints that ends and directions determine. Values that an observation lacks are taken from the
-/// last frame, or at the beginning from a standing body (`CompleteObservation`); they are not used as targets. A frame
-/// stays empty if it has no observation, if its skeleton cannot be computed, or if no end was seen in it or in an
-/// earlier frame.
+/// fits the body to all joints that the end effectors and the limbs' directions determine. Values that an observation
+/// lacks are taken from the last frame, or at the beginning from a standing body (`CompleteObservation`); they are not
+/// used as targets. A frame stays empty if it has no observation, if its skeleton cannot be computed, or if no end
+/// effector was seen in it or in an earlier frame.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
 /// The true start or true pose of one frame, if known, as in RecoverInputs.

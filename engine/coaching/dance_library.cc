@@ -11,13 +11,15 @@
 namespace etude {
 namespace {
 
-/// A leaving clip contains this many frames after the beginning of the next repetition: enough for a window to close,
-/// for the longest wait of a transition, and for a join.
+/// A clip from which transitions leave the dance (ClipLeaving) contains this many frames of the next repetition: enough
+/// for a window to close, for the longest wait of a transition, and for a join.
 constexpr std::size_t kLeavingFrames = 60;
-/// An entering clip contains the first frames of its act: half a second, and enough frames for the longest join.
+/// A clip at which transitions enter an act (ClipEntering) contains the first frames of the act: half a second, and
+/// enough frames for the longest join.
 constexpr std::size_t kEnteringFrames = 15 + 30 + 1;
-/// A returning clip begins `kBeforeFrames` before its repetition, so that players can start to move. It ends
-/// `kIntoFrames` after the beginning of the repetition, enough for the longest join.
+/// A clip through which transitions return to the dance (ClipReturning) begins `kBeforeFrames` before a repetition, so
+/// that the player can start to move. It ends `kIntoFrames` after the beginning of this repetition, enough for the
+/// longest join.
 constexpr std::size_t kBeforeFrames = 45, kIntoFrames = 30;
 
 BodyMotion Excerpt(const BodyMotion& motion, std::size_t first, std::size_t end) {
@@ -66,7 +68,7 @@ Result<DanceLibrary> DanceLibrary::Make(Dance dance) {
     clips.Add(clips.names[whole],
               Excerpt(clips.motions[whole], 0, std::min(kEnteringFrames, clips.motions[whole].poses.size())));
   }
-  // Add the excerpts of the dance to which transitions return.
+  // Add the excerpts at which transitions return to the dance.
   for (int repetition = -1; repetition < count; ++repetition) {
     const std::size_t begin = first_of(repetition);
     const std::size_t first = begin - std::min(begin, kBeforeFrames);

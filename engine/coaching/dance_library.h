@@ -43,7 +43,7 @@ class DanceLibrary {
   int WholeOf(int clip) const;
   /// Returns the last repetition that has begun at a frame of the dance; −1 before the first.
   int RepetitionAt(double dance_frame) const;
-  /// Returns the dance frame that is the first frame of a leaving or returning clip.
+  /// Returns the dance frame that is the first frame of a clip of ClipLeaving or ClipReturning.
   std::size_t DanceFrameOf(int clip) const;
   /// Returns true if the dance is entered through this clip.
   bool IsReturning(int clip) const { return clip >= ClipReturning(-1); }
@@ -52,7 +52,7 @@ class DanceLibrary {
  private:
   Dance dance_;
   MotionLibrary library_;
-  std::vector<std::size_t> dance_frames_;  // dance frame at which each leaving clip, then each returning clip, begins
+  std::vector<std::size_t> dance_frames_;  // first dance frame of each ClipLeaving, then of each ClipReturning
 };
 
 }  // namespace etude

@@ -10,17 +10,17 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// Positions of the five ends and directions of the limbs, as two images of a person show them (paper B, sections 3.2
-/// and 4.2).
+/// Positions of the five end effectors and directions of the limbs, as two images of a person show them (paper B,
+/// sections 3.2 and 4.2).
 struct LimbObservation {
-  /// World positions, metres. Only the five ends are read: left and right foot, left and right hand, head.
+  /// World positions, metres. Only the end effectors are read: left and right foot, left and right hand, head.
   BodyPose ends;
   /// World direction of each limb from its upper to its lower joint, stored at the role of the lower joint:
   /// [left_elbow] is the direction from shoulder to elbow, [head] that from the base of the neck to the head. Any
   /// non-zero length is allowed. Only arms, hands, legs, feet and the neck are read; trunk, hips and shoulders are
   /// inferred.
   std::array<glm::dvec3, kRoleCount> directions{};
-  /// True for ends and directions that were not seen; their values above are meaningless (`CompleteObservation`).
+  /// True for positions and directions that were not seen; their values above are meaningless (`CompleteObservation`).
   std::array<bool, kRoleCount> lacks_end{}, lacks_direction{};
 };
 

@@ -53,7 +53,7 @@ glm::dvec3 RotationVector(glm::dquat turn) {
   if (turn.w < 0) turn = -turn;
   const glm::dvec3 axis(turn.x, turn.y, turn.z);
   const double sine = glm::length(axis);
-  constexpr double kSmall = 1e-9;  // below this sine, the angle equals twice the sine to all digits
+  constexpr double kSmall = 1e-9;  // if sin(angle / 2) is smaller, the angle is 2 sin(angle / 2) to all digits
   return sine < kSmall ? 2.0 * axis : axis * (2 * std::atan2(sine, turn.w) / sine);
 }
 

@@ -174,7 +174,7 @@ JointTargets TargetsOf(const BodyPose& pose, double sigma_m) {
 }
 
 TreeState TurnedRound(const SilhouetteBody& body, const TreeState& state) {
-  constexpr double kExact = 0.05;  // standard deviation of the exchanged joints, metres
+  constexpr double kExact = 0.05;  // standard deviation of the joints, left and right exchanged; metres
   const BodyPose pose = ToBodyPose(body, state);
   BodyPose exchanged;
   for (const Role role : AllRoles()) exchanged[role] = pose[Mirrored(role)];

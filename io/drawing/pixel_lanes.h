@@ -16,7 +16,7 @@ class Shrinker {
   /// Makes a shrinker from pictures of the large size to the small size; at most three times smaller.
   Shrinker(int large_width, int large_height, int small_width, int small_height);
 
-  /// Shrinks the small pixels that the rectangle `rect` of the large picture touches.
+  /// Computes only the small pixels that the rectangle `rect` of the large picture touches.
   void Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, Image<std::uint32_t>& small) const;
 
  private:

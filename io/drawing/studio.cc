@@ -28,7 +28,8 @@ constexpr float kGhostStrength = 0.34f;
 
 Camera CameraOf(const Intrinsics& inside) { return LookAt(inside, kEye, kTarget); }
 
-/// Returns the share of a pixel that the grid lines across one axis cover.
+/// Returns the share of a pixel of the floor that is covered by the grid lines perpendicular to one axis. The pixel is
+/// at `x` on this axis and `footprint` wide, metres.
 float LineCover(float x, float footprint) {
   constexpr float kSpacing = kGridSpacing, kHalf = kGridLine / 2;
   const float nearest = std::abs(x - kSpacing * std::floor(x / kSpacing + 0.5f));

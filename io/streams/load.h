@@ -32,9 +32,9 @@ struct LoadedStreams {
 Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
                                   const StreamOptions& options, const OpenOptions& clips = {});
 
-/// Returns the label files of a path: the path itself, or all tag streams in a folder.
+/// Returns the files of labels at a path: the path itself or, if it is a folder, all MSRC-12 tag streams in it.
 Result<std::vector<std::string>> LabelFiles(const std::string& path);
-/// Loads the labels of a file, or of all tag streams of a folder.
+/// Loads the labels of all files that LabelFiles returns.
 Result<std::vector<Label>> LoadLabels(const std::string& path);
 
 }  // namespace etude

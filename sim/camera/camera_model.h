@@ -58,8 +58,8 @@ struct CameraIdentity {
 /// (README.md). It is not thread-safe, because it reuses its buffers.
 class CameraModel {
  public:
-  /// Renders the rows `rows` of the ideal pinhole camera's picture (`pinhole()`) at a time in frames of the reference
-  /// clock. The view's height is the number of rows.
+  /// Renders the rows `rows` of the picture of the ideal pinhole camera (`pinhole()`). `frame` is the time, in frames
+  /// of the reference clock. The view's height is the number of rows.
   using Scene = std::function<View(double frame, const RowRange& rows, Targets targets)>;
 
   /// @param camera with its lens distortion (LensDistortion); all other effects are in `effects`

@@ -89,7 +89,7 @@ class CodeNoise {
   void Apply(RandomStream& random, ColourImage& picture) const;
 
  private:
-  std::vector<std::uint8_t> outcomes_;  ///< [code][index in the table of normals]
+  std::vector<std::uint8_t> outcomes_;  ///< code with noise, by [code without noise][index in NormalRows::Table()]
 };
 
 /// The reading of a chip under a Bayer filter: each pixel has one colour, red where row and column are even, blue where

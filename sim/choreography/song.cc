@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 Controls Waiting(double beat) {
-  constexpr double kGive = 0.015;  // depth of the knees' give, metres
+  constexpr double kGive = 0.015;  // how far the hips sink, because the knees bend on every beat; metres
   Controls waiting = ReadyStance();
   waiting[MiddleControl::kHipsDrop] += kGive * 0.5 * (1 - std::cos(2 * kPi * beat));
   return waiting;

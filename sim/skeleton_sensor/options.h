@@ -114,7 +114,7 @@ struct SkeletonSensorOptions {
   // The fast part: noise in bursts, larger when the body moves.
   double fast_share = 0.2;    ///< share of the variance of `size`
   double fast_time_s = 0.05;  ///< time constant of the noise (ours)
-  double fast_quiet = 0.05;   ///< factor for a body at rest; grows with the square of speed to 1 at 0.5 m/s (ours)
+  double fast_quiet = 0.05;   ///< factor on this noise at rest; rises with the square of speed to 1 at 0.5 m/s (ours)
   double fast_tail = 0.7;     ///< standard deviation of the logarithm of the bursts' strength; 0: Gaussian noise (ours)
 
   int lag_frames = 0;  ///< delay of the report, frames

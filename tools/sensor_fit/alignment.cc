@@ -69,7 +69,7 @@ void FitRigid(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>
   alignment.p_ST = mean_to - alignment.R_ST * mean_from;
 }
 
-/// Sets each offset to the joint's mean position in its carrier's frame.
+/// Sets the offset of each joint: its mean position in the frame of the rigid body that carries it (Carrier).
 void FitOffsets(const std::vector<Pair>& pairs, TwinAlignment& alignment) {
   std::array<glm::dvec3, kRoleCount> sums{};
   std::array<double, kRoleCount> counts{};

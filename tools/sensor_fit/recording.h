@@ -45,9 +45,9 @@ struct TwinMotion {
 Result<JointRecording> ReadJointRecording(std::string_view text, const std::string& file,
                                           std::optional<double> rate_hz);
 
-/// Reads 17 rigid targets, or joint CSV whose joints are then carried by their bones. The rate is `rate_hz`; if it is
-/// absent, the rate of the file's times; without times, the one of 30, 50, 60, 100, 120, 200 and 240 Hz that makes the
-/// duration closest to `seconds`.
+/// Reads a file of 17 rigid targets, or a joint CSV. In a joint CSV, the trunk carries its own joints, and every other
+/// joint is carried by the bone that ends in it. The rate is `rate_hz`; if it is absent, the rate of the file's times;
+/// without times, the one of 30, 50, 60, 100, 120, 200 and 240 Hz that makes the duration closest to `seconds`.
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds);
 

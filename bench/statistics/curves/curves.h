@@ -33,9 +33,9 @@ Confusion CountConfusion(std::span<const JudgedEvent> events);
 
 /// Returns the precision, TP / (TP + FP); empty if no event was called right.
 std::optional<double> PrecisionOf(const Confusion& confusion);
-/// Returns the recall, TP / (TP + FN); empty if no event was right.
+/// Returns the recall, TP / (TP + FN); empty if no event was truly right.
 std::optional<double> RecallOf(const Confusion& confusion);
-/// Returns the F1 score, 2 TP / (2 TP + FP + FN); empty if no event was right or called right.
+/// Returns the F1 score, 2 TP / (2 TP + FP + FN); empty if all events were truly wrong and called wrong.
 std::optional<double> F1(const Confusion& confusion);
 
 /// Returns the area under the ROC curve: the probability that a right event scores higher than a wrong one, where ties

@@ -25,7 +25,7 @@ constexpr double kSplineDeviation = 0.692;
 struct LimbTurn {
   Role child;
   double turn_deg = 0;  ///< standard deviation of the turn about each of three axes
-  double bend = 0;      ///< standard deviation of the relative change of the length of BendAxis
+  double bend = 0;      ///< standard deviation of the turn about BendAxis, radians ÷ the axis's length
 };
 
 constexpr std::array kTurns = {

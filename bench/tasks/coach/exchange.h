@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// Describes the dance to programs in a seat of the loop. They answer step by step; a step is a frame at 30 Hz. A pose
-/// is sixty numbers (EncodePose).
+/// Describes the dance to programs that replace a part of the loop (a seat). They answer step by step; a step is a
+/// frame at 30 Hz. A pose is sixty numbers (EncodePose).
 ///
 /// The setting is the same for every seat. It holds the moves of the dance as recognisers are taught them (the setting
 /// of task detection), and
@@ -23,7 +23,7 @@ Payload DancePayload(const CoachStage& stage);
 /// Encodes the beginning of a session: {"seat": "recogniser"}.
 Payload SessionBeginPayload(Seat seat);
 
-/// A program in a seat of a session. Keeps the first error in its answers.
+/// A program that replaces one part of a session's loop (its seat). Keeps the first error in its answers.
 class SeatedCoachProgram {
  public:
   /// `program` and `stage` must outlive this object.

@@ -29,8 +29,8 @@ struct ReadyCoach {
 Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, const CoachStage& stage);
 
 /// Runs a session of a method's coach with this world's learner. A yoked method first runs a session of its partner
-/// policy with another person from the same distribution, and then corrects at the same frames. `program` takes the
-/// method's seat; null = no program. Fails if an answer has the wrong shape.
+/// policy with another person from the same distribution, and then corrects at the same frames. `program` replaces the
+/// part of the loop that CoachMethod::seat names; null = no program. Fails if an answer has the wrong shape.
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program);
 

@@ -22,7 +22,7 @@ std::optional<double> Accuracy(std::span<const Classified> verdicts);
 /// The result of leave-one-person-out: each person is recognised with moves taught by all others.
 struct LeaveOneOut {
   std::vector<std::string> people;   ///< names, sorted
-  std::vector<Classified> verdicts;  ///< verdicts on right performances with a beginning and an end
+  std::vector<Classified> verdicts;  ///< the right performances whose labels give a beginning and an end
   /// The same performances, classified by the nearest whole performance of any other person. This is a baseline for
   /// comparison.
   std::vector<Classified> nearest;

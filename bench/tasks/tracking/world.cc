@@ -72,8 +72,8 @@ class OpenAngles {
     for (int i = 0; i < tree.dof_count(); ++i) dice_.emplace_back(key, fmt::format("tracking/open-angle/{}", i));
   }
 
-  /// Returns a pose within `ranges` whose end effectors equal those of `state` and whose angles are near randomly drawn
-  /// ones. If no such pose is found, returns the pose whose end effectors came closest.
+  /// Returns a pose within `ranges` that has the same end effectors as `state`. The search starts from the angles of
+  /// `state` plus random changes. If no such pose is found, returns the pose whose end effectors came closest.
   TreeState Slide(const TreeState& state, const std::vector<AngleRange>& ranges, double seconds) {
     IkProblem problem{state, TargetsMetBy(tree_, state), ranges};
     for (std::size_t i = 0; i < ranges.size(); ++i) {

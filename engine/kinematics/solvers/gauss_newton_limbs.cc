@@ -155,7 +155,7 @@ class LimbLanes final : public GaussNewtonLimbs {
                        sum, hinges_[slot]);
       }
     }
-    // Store the remaining quadratic of each limb as rows, for the trunk.
+    // Store by rows what the elimination has left of each limb's quadratic. EliminateTrunk adds it to the trunk's.
     QuadraticRows* rows = &limb_rows_[number * LimbPacks::kWidth];
     for (int r = 0; r < 6; ++r) PutRows(sum.matrix + 6 * r, [&](int lane) -> SixRow& { return rows[lane].matrix[r]; });
     PutRows(sum.vector, [&](int lane) -> SixRow& { return rows[lane].vector; });

@@ -17,8 +17,8 @@ struct SweepTree {
     int moments = -1;         ///< index of the moments of its limb
     bool is_first = false;    ///< true if its moments are the first that the parent's limb receives
     bool is_aligned = false;  ///< true if `R_PJ` is the identity
-    int base[3] = {};         ///< indices of its axes before the joint turns; the parent's index for an equal axis
-    int axes[3] = {};         ///< indices of its axes after all turns
+    int base[3] = {};         ///< indices of its axes before its hinges turn; the parent's index for an equal axis
+    int axes[3] = {};         ///< indices of its axes after all its hinges have turned
     double R_PJ[3][3] = {};   ///< rows
     double p_PJ[3] = {};
   };

@@ -111,8 +111,8 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
 }
 
 constexpr int kPairs = 16;          // number of pairs per round: one for each part of the wait
-constexpr int kRounds = 4;          // maximum number of rounds; another round follows while the best join floats
-constexpr int kFloatingFrames = 4;  // a join with this many consecutive unsupported frames floats
+constexpr int kRounds = 4;          // maximum number of rounds; another follows while the body floats in the best join
+constexpr int kFloatingFrames = 4;  // the body floats in a join with this many consecutive unsupported frames
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part
 constexpr std::size_t kMaxCompared = 20'000;  // maximal number of pairs of frames whose features are compared
 
@@ -155,8 +155,8 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
   return pairs;
 }
 
-/// Plays the joins of the nearest pairs and, while the best of them floats, those of further pairs. Returns the played
-/// joins, the best first; an empty list if no pair can be joined.
+/// Plays the joins of the nearest pairs. As long as the body floats in the best join (kFloatingFrames), also plays the
+/// joins of further pairs. Returns the played joins, the best first; an empty list if no pair can be joined.
 std::vector<PlayedJoin> PlayNearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                         const PlayedRates& rates, const AllowedFrames& allowed, int last) {
   std::vector<PlayedJoin> ways;

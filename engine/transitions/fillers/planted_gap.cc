@@ -52,13 +52,13 @@ struct Footfalls {
 /// The data from which the steps of one foot are planned.
 struct FootView {
   const glm::dvec3& End(std::size_t end) const { return end == 0 ? path.front() : path.back(); }
-  /// Returns the tip's position at an end of the gap, lowered to the surface on which the foot stands.
+  /// Returns the position of `leg.tip` at an end of the gap, lowered to the surface on which the foot stands.
   glm::dvec3 Lowered(std::size_t end) const { return End(end) - glm::dvec3(0, raised[end], 0); }
 
   TreeLeg leg;
-  std::vector<glm::dvec3> path;    ///< the tip's filled positions, from the frame before the gap to the frame after it
+  std::vector<glm::dvec3> path;    ///< filled positions of `leg.tip`, from the frame before the gap to the one after it
   std::vector<glm::dvec3> hips;    ///< the hip joint's positions in the same frames
-  glm::dvec3 velocity{0};          ///< the tip's velocity before the gap, metres per second
+  glm::dvec3 velocity{0};          ///< velocity of `leg.tip` before the gap, metres per second
   std::array<bool, 2> stands{};    ///< true if the foot stands before the gap (0), after the gap (1)
   double length = 0;               ///< length of the stretched leg from hip to tip, metres
   std::array<double, 2> raised{};  ///< height of a standing tip above the lowest tip around the gap, metres
@@ -72,7 +72,7 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
   std::array<FootView, 2> feet;
   const Globals before(gap.tree, gap.past[gap.past.size() - 2]);
   const bool knows_velocity = gap.future.size() > 1;
-  // Collect the joints of each leg, their paths, and the tip's velocity before the gap.
+  // Collect the joints of each leg, the paths of its tip and hip, and the tip's velocity before the gap.
   for (std::size_t side = 0; side < feet.size(); ++side) {
     const auto joint = [&](Role left) { return gap.roles[Index(side == 0 ? left : Mirrored(left))]; };
     FootView& foot = feet[side];

@@ -62,8 +62,8 @@ void Carry(const PlacedSegment& old, int left, int frames, PlacedSegment& next) 
   next.floor_move.z += shift.z;
 }
 
-/// Returns the floor move for the segment `next`, which follows frame `left` of `old`. If a choice made the frames
-/// itself, only their first frame is aligned.
+/// Returns the floor move for the segment `next`, which follows frame `left` of `old`. If the choice made the frames of
+/// `next` itself (is_own), only the first of them is aligned.
 FloorMove Lay(const JoinKind& join, const PlacedSegment& old, int left, const PlacedSegment& next, double rate_hz) {
   if (join.align == nullptr || next.is_own) return AlignOnFloor(next.frames[next.first], old.At(left));
   const std::size_t count = static_cast<std::size_t>(rate_hz * kAlignedSeconds);
