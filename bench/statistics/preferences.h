@@ -38,7 +38,7 @@ struct MetricAgreement {
 };
 
 /// A rater who chose one side so often (two-sided p < 0.01 of a fair coin) that the answers may not be about the films.
-/// Sides are drawn at random, so a rater who looks at the films chooses both about equally often.
+/// Sides are drawn at random, so a rater who looks at the films chooses left and right about equally often.
 struct OneSidedRater {
   std::string rater;
   int left = 0, decided = 0;

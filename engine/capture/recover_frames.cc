@@ -58,7 +58,7 @@ std::optional<Start> FittedStart(const CaptureBody& body, const PoseFitter& fitt
   return Start{ToBodyPose(body, last->state), last->state};
 }
 
-// Returns the errors of those effectors whose ends were seen.
+// Returns the errors of the end effectors that were seen.
 std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObservation& seen,
                                       const std::vector<EffectorError>& errors) {
   std::vector<EffectorError> kept;

@@ -23,7 +23,7 @@ namespace etude {
 ///
 /// `remarks` receives a sentence about each of these cases:
 /// - If the file has one frame more than announced, that frame is dropped, because some exporters announce the number
-/// of their last frame (such as the one of assimp's model Boxing_Toes).
+/// of their last frame (as in assimp's model Boxing_Toes).
 /// - If a joint below the root has position channels and an OFFSET of 0, its rest position is that of the first frame.
 /// - If the positions of most joints with an OFFSET stay near 0, they are relative to the OFFSETs and are added to
 ///   them.

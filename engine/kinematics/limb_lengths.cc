@@ -84,7 +84,7 @@ class Completer {
       CompleteDirections({chain.middle, chain.wrist, chain.end});
     }
     CompleteDirections({kHead});
-    // Find the midpoints of hips and shoulders from the observed ends. Without observed ends, a midpoint follows from
+    // Find the midpoints of hips and shoulders from the observed end effectors. Without these, a midpoint follows from
     // the other midpoint, from the head, or from `like`.
     const LimbPair legs{kLeftLegChain,  kRightLegChain, lengths_.hip_width,
                         lengths_.thigh, lengths_.shank, lengths_.foot};
@@ -141,7 +141,7 @@ class Completer {
     return 0.5 * pair.width * UnitOr(like_[pair.right.root] - like_[pair.left.root], {-1, 0, 0});
   }
 
-  /// Returns the midpoint of both chain roots, computed from the observed ends; nullopt if no end was observed.
+  /// Returns the midpoint of both chain roots, computed from the observed ends; nullopt if none was observed.
   std::optional<glm::dvec3> MiddleOfRoots(const LimbPair& pair) const {
     const glm::dvec3 from_left = whole_.ends[pair.left.end] - Reach(pair.left, pair) + HalfAcross(pair);
     const glm::dvec3 from_right = whole_.ends[pair.right.end] - Reach(pair.right, pair) - HalfAcross(pair);

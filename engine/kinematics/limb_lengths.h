@@ -53,15 +53,15 @@ LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
 /// - A missing limb direction is the direction in `like`, rotated with the nearest observed limb between it and the
 ///   trunk: by the smallest rotation from that limb's direction in `like` to its observed direction. If there is no
 ///   such limb, the direction in `like` is used unchanged.
-/// - A missing end follows from the rest of the body: hips and shoulders have their orientation in `like`, and the
-///   limbs extend from there with their lengths and directions. If no foot was seen, the hips are placed below the
+/// - A missing end effector follows from the rest of the body: hips and shoulders have their orientation in `like`, and
+///   the limbs extend from there with their lengths and directions. If no foot was seen, the hips are placed below the
 ///   shoulders, along the trunk of `like`; if no hand was seen, the shoulders are placed above the hips in the same
-///   way. If neither was seen, the hips follow from the head; if no end was seen at all, the hips are where `like` has
-///   them.
+///   way. If neither was seen, the hips follow from the head; if no end effector was seen, the hips are where `like`
+///   has them.
 /// A complete observation is returned unchanged.
 /// @param like a pose near the observed one: the last one recovered, or a standing body
 /// @param is_placed true if `like` stands at the right position in the world
-/// @return nullopt if no end was seen and `is_placed` is false
+/// @return nullopt if no end effector was seen and `is_placed` is false
 std::optional<LimbObservation> CompleteObservation(const LimbObservation& seen, const LimbLengths& lengths,
                                                    const BodyPose& like, bool is_placed);
 

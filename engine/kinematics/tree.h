@@ -13,8 +13,9 @@ struct AngleRange {
   double upper = 0;
 };
 
-/// Returns the one of `angle` and `angle` ± 2π that lies in `range`. If none does, returns the end of `range` that is
-/// nearest on the circle. For example, for the range −50° to 170°, an angle just above −180° gives 170°, not −50°.
+/// Returns `angle`, or `angle` ± 2π if that lies in `range` instead. If none of these does, returns the end of `range`
+/// that is nearest on the circle. For example, for the range −50° to 170°, an angle just above −180° gives 170°, not
+/// −50°.
 double ClampAngle(double angle, const AngleRange& range);
 
 /// A joint and the rigid limb beyond it. The frame of the limb L is at the joint, with its Z axis along the limb (paper

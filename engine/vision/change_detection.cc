@@ -73,7 +73,7 @@ class GatedComparison {
     const Tone b(background), p(pixel);
     const bool hue_b = HasHue(b), hue_p = HasHue(p);
     if (hue_b && hue_p && hues_.Differ(b.chroma, p.chroma)) return true;
-    // If only one of both pixels has a hue, noise may be the cause, so require clearly different saturations.
+    // If only one of the two pixels has a hue, noise may be the cause, so require clearly different saturations.
     if (hue_b != hue_p && std::abs(b.Saturation() - p.Saturation()) > o_.saturation_threshold) return true;
     return p.sum < o_.darkest_shadow * b.sum || p.sum > o_.brightest_light * b.sum;
   }

@@ -144,7 +144,7 @@ JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   return recording;
 }
 
-/// Returns Pearson's correlation of a[t] and b[t + lag]; nullopt if both overlap for less than a second.
+/// Returns Pearson's correlation of a[t] and b[t + lag]; nullopt if the two series overlap for less than a second.
 std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
                                     const std::vector<std::optional<double>>& b, long lag, double rate_hz) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;

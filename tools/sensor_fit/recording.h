@@ -47,7 +47,7 @@ Result<JointRecording> ReadJointRecording(std::string_view text, const std::stri
 
 /// Reads a file of 17 rigid targets, or a joint CSV. In a joint CSV, the trunk carries its own joints, and every other
 /// joint is carried by the bone that ends in it. The rate is `rate_hz`; if it is absent, the rate of the file's times;
-/// without times, the one of 30, 50, 60, 100, 120, 200 and 240 Hz that makes the duration closest to `seconds`.
+/// without times, the rate among 30, 50, 60, 100, 120, 200 and 240 Hz that makes the duration closest to `seconds`.
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds);
 
