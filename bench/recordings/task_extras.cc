@@ -115,7 +115,8 @@ static void Describe(RecordFields& fields, CoachExtras::Words& words) {
   fields.Required("begin_frame", words.begin_frame, "first frame of these words; they stay until the next words");
   fields.Required("say", words.say, "a short word to the learner");
   fields.Required("hint", words.hint, "what to do better");
-  fields.Optional("picture", words.picture, "the key pose that the hint is about, sixty numbers; absent without one");
+  fields.Optional("picture", words.picture,
+                  "the key pose that the hint is about, sixty numbers; absent if the hint is about none");
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Decision& decision) {

@@ -161,7 +161,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   const bool is_alike = AreAlike(ratio);
   if (!AreAlike(own / moving)) {
     remarks.push_back(fmt::format(
-        "its frames show a body {:.3g} times as tall as the frames of all clips of the file together", own / moving));
+        "its frames show a body {:.3g} times as tall as the median over all frames of the file", own / moving));
   }
   const std::vector<double> statures = OverFrames(poses, Stature);
   const double least = LowerPercentile(statures, 0.05), most = LowerPercentile(statures, 0.95);

@@ -55,7 +55,7 @@ Result<std::unique_ptr<GlContext>> GlContext::Create() {
   // Accept only the renderer llvmpipe.
   const auto* renderer = reinterpret_cast<const char*>(result->functions_.GetString(GL_RENDERER));
   if (renderer == nullptr || !std::string_view(renderer).starts_with("llvmpipe")) {
-    return Fail({}, "{} draws by {}; only Mesa's llvmpipe gives the same pixels on every machine", library.name,
+    return Fail({}, "{} renders with {}; only Mesa's llvmpipe gives the same pixels on every machine", library.name,
                 renderer == nullptr ? "an unknown renderer" : renderer);
   }
   return result;

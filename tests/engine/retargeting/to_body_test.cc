@@ -366,7 +366,7 @@ TEST(ToBodyMotion, KeepsTheUnitOfItsFileWhereOneClipStretchesTheBody) {
   const auto body = Convert(stretched, told);
   EXPECT_EQ(body->metres_per_unit, 1);
   EXPECT_THAT(body->Note(),
-              HasSubstr("its frames show a body 1.5 times as tall as the frames of all clips of the file together"));
+              HasSubstr("its frames show a body 1.5 times as tall as the median over all frames of the file"));
   EXPECT_NE(Convert(stretched)->metres_per_unit, 1) << "alone it has no other measure";
 }
 
