@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""People compare films without knowing the methods: the page in a browser, its key, and what their answers say."""
+"""Tests `etude report --blind` and `etude blind`: the page of films in a browser, its key, and the summary of
+answers."""
 import base64
 import json
 import pathlib

@@ -1,4 +1,4 @@
-"""Tests `etude run --dry-run`: it forecasts the time and the findings, and writes nothing."""
+"""Tests `etude run --dry-run`: it forecasts a run's time and findings, and writes nothing."""
 
 import json
 import pathlib

@@ -1,5 +1,4 @@
-"""Tests bad input: it gives one message with the place and the allowed values, and exit code 2, and nothing is
-written."""
+"""Tests bad input: it gives one message with the place and the allowed values, exit code 2, and no file."""
 import json
 import os
 import re

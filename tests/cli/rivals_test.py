@@ -1,5 +1,5 @@
-"""Tests examples/rivals against stand-ins that fail at every undocumented call, and against the packages if they are
-installed."""
+"""Tests examples/rivals against replacements that fail at every undocumented call, and against the packages if they
+are installed."""
 import importlib.util
 import pathlib
 import re

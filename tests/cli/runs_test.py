@@ -30,7 +30,7 @@ class Runs(EtudeCase):
 
     def test_functions_that_the_processor_chooses_change_no_byte(self):
         scenario = self.cut_scenario("builtin:sway", "/usr/share/assimp/models/BVH/01_03.bvh", trials=2)
-        # glibc's sin and exp differ in the last bit where the processor has fused multiply-add.
+        # glibc's sin and exp differ in the last bit on processors with fused multiply-add.
         tunables = {"any": None, "plain": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", "no-avx": "glibc.cpu.hwcaps=-AVX2"}
         for name, value in tunables.items():
             environment = {key: text for key, text in os.environ.items() if key != "GLIBC_TUNABLES"}

@@ -1,5 +1,4 @@
-"""Tests scenario files as people write them: several scenarios in a file, shared defaults, sweeps, and complaints
-about invalid ones."""
+"""Tests scenario files as people write them: several scenarios in a file, shared defaults, sweeps, and invalid ones."""
 import json
 import unittest
 
@@ -61,7 +60,7 @@ class Scenarios(EtudeCase):
         self.assertEqual(sorted(sources.values()), sorted([SEVERAL, SHARED]))
 
     def test_complaints_are_one_line_that_points_into_the_right_file(self):
-        # What is written wrong, in which file, and what the complaint says.
+        # Mistakes, the file that contains each, and the complaint.
         cases = [
             (SEVERAL.replace("to: 15", "to: 1500"), SHARED,
              "several.yaml:6:30: 'joint_noise_deg': 185 is out of range"),

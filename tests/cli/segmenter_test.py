@@ -1,5 +1,4 @@
-"""Tests examples/segmenter: its masks cover the person, `etude capture --masks` reads them, and the segmenter works
-in a run."""
+"""Tests examples/segmenter: its masks cover the person, `etude capture --masks` reads them, and it works in a run."""
 import pathlib
 import shutil
 import struct

@@ -1,7 +1,5 @@
 """Writes the page docs/reference/protocol.md from docs/schemas/protocol.schema.json.
-
-    protocol_page.py > docs/reference/protocol.md
-"""
+protocol_page.py > docs/reference/protocol.md"""
 import json
 import pathlib
 import sys

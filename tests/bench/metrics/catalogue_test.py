@@ -1,4 +1,4 @@
-"""Tests that the build reads the files of bench/metrics/catalogue, and ends at a fault with the fault's place."""
+"""Tests that the build reads the files of bench/metrics/catalogue, and stops at a fault with its place."""
 import os
 import pathlib
 import subprocess

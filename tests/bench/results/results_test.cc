@@ -85,8 +85,8 @@ TEST(WriteJson, RefusesWhatJsonCannotHoldAndNamesItsPath) {
   EXPECT_EQ(testing::Message(WriteJson(json)), "/a/1/b is not a finite number");
 }
 
-// Every field of the file has another value, so that two that are swapped show. The second scenario and the second
-// condition lack what is left out where it is empty.
+// Every field has a different value, so that swapped fields are noticed. The second scenario and condition lack the
+// optional fields.
 TEST(Summary, SurvivesTheWayFromAFileAndBack) {
   ASSERT_OK(file, ReadJsonFile(std::filesystem::path("tests/bench/results/summary.json")));
   ASSERT_OK(scenarios, DecodeSummaries(*file, kPlace));
@@ -185,7 +185,7 @@ TEST(LoadRunRowByRow, GivesTheRowsCurvesAndTimesOfLoadRun) {
     EXPECT_EQ(CpuSecondsOf(*streamed, held->rows[i], i), CpuSecondsOf(*held, held->rows[i], i));
   }
   EXPECT_EQ(curves, held->series.size());
-  // A line that changed meanwhile is no row.
+  // A line that was changed after opening gives no row.
   std::fstream file(folder / "cells.jsonl");
   file << "{{{";
   file.close();

@@ -384,7 +384,6 @@ std::string VerdictRatesMarkdown(std::span<const VerdictRates> rates) {
     const bool ends = i + 1 == rates.size() || rates[i + 1].design.law == SampleLaw::kNormal;
     if (ends) table += is_uneven ? "\n" : fmt::format(" {:.0f} |\n", of_worlds);
   }
-  // The headers of the tables.
   std::string text = "| units | worlds each | correlation |";
   for (int law = 0; law < kWorldLaws; ++law) text += fmt::format(" {} |", SampleLawName(static_cast<SampleLaw>(law)));
   text += " over worlds |\n|---|---|---|---|---|---|---|---|---|\n" + one_way;
