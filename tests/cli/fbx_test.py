@@ -177,7 +177,7 @@ class Fbx(MotionFileCase):
         ours = second_readers.read_gltf(out, facts["name"].partition("#")[2], facts["rate_hz"], facts["frames"])
         words = ["node", pathlib.Path(__file__).with_name("three_fbx.mjs"), THREE, path, facts["rate_hz"], facts["frames"]]
         theirs = json.loads(subprocess.run(list(map(str, words)), capture_output=True, text=True, check=True).stdout)
-        named = {re.sub(r"[\[\].:/]", "", name.replace(" ", "_")): places for name, places in ours.items()}  # as in three.js
+        named = {re.sub(r"[\[\].:/]", "", name.replace(" ", "_")): places for name, places in ours.items()}  # three.js's names
         both = [name for name in named if name in theirs and name]
         self.assertGreater(len(both), 5)
         return max(numpy.linalg.norm(named[name] - metres * numpy.array(theirs[name]), axis=1).max() for name in both)

@@ -14,7 +14,7 @@ from python_case import CACHE, ETUDE, ROOT, SCENARIO, PythonCase
 import etude
 from etude import conversation
 
-# Tells on standard error whether a whole line comes back out of the dataclasses; what it answers is of no account.
+# Reports on standard error whether a line survives conversion to the dataclasses and back; its answers do not matter.
 MIRROR = """import json, sys
 from etude import conversation
 spec = conversation.Spec(sys.argv[1], sys.argv[2].strip("-"), "mirror", "1", {}, None, [], False)

@@ -16,7 +16,7 @@
 
 namespace etude {
 
-/// An OpenEXR file, read by OpenEXR, channel by channel; a picture is empty if the file lacks its channel.
+/// An OpenEXR file, read by OpenEXR channel by channel; a picture is empty if its channel is missing.
 class ExrFile {
  public:
   explicit ExrFile(const std::string& path) : file_(path.c_str(), 0), window_(file_.header().dataWindow()) {}

@@ -19,7 +19,7 @@ inline const std::vector<Move>& AllMoves() {
   return moves;
 }
 
-/// Returns the built-in moves with these names, one after the other, as one motion.
+/// Returns the built-in moves with these names in sequence, as one motion.
 inline BodyMotion AfterEachOther(const std::vector<std::string>& names) {
   BodyMotion motion;
   for (const std::string& name : names) {
