@@ -30,7 +30,7 @@ READERS = {
     "replay": ["replay", "RUN"],
     "verify": ["verify", "RUN"],
 }
-# Files of a user: how each is made, and what reads it.
+# User files: how each is made, and what reads it.
 FILES = {f"clap.{ending}": (["clip", "convert", "builtin:clap", "FILE"], ["clip", "info", "FILE"])
          for ending in ("bvh", "glb", "trc", "csv", "c3d", "npz", "mot")} | {
     "tags.xml": (["bridge", "builtin:clap", "builtin:sway", "-o", "FILE"], ["bridge", "builtin:clap", "builtin:sway", "--check", "FILE"]),
@@ -41,7 +41,7 @@ CAN_UNSEALED = ("report", "gate", "compare", "rows", "replay")
 
 
 def damaged(content, dice):
-    """The bytes of a file after one accident; never the same as before."""
+    """Returns a file's bytes after one random accident; they always differ from before."""
     kind = dice.choice(["flip", "cut", "empty", "double a line", "lose a line", "swap lines", "zeros", "another number", "noise"])
     now = bytearray(content)
     lines = content.splitlines(keepends=True)

@@ -32,7 +32,7 @@ def children(process):
 
 
 def marked(mark):
-    """The processes of a round, by the home that they were given, and what is not dead of them."""
+    """Returns a round's living processes, which have its home folder in their environment."""
     found = {}
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         try:

@@ -127,7 +127,7 @@ class Blind(EtudeCase):
             page.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(self.folder))
             page.open(self.page)
             self.assertTrue(page.ask("[...document.querySelectorAll('[data-answer]')].every((b) => b.disabled)"))
-            page.press("ArrowLeft")  # nothing is answered before the film was seen
+            page.press("ArrowLeft")  # no answer counts before the film was seen
             self.assertEqual(page.ask("document.getElementById('place').textContent"), "Pair 1 of 2")
             page.ask("document.querySelector('.pair:not([hidden]) video').dispatchEvent(new Event('ended'))")
             for held in "repeat", "altKey", "ctrlKey", "metaKey":
@@ -136,7 +136,7 @@ class Blind(EtudeCase):
             for key in ["ArrowLeft", "ArrowDown"]:
                 page.ask("document.querySelector('.pair:not([hidden]) video').dispatchEvent(new Event('ended'))")
                 page.press(key)
-            self.assertTrue(page.ask("document.getElementById('save').disabled"))  # no name yet
+            self.assertTrue(page.ask("document.getElementById('save').disabled"))  # the name is still missing
             page.ask("(() => { rater.value = 'Anna B.'; rater.dispatchEvent(new Event('input')); save.click(); })()")
             self.assertEqual(page.logged, [])
             saved = self.folder / f"answers-{self.key['page']}-Anna_B..json"

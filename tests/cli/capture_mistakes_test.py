@@ -1,7 +1,9 @@
 """Tests `etude capture` with other tools' rigs and keypoints, and with users' mistakes. Points are exact, so every
 millimetre of deviation is an error of the program.
-The test generates a walking figure, four cameras, their calibration and keypoints in every format, and one mistake
-at a time. `--poses` prints the distances between skeletons and noisy keypoints."""
+
+The test generates a walking figure, four cameras, their calibration and keypoints in every format, and one mistake at a
+time. `--poses` prints the distances between skeletons and noisy keypoints.
+"""
 import copy
 import functools
 import html

@@ -22,7 +22,7 @@ methods:
 class DataSets(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        """One export of each scenario, and its truth turned into a folder of answers, for all tests to copy."""
+        """Exports each scenario, and turns the truth into answers, once for all tests."""
         cls.shared = cls.shared_folder()
         cls.index = cls.export("ik", IK)
         cls.export("film", FILM, "--depth")

@@ -92,7 +92,7 @@ class Errors(EtudeCase):
         self.assertEqual(os.listdir(odd), [])
 
     def test_no_message_and_no_table_shows_a_name_as_another(self):
-        """Names and values that turn the direction of writing, that nobody sees, or that command a terminal."""
+        """Tests names and values that reverse the direction of writing, are invisible, or command a terminal."""
         hostile = "a\u202eb\u200f\u2066\ufeff\u009b"
         bare = IK.split("sweep")[0]
         files = {

@@ -46,12 +46,13 @@ methods:
 IK = ik_scenario(trials=4)
 
 
-# What a run promises to be the same bytes, however it came about.
+# The files that two runs promise to share byte for byte.
 SHARED = ["manifest.json", "cells.jsonl", "columns", "summary.json", "series", "recordings"]
 
 
 def cells_in_journal(folder, kind="cell"):
-    """How many cells a run has flushed so far; of the kind `answered`: those that programs measure, before they do."""
+    """Returns the number of cells that a run has flushed; with `answered`, of answered cells that programs have yet
+    to measure."""
     try:
         lines = (folder / "journal.jsonl").read_bytes().split(b"\n")[:-1]
     except FileNotFoundError:

@@ -1,6 +1,8 @@
 """Tests FBX files: our own files against our own forward kinematics, a studio's files, and all of them against
 three.js's loader.
-The last needs Node.js and npm's package three: `npm install three`, and ETUDE_THREE=…/node_modules/three."""
+
+The last needs Node.js and npm's package three: `npm install three`, and ETUDE_THREE=…/node_modules/three.
+"""
 import json
 import math
 import os
@@ -28,8 +30,8 @@ def turn(axis_times_angle):
 
 
 class Fbx(MotionFileCase):
-    # Joint: parent, offset from the parent (cm), Euler angles about x, y, z (degrees) over time (s). Each joint also
-    # has a constant rotation of its own.
+    # Joint: parent, offset from the parent (cm), Euler angles about x, y, z (degrees) over time (s). Each joint also has a
+    # constant rotation of its own.
     FBX_BODY = {
         "Hips": (None, (0, 95, 0), lambda t: (0, 40 * t, 0), (0, 0, 0)),
         "Spine": ("Hips", (0, 20, 0), lambda t: (10 * t, 0, 0), (0, 0, 0)), "Neck": ("Spine", (0, 30, 0), None, (0, 0, 0)),
@@ -46,6 +48,7 @@ class Fbx(MotionFileCase):
     def fbx(self, name, unit_cm, up, frames=31, rate=30, late_ticks=0, inactive=(), pivots=None):
         """Writes an FBX text file; returns it and the joints' positions by frame (metres, Y up) by forward
         kinematics of our own.
+
         Keys about Y come late_ticks later. Joints of `inactive` have RotationActive 0 beside a PreRotation and an
         order. Joints of `pivots` turn about a point, given in centimetres from the joint."""
         pivots = pivots or {}
@@ -177,7 +180,7 @@ class Fbx(MotionFileCase):
         ours = second_readers.read_gltf(out, facts["name"].partition("#")[2], facts["rate_hz"], facts["frames"])
         words = ["node", pathlib.Path(__file__).with_name("three_fbx.mjs"), THREE, path, facts["rate_hz"], facts["frames"]]
         theirs = json.loads(subprocess.run(list(map(str, words)), capture_output=True, text=True, check=True).stdout)
-        named = {re.sub(r"[\[\].:/]", "", name.replace(" ", "_")): places for name, places in ours.items()}  # three.js's names
+        named = {re.sub(r"[\[\].:/]", "", name.replace(" ", "_")): places for name, places in ours.items()}  # as three.js does
         both = [name for name in named if name in theirs and name]
         self.assertGreater(len(both), 5)
         return max(numpy.linalg.norm(named[name] - metres * numpy.array(theirs[name]), axis=1).max() for name in both)

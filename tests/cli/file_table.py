@@ -1,10 +1,13 @@
 """Prints, for each motion file, what the program reads, and how far its joints lie from second readers' positions.
-ETUDE=build/release/etude python3 tests/cli/file_table.py FOLDER            # a line of Markdown per file
-ETUDE=build/release/etude python3 tests/cli/file_table.py --rows FOLDER     # and a transition and a capture of each
-A role is compared in every frame in which a joint of the file plays it: the second reader's position, in the unit
-and axes that the program reports, against `etude clip convert`, minus one floor height. Roles at points between
-markers are not compared. `--rows`: `played` makes a transition from the clip to `builtin:wave`, and the clip is
-filmed for a fifth of a second and captured with adaptive weights, as in scenarios/quick."""
+
+    ETUDE=build/release/etude python3 tests/cli/file_table.py FOLDER            # a line of Markdown per file
+    ETUDE=build/release/etude python3 tests/cli/file_table.py --rows FOLDER     # and a transition and a capture of each
+
+A role is compared in every frame in which a joint of the file plays it: the second reader's position, in the unit and
+axes that the program reports, against `etude clip convert`, minus one floor height. Roles at points between markers are
+not compared. `--rows`: `played` makes a transition from the clip to `builtin:wave`, and the clip is filmed for a fifth
+of a second and captured with adaptive weights, as in scenarios/quick.
+"""
 import csv
 import json
 import os
@@ -75,7 +78,7 @@ SCENARIO = """  - {{scenario: t{number}, question: q, task: transition, clips: [
 
 
 def run_rows(sources):
-    """{source: what a transition and a capture of it came to}, of one run."""
+    """Runs a transition and a capture of each source in one run; returns {source: results}."""
     with tempfile.TemporaryDirectory() as folder:
         suite, out = pathlib.Path(folder) / "s.yaml", pathlib.Path(folder) / "out"
         suite.write_text(SCENARIOS + "".join(SCENARIO.format(number=i, clip=json.dumps(source)) for i, source in enumerate(sources)))

@@ -28,7 +28,7 @@ methods: [{name: fixed, segmenter: hue, calibration: dlt, solver: ccd, weights: 
 
 class Interrupts(EtudeCase):
     def interrupt(self, arguments, is_begun, sent=signal.SIGINT):
-        """What the program says when it is interrupted once it `is_begun`."""
+        """Interrupts the program once `is_begun` is true; returns its output."""
         program = subprocess.Popen([ETUDE, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 60

@@ -25,7 +25,7 @@ duration_s: 0.1
 trials: 1
 methods: [{name: plain}]
 """
-# Answers with the frame asked at; of a folder that it is told, and can write to, it makes a file at its first answer.
+# Answers with the frame of the request. At its first answer it makes a file in the folder that it is given, if it can.
 METHOD = """import json, os, shutil, sys
 for line in sys.stdin:
     message = json.loads(line)
@@ -43,9 +43,9 @@ for line in sys.stdin:
     print(json.dumps(reply), flush=True)
 """
 MB = 1 << 20
-PYTHON = "/usr/bin/python3"  # a fence shows what is the system's
+PYTHON = "/usr/bin/python3"  # a fence shows the system's files
 LIBRARIES = [path for name in ("libOSMesa.so.8", "libEGL.so.1")
-             if os.path.exists(path := f"/usr/lib/x86_64-linux-gnu/{name}")]  # each draws
+             if os.path.exists(path := f"/usr/lib/x86_64-linux-gnu/{name}")]  # each of them can draw
 
 
 def limit(kind, value):
@@ -66,7 +66,7 @@ class Machine(EtudeCase):
                               env=os.environ | (environment or {}), preexec_fn=before, **more)
 
     def least_space(self):
-        """The least address space in which the program comes to its first line, in steps of 4 MB."""
+        """Returns the least address space in which the program prints its first line, in steps of 4 MB."""
         starts = lambda space: subprocess.run([ETUDE, "--version"], capture_output=True,
                                               preexec_fn=limit(resource.RLIMIT_AS, space)).returncode == 0
         return next(space for space in range(64 * MB, 1024 * MB, 4 * MB) if starts(space))

@@ -18,7 +18,7 @@ trials: 3
 methods: [{name: a, solver: gauss-newton}, {name: b, solver: damped-least-squares}]
 """
 FEW = ("--trials", "2")
-# One metric, all manners: told by options.manner.
+# One metric with all behaviours; options.manner selects one.
 METRIC = """import json, os, sys, time
 manner, asked = None, 0
 for line in sys.stdin:
@@ -75,7 +75,7 @@ def vector(expected, more=""):
     return f", vectors: [{VECTOR}expected: {expected}{more}}}]"
 
 
-# What most tests look at: good metrics, one that looks round and takes its time, and bad ones.
+# The metrics of most tests: good ones, one that looks around slowly, and bad ones.
 ALL = "  - iterations\n" + own("mine", more=", version: 3, unit: mm, practical: 2" + vector(250)) + own("looks", "looks") + \
       "".join(own(name, name, vector("null") if name == "absent" else "") for name in BAD) + \
       "expect: [{metric: mine, of: a, at_most: -1e9}]\ngate: {metrics: [mine]}\n"
@@ -84,7 +84,7 @@ ALL = "  - iterations\n" + own("mine", more=", version: 3, unit: mm, practical: 
 class OwnMetrics(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        """One run of the examples, and one of everything that a program may do."""
+        """Runs the examples once, and once everything that a metric's program may do."""
         cls.shared = cls.shared_folder()
         (cls.shared / "m").mkdir()
         cls.scenario = cls.shared / "s.yaml"

@@ -35,7 +35,7 @@ SCENARIO = f"""scenarios:
 
 OPEN = "document.querySelectorAll('details').forEach((d) => { d.open = true; })"
 WORDS = "document.body.innerText.trim().split(/\\s+/).length"
-# What is cut, or reaches beyond the window, without a place to scroll.
+# Returns elements that are clipped, or wider than the window, without a place to scroll.
 CLIPPED = """[...document.querySelectorAll('body *')].filter((e) => {
   const box = e.getBoundingClientRect();
   if (!box.width || e.closest('.scroll, .skip, .defs, svg, .menu, .tools') || e.matches('script, style, br')) return false;

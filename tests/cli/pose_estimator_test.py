@@ -25,7 +25,8 @@ LIMBS = ["left_shoulder", "right_shoulder", "left_elbow", "right_elbow", "left_w
 
 
 def projection(path):
-    """3 × 4, from the calibration file: OpenCV's pixels have their centres at whole numbers, ours at halves."""
+    """Returns the 3 × 4 matrix of the calibration file. In OpenCV pixel centres are at whole numbers, in ours at
+    halves."""
     text = path.read_text()
     numbers = {name: [float(x) for x in re.search(rf"\n{name}:.*?data: \[(.*?)\]", text, re.S).group(1).split(",")]
                for name in ("camera_matrix", "R", "T")}

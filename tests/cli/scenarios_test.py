@@ -43,7 +43,7 @@ class Scenarios(EtudeCase):
         self.assertEqual(count, {"start": 3 * 3 * 2, "both": 1 * 2 * 2, "ik": 4 * 2 * 2})
 
     def test_defaults_written_or_inherited_give_the_same_rows(self):
-        """Where a key stands is nothing that a result may depend on."""
+        """Where a key is written must not change a result."""
         suite = self.write_suite()
         rows = self.run_suite(suite / "several.yaml")
         alone = "scenario: both\nquestion: And when poses are harder, too?\ntask: ik\ntrials: 1\nmax_sweeps: 20\n"

@@ -1,6 +1,8 @@
 """Readers of motion files that share no code with the program.
-Each returns {joint: positions (frames × 3)} in the file's own unit and axes; if several joints have the same name,
-the first one counts."""
+
+Each returns {joint: positions (frames × 3)} in the file's own unit and axes; if several joints have the same name, the
+first one counts.
+"""
 import json
 import math
 import pathlib

@@ -19,7 +19,8 @@ methods:
 
 
 def kinect_and_targets(seconds=8):
-    """A body whose joints swing, by a Kinect (30 Hz, metres, with an error) and by 17 targets (60 Hz, millimetres)."""
+    """Returns a body with swinging joints, by a Kinect (30 Hz, metres, with errors) and by 17 targets (60 Hz,
+    millimetres)."""
     dice = random.Random(1)
     joint_of_target = [9, 5, 8, 4, 1, 16, 12, 8, 4, 11, 7, 19, 15, 0, 3, 17, 13]
 

@@ -21,7 +21,8 @@ PEOPLE = ("anna", "bo", "cy", "di")
 
 class Streams(EtudeCase):
     def record(self, change=lambda person, rows: rows):
-        """Four people, who raise both arms, the left one, and both half-way, which is wrong; and their labels."""
+        """Records four people who raise both arms, the left arm, and both arms half-way, which is wrong; also writes
+        the labels."""
         takes = self.folder / "takes"
         takes.mkdir()
         labels = "clip,from_s,to_s,move,truth,person\n"

@@ -26,7 +26,7 @@ export HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin
 
 
 def mirror():
-    """Where this machine's packages come from."""
+    """Returns the mirror from which this machine gets its packages."""
     told = subprocess.run(["apt-get", "indextargets", "--format", "$(REPO_URI)", "Created-By: Packages"],
                           capture_output=True, text=True).stdout.split()
     return next((uri for uri in told if uri.rstrip("/").endswith("/debian")), "http://deb.debian.org/debian")

@@ -29,7 +29,7 @@ metrics: [jump_cm, pose_gap_cm, wait_s]
 
 
 def student_cdf(t, freedom):
-    """By Simpson's rule over the density."""
+    """Returns Student's distribution function, by Simpson's rule over the density."""
     scale = math.gamma((freedom + 1) / 2) / math.sqrt(freedom * math.pi) / math.gamma(freedom / 2)
     steps = 20000
     width = abs(t) / steps

@@ -16,7 +16,7 @@ video: {compare: [fixed, least-squares], trials: [1]}
 
 
 def fingerprint(data):
-    """As seals and journals tell it."""
+    """Returns the digest that seals and journals use."""
     xxh3 = ctypes.CDLL("libxxhash.so.0").XXH3_64bits
     xxh3.restype = ctypes.c_uint64
     return f"{xxh3(data, ctypes.c_size_t(len(data))):016x}"

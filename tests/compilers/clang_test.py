@@ -1,6 +1,8 @@
-"""Tests that clang accepts every file of the program: it checks the files that this build compiles, without
-generating code.
-The control is a file that no compiler accepts. Skipped (exit code 77) if clang is not installed."""
+"""Tests that clang accepts every file of the program: it checks the files that this build compiles, without generating
+code.
+
+The control is a file that no compiler accepts. Skipped (exit code 77) if clang is not installed.
+"""
 import concurrent.futures
 import json
 import os

@@ -1,6 +1,8 @@
 """Tests docs/adding.md: its examples are applied in a scratch tree, the changed files are compiled with this build's
 flags and linked with its libraries, and the tests of all metrics, solvers and moves run. Heavy.
-adding_test.py BUILD      BUILD: the build tree (CMakeLists.txt passes it)"""
+
+    adding_test.py BUILD      BUILD: the build tree (CMakeLists.txt passes it)
+"""
 import json
 import os
 import pathlib

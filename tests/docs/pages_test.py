@@ -1,8 +1,10 @@
 """Runs every ```sh block of README and the guide, in the order of its page, in one scratch folder per page, with the
 built program first in PATH. The word after `sh` gives the kind of a block:
-```sh            run here and on every change
-```sh heavy      takes long: run with ETUDE_HEAVY=1
-```sh not-run    needs what no test has (another machine, films); its options must be known, and NOT_RUN counts it"""
+
+    ```sh            run here and on every change
+    ```sh heavy      takes long: run with ETUDE_HEAVY=1
+    ```sh not-run    needs what no test has (another machine, films); its options must be known, and NOT_RUN counts it
+"""
 import functools
 import os
 import pathlib

@@ -1,5 +1,7 @@
 """Writes the page docs/reference/protocol.md from docs/schemas/protocol.schema.json.
-protocol_page.py > docs/reference/protocol.md"""
+
+    protocol_page.py > docs/reference/protocol.md
+"""
 import json
 import pathlib
 import sys
@@ -15,7 +17,7 @@ PLAIN = {"string": "text", "number": "number", "integer": "whole number", "boole
 
 
 def kind(schema):
-    """What a value is, in words."""
+    """Returns a value's kind in words."""
     if "$ref" in schema:
         name = schema["$ref"].rsplit("/", 1)[1]
         return f"[{name}](#{name})"

@@ -1,6 +1,8 @@
 """Runs worlds of every task and every solver of inverse kinematics on this machine's CPU and on emulated ones, and
 compares every cell's bytes. Tests that compare solvers in lanes with their scalar form also run on every CPU.
-The control: another seed must give other bytes. Skipped (exit code 77) without qemu-user."""
+
+The control: another seed must give other bytes. Skipped (exit code 77) without qemu-user.
+"""
 import json
 import os
 import pathlib
@@ -13,8 +15,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 ETUDE = os.environ["ETUDE"]
 LANE_TESTS = [os.environ["SOLVER_TESTS"], "--gtest_filter=GaussNewtonBatch.*LastBit:GaussNewton.Is*"]
-# Intel's CPUs that introduced AVX (SandyBridge), F16C (IvyBridge), FMA and AVX2 (Haswell), ADX (Broadwell); AMD's with
-# FMA4 (Opteron_G4) and AVX2 (EPYC); all that the emulator supports (max). The oldest one is x86-64-v2.
+# Intel's CPUs that introduced AVX (SandyBridge), F16C (IvyBridge), FMA and AVX2 (Haswell), ADX (Broadwell); AMD's with FMA4
+# (Opteron_G4) and AVX2 (EPYC); all that the emulator supports (max). The oldest one is x86-64-v2.
 CPUS = ["Nehalem", "SandyBridge", "IvyBridge", "Haswell", "Broadwell", "Skylake-Client", "Opteron_G4", "EPYC", "max"]
 WORLDS = [  # scenario, condition, trial
     ("capture", 0, 0),
@@ -65,7 +67,7 @@ scenarios:
 
 
 def every_solver():
-    """A suite file with all that `etude list methods` tells of."""
+    """Returns a suite file with everything that `etude list methods` lists."""
     listed = subprocess.run([ETUDE, "list", "methods"], check=True, capture_output=True, text=True).stdout
     ik = listed[re.search(r"^ik ", listed, re.MULTILINE).start():]
     solvers = re.search(r"solver: (.*)", ik)[1].split(", ")

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """Guards: rules of the architecture that a compiler does not check.
-  guard.py RULE ROOT              complains about every file of ROOT that breaks RULE; exit code 1
-  guard.py RULE ROOT --must-flag  the control: fails unless it complains about every file of ROOT
+
+    guard.py RULE ROOT              complains about every file of ROOT that breaks RULE; exit code 1
+    guard.py RULE ROOT --must-flag  the control: fails unless it complains about every file of ROOT
+
 Rules: imports, rooms (rooms.py), doors, installed (headers that users of the library get), determinism, types (two
-types of one name, which the linker would merge), pages (files that .md files mention), words (house words in code
-and pages for which the field has a term). Prints the number of checked files, so that a guard that checks nothing
-cannot pass unnoticed."""
+types of one name, which the linker would merge), pages (files that .md files mention), words (house words in code and
+pages for which the field has a term). Prints the number of checked files, so that a guard that checks nothing cannot
+pass unnoticed.
+"""
 import fnmatch
 import functools
 import pathlib

@@ -1,5 +1,6 @@
-"""Checks which folder may include which. A room is a folder with a CMakeLists.txt; it may include only the rooms in
-its DEPENDS, of etude_folder(…). A listed room that no file needs is an error, too. The rooms form no circle."""
+"""Checks which folder may include which. A room is a folder with a CMakeLists.txt; it may include only the rooms in its
+DEPENDS, of etude_folder(…). A listed room that no file needs is an error, too. The rooms form no circle.
+"""
 import pathlib
 import re
 

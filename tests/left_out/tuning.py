@@ -1,9 +1,12 @@
 """For each library, tunes the transition method `played` on all other libraries, and judges it on this one.
-  scripts/soak transitions [--library NAME=CLIPS]... [--trials N] [--etude PROGRAM] [--keep FILE]
+
+    scripts/soak transitions [--library NAME=CLIPS]... [--trials N] [--etude PROGRAM] [--keep FILE]
+
 Every library is a condition of its own. The two weights of `played` are searched on a grid: the weights with which
-transitions are most often clean on all *other* libraries are chosen (mean of libraries, 100 requests each, seed 2),
-and judged on the library that was left out, with other requests (seed 3). This takes a few minutes. --keep writes
-the results as JSON."""
+transitions are most often clean on all *other* libraries are chosen (mean of libraries, 100 requests each, seed 2), and
+judged on the library that was left out, with other requests (seed 3). This takes a few minutes. --keep writes the
+results as JSON.
+"""
 import argparse
 import json
 import pathlib
@@ -32,7 +35,7 @@ methods:
 
 
 class Rows:
-    """Of one run: the values of (library, method, metric); requests that failed count as the task says."""
+    """The values of (library, method, metric) of one run; failed requests count as the task defines."""
 
     def __init__(self, lines):
         self.values = {}

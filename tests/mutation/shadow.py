@@ -1,4 +1,5 @@
 """Makes and builds the mutated engine: a copy of the tree with the mutants of a sample.
+
 `<work>/tree` links to the project's files, except engine/, which is rewritten with a sample's mutants; all mutants
 at once would slow the compiler and the tests down several times. Operators with meaningless mutants leave notes in
 object files; other mutants that do not compile are found by the compiler's messages. All these are left out, and

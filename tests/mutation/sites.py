@@ -1,4 +1,5 @@
 """Finds the places at which a C++ file can be mutated, and the mutations.
+
 It reads code in Google's format: a binary operator has white space on both sides; a template's bracket and a sign
 have none. If it confuses them, the mutant does not compile and is dropped (shadow.py)."""
 

@@ -101,8 +101,8 @@ class BesideCpp(unittest.TestCase):
             np.testing.assert_array_equal(np.ravel(found), told[name], err_msg=name)
 
 
-# Answers exported problems by the engine: a line each with the trial and the digest of the answer's numbers, as in a
-# cell's row.
+# Answers exported problems by the engine: a line each with the trial and the digest of the answer's numbers, as in a cell's
+# row.
 ANSWERS = """import csv, ctypes, json, pathlib, sys
 sys.path[:0] = sys.argv[3:]
 import numpy as np
@@ -139,7 +139,7 @@ for line in csv.DictReader(open(data / "index.csv", newline="")):
 
 
 class BesideWorkers(unittest.TestCase):
-    """What a cell's row says of its method's answer, bit by bit, is what the same problem gives through Python."""
+    """A cell's row and the Python interface give the same answer to the same problem, bit by bit."""
 
     def digests(self, task, digest, method, **keys):
         """Returns digests by trial: those of one method's cells, and those of Python's answers in the workers'

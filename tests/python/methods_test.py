@@ -208,7 +208,7 @@ class Metrics(PythonCase):
 class Runs(PythonCase):
     @classmethod
     def setUpClass(cls):
-        """One run of every kind of method, one of which raises in every cell."""
+        """Runs every kind of method once; one of them raises in every cell."""
         import ik_dls
         examples = str(ROOT / "examples/outside-methods")
         path = os.environ["PYTHONPATH"] + ":" + examples

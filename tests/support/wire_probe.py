@@ -1,12 +1,15 @@
-"""Stands between Etude and a method: passes every line on, and ends with a complaint at the first line that its
-schema refuses.
-wire_probe.py TASK SEAT COMMAND…      SEAT is - for whole problems; without COMMAND it answers nothing itself
-Undeclared keys are refused, too, except the one with which check-method tries unknown keys."""
+"""Stands between Etude and a method: passes every line on, and ends with a complaint at the first line that its schema
+refuses.
+
+    wire_probe.py TASK SEAT COMMAND…      SEAT is - for whole problems; without COMMAND it answers nothing itself
+
+Undeclared keys are refused, too, except the one with which check-method tries unknown keys.
+"""
 import json
 import subprocess
 import sys
 
-from json_schema import load_schema, own_complaints  # jsonschema would take minutes for the thousands of lines of a conversation
+from json_schema import load_schema, own_complaints  # jsonschema takes minutes for so many lines
 
 UNKNOWN = "of_a_later_version"
 

@@ -1,16 +1,19 @@
-"""A method that looks the truth up: `lookup.py DEN SEEDS…` brings its own copy of Etude, and a copy of the scenario
-in DEN.
+"""A method that looks the truth up: `lookup.py DEN SEEDS…` brings its own copy of Etude, and a copy of the scenario in
+DEN.
+
 Inside the fence it runs the scenario itself under every likely seed, and compares the problems of its own copy
 (`lookup.py spy FILE`) with its own problems. It searches files, descriptors and /proc for scenarios, runs and their
 names, and for notes that it left when it answered another condition. It reports what it finds on standard error, in
-lines that begin with LOOKUP. In task ik it answers the truth if it has found it, else the start pose. In task
-tracking it answers the truth of the known frame whose ends have the same distances from each other, whatever the
-body's heading, position and size.
+lines that begin with LOOKUP. In task ik it answers the truth if it has found it, else the start pose. In task tracking
+it answers the truth of the known frame whose ends have the same distances from each other, whatever the body's heading,
+position and size.
+
 `lookup.py carry MEMORY NOISE…` gets worlds of ik twice, with two strengths of noise, and computes the pose without
-noise. It remembers problems between its starts in the page cache: by which pages of its own file MEMORY, which it
-can only read, are in memory. It also reads `notes.json` beside it, if there is one, and logs its own. `lookup.py
-tell` is a metric that encodes the truth of its cell in locks on files of the system, which it may open for reading;
-`lookup.py listen` is a method of detection that answers what the locks encode."""
+noise. It remembers problems between its starts in the page cache: by which pages of its own file MEMORY, which it can
+only read, are in memory. It also reads `notes.json` beside it, if there is one, and logs its own. `lookup.py tell` is a
+metric that encodes the truth of its cell in locks on files of the system, which it may open for reading; `lookup.py
+listen` is a method of detection that answers what the locks encode.
+"""
 import ctypes
 import fcntl
 import hashlib

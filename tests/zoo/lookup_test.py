@@ -16,8 +16,8 @@ ETUDE = pathlib.Path(os.environ["ETUDE"])
 PYTHON = "/usr/bin/python3"
 LOOKUP = pathlib.Path(__file__).with_name("lookup.py")
 SEED = "2"
-# Seats whose first step is the same in every world; a transition's request has public clips and a frame, but no
-# measured number.
+# Seats whose first step is the same in every world; a transition's request has public clips and a frame, but no measured
+# number.
 TOLD_NOTHING_AT_FIRST = ["coach/policy", "coach/learner", "transition"]
 
 # By task and seat: a scenario's keys after its name, and its method's keys.

@@ -1,8 +1,10 @@
 """Programs that try to leave the fence: `zoo.py SPECIMEN DEN`. Each answers its problems (task ik: all angles zero)
-and, at its first problem or when its name says, does what a hostile program would do. DEN is a folder that
-zoo_test.py watches.
+and, at its first problem or when its name says, does what a hostile program would do. DEN is a folder that zoo_test.py
+watches.
+
 In case the fence fails, every specimen limits itself: it starts few processes, each of which ends within seconds; it
-takes few megabytes; and it sends signals only to processes that zoo_test.py started as targets."""
+takes few megabytes; and it sends signals only to processes that zoo_test.py started as targets.
+"""
 import contextlib
 import ctypes
 import fcntl

@@ -33,7 +33,7 @@ methods:
 
 
 def sure(result):
-    """What a function of C gives, unless that is an error."""
+    """Returns the result of a C function, or raises if it is an error."""
     if result < 0:
         raise OSError(result)
     return result

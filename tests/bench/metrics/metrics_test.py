@@ -267,7 +267,7 @@ class Metrics(EtudeCase):
         self.assertNotEqual(own_complaints(rows[0], schema), [])
 
     def recorded_joins(self):
-        """The row and the join of each recording of a run, the join as vectors give it."""
+        """Returns the row and the join of each recording of a run, with joins in the vectors' format."""
         for row in self.run_suite(self.write("joins.yaml", JOINS)):
             name = row["cell"].replace("/", "~") + ".json"
             recording = json.loads((self.out / "recordings" / name).read_text())

@@ -27,7 +27,8 @@ methods:
 
 
 def tipped(bvh, angle_of):
-    """A clip whose whole body is tipped backwards about the point of the floor between its feet: degrees by frame."""
+    """Returns a clip whose whole body is tipped backwards, by degrees per frame, about the floor point between its
+    feet."""
     tree, motion = bvh.split("MOTION\n")
     frames = motion.splitlines()
     tree = tree.replace("HIERARCHY\nROOT", "HIERARCHY\nROOT floor\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""A second implementation of every metric, written from docs/reference/metrics.md alone, in Python's standard
-library.
-  etude list metrics --json | python3 second_implementation.py
-recomputes every test vector from its input, prints the vectors that disagree, and the number of those that agree.
-Exit code 1 if one disagrees, if a metric has no vector, or if this file does not know a metric or its version."""
+"""A second implementation of every metric, written from docs/reference/metrics.md alone, in Python's standard library.
+
+    etude list metrics --json | python3 second_implementation.py
+
+recomputes every test vector from its input, prints the vectors that disagree, and the number of those that agree. Exit
+code 1 if one disagrees, if a metric has no vector, or if this file does not know a metric or its version.
+"""
 import json
 import sys
 

@@ -30,7 +30,7 @@ def refused(text):
 
 
 def undescribed(text):
-    """The scenarios and methods of a file that no whole sentence describes."""
+    """Returns a file's scenarios and methods without a description in a whole sentence."""
     document = yaml.safe_load(text)
     shared = document.get("defaults", {})
     scenarios = document.get("scenarios", [document])

@@ -1,6 +1,8 @@
 """Replaces Pose2Sim in tests: it has only the documented calls, files and settings. Any other use fails.
+
 Its triangulation is linear, and its filter changes nothing. As with the original, the filtered file lacks the last
-frame."""
+frame.
+"""
 import json
 import math
 import os
