@@ -17,7 +17,6 @@
 namespace etude {
 namespace {
 
-/// Returns a triangle near the origin on one joint.
 SkinnedMesh Triangle(const std::string& name, int joint) {
   SkinnedMesh mesh{.name = name};
   mesh.bindings.resize(1);

@@ -17,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-/// Returns an empty folder for the running test.
 fs::path FreshFolder() {
   const fs::path folder = fs::path(::testing::TempDir()) / "etude_reports" /
                           ::testing::UnitTest::GetInstance()->current_test_info()->name();

@@ -11,7 +11,6 @@
 
 namespace etude::testing {
 
-/// Replaces every `from`, if there is any.
 inline std::string AllReplaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
     text.replace(at, from.size(), to);

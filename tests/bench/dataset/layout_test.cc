@@ -46,7 +46,6 @@ sweep: {joint_noise_deg: [2, 5]}
 methods: [{name: today, solver: damped-least-squares}]
 )";
 
-/// Four worlds beside an empty folder of predictions.
 class Predictions : public ::testing::Test {
  protected:
   Predictions() : folder_(*TemporaryFolder::Make("predictions-test")) {

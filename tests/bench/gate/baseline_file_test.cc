@@ -83,7 +83,6 @@ TEST(Baseline, IsRefusedWithThePlaceWhenItIsNoneOrWouldHideSomething) {
               HasSubstr("no cell is ok or unsolved"));
 }
 
-/// One character is removed, doubled or replaced at each place: the file is refused or read; nothing throws.
 TEST(Baseline, ThatWasTornAnywhereIsRefusedInOneLineOrReadsAsAnotherOne) {
   const std::string text = Text();
   int refused = 0, tried = 0;

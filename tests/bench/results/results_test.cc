@@ -185,7 +185,6 @@ TEST(LoadRunRowByRow, GivesTheRowsCurvesAndTimesOfLoadRun) {
     EXPECT_EQ(CpuSecondsOf(*streamed, held->rows[i], i), CpuSecondsOf(*held, held->rows[i], i));
   }
   EXPECT_EQ(curves, held->series.size());
-  // A line that was changed after opening gives no row.
   std::fstream file(folder / "cells.jsonl");
   file << "{{{";
   file.close();

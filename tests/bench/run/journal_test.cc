@@ -31,7 +31,6 @@ class JournalTest : public ::testing::Test {
     return EncodeCellLine(cell, std::move(finished));
   }
 
-  /// Writes a journal of the cells 0 and 3.
   void WriteTwo() {
     auto journal = Journal::Begin(folder(), head_);
     ASSERT_TRUE(journal);

@@ -29,7 +29,6 @@ Defaults WriteOut(const std::vector<KeyInfo>& keys, const std::string& chosen) {
   return defaults;
 }
 
-/// Returns all of a world's cell, one text per value.
 std::vector<std::string> CellOf(const TaskKind& kind, const std::string& condition, const std::string& method,
                                 const ClipLibrary& clips) {
   const auto mapping = ParseYaml("{" + condition + "}", "s.yaml");

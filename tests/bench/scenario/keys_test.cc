@@ -39,7 +39,6 @@ Names AllowedBy(const std::string& complaint) {
   return names;
 }
 
-/// Returns the names that only one of the two sets contains.
 Names Differences(const Names& documented, const Names& read) {
   Names found;
   for (const std::string& name : documented) {

@@ -7,7 +7,6 @@
 namespace etude {
 namespace {
 
-/// Returns the sums of a pair, given truth and answer per frame.
 AgreementSums SumsOf(const std::vector<double>& truth, const std::vector<double>& found) {
   return SumAgreement({{"a"}, found}, {{"a"}, truth}, 0);
 }

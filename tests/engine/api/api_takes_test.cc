@@ -20,7 +20,6 @@ namespace {
 using etude::testing::RefusalOf;
 using ::testing::HasSubstr;
 
-/// A body, ray cast into two cameras of 160 × 120 pixels.
 struct SmallTake {
   std::vector<NamedCamera> cameras;
   std::vector<std::vector<Mask>> masks;

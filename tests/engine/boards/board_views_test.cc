@@ -17,7 +17,6 @@ Camera LookingAt(const glm::dvec3& from) {
   return LookAt({.width = 640, .height = 480, .fx = 620, .fy = 620, .cx = 320, .cy = 240, .skew = 0}, from, {0, 0, 0});
 }
 
-/// A board in the world: its top left corner and its axes.
 struct Placed {
   glm::dvec3 corner, right, down;
 };

@@ -121,7 +121,6 @@ struct Outcome {
   double rms = 0, worst = 0;
 };
 
-/// Compares the found corners with the defined positions.
 Outcome Compare(const std::vector<SeenCorner>& seen, const std::vector<Shown>& boards) {
   Outcome outcome;
   std::set<std::tuple<std::size_t, int, int>> names;

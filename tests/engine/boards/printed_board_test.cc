@@ -140,7 +140,6 @@ ColourImage Warped(const ColourImage& picture, const glm::dmat3& to_source, int 
 /// Checks that the corners of a board in a warped picture are at the warped positions, by name.
 class WarpedCorners {
  public:
-  /// Returns the number of corners.
   std::size_t Expect(const std::vector<SeenCorner>& seen, const glm::dmat3& to_source) {
     for (const SeenCorner& each : seen) {
       const glm::dvec3 p = to_source * glm::dvec3(each.pixel, 1);

@@ -54,7 +54,6 @@ std::vector<TreeState> Poses(int count, double step, double offset = 0) {
   return states;
 }
 
-// Returns the largest distance of any point in any frame.
 double LargestError(const MeasurableBody& body, const BundleSolution& found, const MeasurableBody& true_body,
                     const std::vector<TreeState>& truth) {
   double largest = 0;

@@ -16,7 +16,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Returns all twelve parameters as an array.
 std::array<double, 12> Listed(const CameraParameters& p) {
   return {p.focal_length, p.delta_u, p.delta_v, p.principal_u, p.principal_v, p.skew,
           p.omega,        p.phi,     p.kappa,   p.t.x,         p.t.y,         p.t.z};

@@ -41,7 +41,6 @@ std::vector<std::string> Spoilt(const std::string& text) {
 
 Result<RigFile> ReadRigText(const std::string& text) { return ReadRigFile(text, "rig"); }
 
-/// Returns one camera for each kind of lens, in round numbers.
 std::vector<NamedCamera> CamerasOfAllKinds() {
   std::vector<NamedCamera> cameras;
   const std::vector<Distortion> lenses = {

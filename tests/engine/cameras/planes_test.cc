@@ -25,7 +25,6 @@ std::vector<Camera> TrueCameras() {
   return cameras;
 }
 
-/// Returns a random pose of a board of 7 × 5 corners.
 CalibrationTargetPose AnyPose(RandomStream& dice) {
   const glm::dquat turn = glm::angleAxis(dice.Uniform(-0.6, 0.6), glm::dvec3(0, 1, 0)) *
                           glm::angleAxis(dice.Uniform(-0.6, 0.6), glm::dvec3(1, 0, 0)) *

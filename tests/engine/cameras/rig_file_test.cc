@@ -25,7 +25,6 @@ std::vector<NamedCamera> TwoCameras() {
   return {{"left", left}, {"26 578: right", right}};
 }
 
-/// Checks that two cameras show every point at the same pixel.
 void ExpectSamePictures(const Camera& a, const Camera& b, double tolerance_px) {
   for (int i = 0; i < 20; ++i) {
     const glm::dvec3 point(0.3 * (i % 3) - 0.3, 0.1 * i, 0.2 * (i % 5) - 0.4);
@@ -150,7 +149,6 @@ TEST(RigFile, RefusesALensThatItCannotRead) {
               HasSubstr("fisheye is yes; allowed: true, false"));
 }
 
-/// Returns a matrix in the format of cv::FileStorage.
 std::string OpenCvMatrix(const std::string& name, std::size_t rows, const std::vector<double>& values) {
   return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {:.17g} ]\n", name, rows,
                      values.size() / rows, fmt::join(values, ", "));

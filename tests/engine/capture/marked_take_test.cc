@@ -79,7 +79,6 @@ TEST(MarkedTake, MakesAClipOfMarkedPicturesOfTwoCamerasOrThree) {
   }
 }
 
-/// Two cameras, exact marks, and the stages' options.
 struct Studio {
   std::vector<BodyPose> truth = Dance();
   std::vector<ProjectionMatrix> cameras = {ThreeCameras()[0], ThreeCameras()[1]};

@@ -17,7 +17,6 @@ std::vector<BodyPose> Poses(int count, double step = 0.02) {
 
 bool IsMarkedRole(Role role) { return role != Role::kHipCentre && role != Role::kSpine; }
 
-// Removes every mark of `role` in one frame of some cameras.
 void Hide(Role role, std::size_t frame, std::initializer_list<std::size_t> cameras, TakeMarks& marks) {
   for (const std::size_t camera : cameras) {
     Marks& of_frame = marks[camera][frame];

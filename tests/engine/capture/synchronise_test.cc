@@ -10,7 +10,6 @@
 namespace etude {
 namespace {
 
-/// Returns a moving body at any time.
 BodyPose PoseAtTime(double frame) { return ModelPose(0.15 * frame); }
 
 /// Returns the marks of cameras that are late by `offsets` frames.

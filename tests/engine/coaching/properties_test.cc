@@ -12,7 +12,6 @@
 namespace etude {
 namespace {
 
-/// Changes behaviour at random.
 void DoAnything(RandomStream& dice, SmallSession::Player& player) {
   if (dice.Chance(0.01)) player.seen = dice.Chance(0.8);
   if (dice.Chance(0.01)) player.moves = dice.Chance(0.7);

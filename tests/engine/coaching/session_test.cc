@@ -32,7 +32,6 @@ std::vector<TaughtMove> TaughtBy(const std::vector<Move>& moves) {
   return taught;
 }
 
-/// Everything that a session of the song "warm_up" needs.
 struct Studio {
   Song song = LoadBuiltinSong("warm_up").value();
   DanceLibrary library = DanceLibrary::Make(DanceOf(song).value()).value();

@@ -60,7 +60,6 @@ class SmallSession {
     state_ = coach_.BeginDancing();
   }
 
-  /// The player's behaviour from now on.
   struct Player {
     bool seen = true;
     bool moves = true;

@@ -8,7 +8,6 @@
 namespace etude {
 namespace {
 
-/// Reads keys of every kind.
 Result<void> ReadEveryKind(const std::string& text) {
   const Result<Node> node = ParseYaml(text, "t.yaml");
   if (!node) return tl::unexpected(node.error());

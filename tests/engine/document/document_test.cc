@@ -85,7 +85,6 @@ TEST(Document, RefusesBrokenOrHostileText) {
   EXPECT_THAT(Complaint(std::string(2 << 20, 'x')), HasSubstr("allowed: at most 1048576"));
 }
 
-// Nesting up to the limit is read; one level more is refused.
 TEST(Document, ReadsThirtyTwoLevelsAndNotOneMore) {
   const auto keys = [](int levels) {
     std::string text;

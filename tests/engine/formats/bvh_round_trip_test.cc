@@ -29,7 +29,6 @@ Clip Again(const Clip& clip) {
   return read ? *read : Clip{};
 }
 
-/// Returns the angle between two rotations, accurate near zero.
 double TurnBetween(const glm::dquat& a, const glm::dquat& b) {
   const glm::dquat turn = glm::conjugate(a) * b;
   return 2 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));

@@ -18,7 +18,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Returns a frame of a standing body, without rotations.
 std::vector<double> Standing(double duration = 0.04) {
   std::vector<double> frame = {duration, 0.5, 0.9, -0.25};
   const auto add = [&](std::initializer_list<double> numbers) { frame.insert(frame.end(), numbers); };

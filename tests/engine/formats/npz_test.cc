@@ -192,7 +192,6 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
               HasSubstr("poses of frame 1 rotates left_hip by 90 radians; allowed: at most 12.57 (4π); are they degrees?"));
 }
 
-/// Returns a take as Motive exports it.
 std::string MotiveTake(const std::string& unit = "Centimeters", const std::string& type = "Bone") {
   return "Format Version,1.23,Take Name,t,Capture Frame Rate,120.0,Export Frame Rate,60.0,Length Units," + unit +
          ",Coordinate Space,Global\r\n\r\n" + ",Type," + type + "," + type + "," + type + "," + type +

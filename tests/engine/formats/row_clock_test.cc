@@ -14,7 +14,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Returns the only marker's position on a curve.
 glm::dvec3 CurveAt(double time_s) { return {0.3 * std::sin(2 * time_s), 1 + 0.1 * std::cos(3 * time_s), time_s}; }
 
 /// Returns rows at these times, rounded to multiples of `printed` if it is above 0.

@@ -194,7 +194,6 @@ Take FilmedTake(const std::vector<LandmarkPositions>& motion, const std::vector<
   return take;
 }
 
-/// Returns the take in its first camera's frame.
 Take InFirstCamera(const std::vector<LandmarkPositions>& motion, const std::vector<NamedCamera>& cameras,
                    double noise_px, Dice& dice, bool only_ankles = false) {
   const Camera& first = cameras.front().camera;
@@ -206,7 +205,6 @@ struct Covered {
   double worst_deg = 0, sum_told_deg = 0;
 };
 
-/// Counts the takes whose truth lies within the reported angle.
 Covered Cover(int takes, std::uint64_t seed, double roll_deg, double noise_px) {
   Covered counted;
   for (int i = 0; i < takes; ++i) {

@@ -48,7 +48,6 @@ std::vector<LandmarkPositions> Stander(const Map& to_file, double lean_deg = 0) 
   return frames;
 }
 
-/// Returns a rig with the file's axes equal to ours.
 RigFile SomeRig() {
   RigFile rig;
   rig.cameras.push_back({"left", LookAt({}, {1, 2, 3}, {0, 1, 0})});

@@ -125,7 +125,6 @@ TEST(RecoverPerson, GivesExactKeypointsPlacesBackThroughLenses) {
   EXPECT_EQ(person->clip.frames.size(), kPersonFrames);
 }
 
-/// Returns one walker in all four cameras.
 std::vector<SeenPeople> OneWalker(const std::vector<Camera>& cameras, double sigma_px) {
   RandomStream dice = WalkersDice("one");
   std::vector<SeenPeople> people(cameras.size(), SeenPeople(kPersonFrames));

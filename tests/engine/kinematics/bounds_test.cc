@@ -44,7 +44,6 @@ TEST(OutOfReach, LeavesABillionthOfAMetreForRounding) {
   }
 }
 
-// Values at a bound and just beyond, and the messages.
 TEST(Faults, BeginRightBeyondTheirBounds) {
   const KinematicTree sound_tree = Body();
   const IkProblem sound = DisturbedProblem(sound_tree, RandomPose(sound_tree, 1, 1), 1, 10);

@@ -119,7 +119,6 @@ std::optional<double> ReachAbout(int joint, const glm::dvec3& axis, const std::v
   return std::nullopt;
 }
 
-// Mirrors a movement of the right limb to the left.
 glm::dvec3 Mirrored(const glm::dvec3& axis) { return {axis.x, -axis.y, -axis.z}; }
 
 TEST(JointLimits, PosedBodiesMoveAsFarAsTheTableSaysOnBothSides) {

@@ -57,7 +57,6 @@ BodyMotion Hopping(double rate_hz, double seconds = 6) {
   return motion;
 }
 
-/// Returns a person who sways on both feet.
 BodyMotion Swaying(double rate_hz, double seconds = 6) {
   BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
   for (int f = 0; f < seconds * rate_hz; ++f) {

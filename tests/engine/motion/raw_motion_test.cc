@@ -5,7 +5,6 @@
 namespace etude {
 namespace {
 
-/// Returns one joint that moves along X by a metre per frame.
 RawMotion Striding(double rate_hz, std::size_t frames) {
   RawMotion motion{.rate_hz = rate_hz, .joints = {"a"}};
   for (std::size_t f = 0; f < frames; ++f) motion.positions.emplace_back(static_cast<double>(f), 0, 0);

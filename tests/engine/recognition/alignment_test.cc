@@ -102,7 +102,6 @@ TEST(SubsequenceAligner, TakesNoPathThatIsTooLong) {
   EXPECT_GT(hasty.Cost(), 0);
 }
 
-/// Returns the largest distance of a part between two poses.
 double Apart(const PoseVector& a, const PoseVector& b) {
   double worst = 0;
   for (std::size_t i = 0; i < kPosePartCount; ++i) worst = std::max(worst, glm::distance(a.parts[i], b.parts[i]));

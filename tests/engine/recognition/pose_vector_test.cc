@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kHeadPart = 0, kLeftWristPart = 5, kRightUpperArmPart = 4, kHipLift = 11;
 
-/// Returns the last step of a stream, weighted by visibility.
 PoseVector Described(const SkeletonStream& stream, PoseParts parts) {
   LiveSight sight({}, stream.rate_hz);
   StepDescriber describer(parts, {.weighting = Weighting::kAdaptive}, stream.rate_hz);

@@ -48,12 +48,10 @@ inline BodyMotion Swing(double left, double right, double seconds, double size =
   return motion;
 }
 
-/// Returns a motion of a body that stands still.
 inline BodyMotion Rest(double seconds, double size = 1, const FloorMove& move = {}) {
   return Swing(0, 0, seconds, size, move);
 }
 
-/// Returns a recording of the motions in sequence.
 inline SkeletonStream Then(const std::vector<BodyMotion>& motions) {
   BodyMotion all;
   for (const BodyMotion& motion : motions) all.poses.insert(all.poses.end(), motion.poses.begin(), motion.poses.end());

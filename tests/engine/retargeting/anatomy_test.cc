@@ -13,7 +13,6 @@ namespace {
 
 using enum Role;
 
-/// Returns the person with meaningless joint names.
 Skeleton Nameless(Skeleton skeleton = testing::PersonSkeleton()) {
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) skeleton.joints[i].name = "Q" + std::to_string(i);
   return skeleton;

@@ -310,7 +310,6 @@ TEST(JointMap, ComposedPointsTurnWithTheirJoint) {
   ExpectNear(Evaluate(*map, globals)[kLeftHand], {72, 155, 0});
 }
 
-/// Returns the shortest rotation from +X to `direction`.
 glm::dquat FromX(const glm::dvec3& direction) {
   const glm::dvec3 to = glm::normalize(direction);
   if (to.x < -0.999) return testing::Turn(std::numbers::pi, {0, 0, 1});

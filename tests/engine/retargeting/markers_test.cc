@@ -139,7 +139,6 @@ BodyPose Lying(std::size_t frame) {
   return Stirred(pose, frame);
 }
 
-/// On hands and knees, along +Z.
 BodyPose Crawling(std::size_t frame) {
   using enum Role;
   BodyPose pose;
@@ -175,7 +174,6 @@ BodyPose OnHands(std::size_t frame) {
   return Stirred(pose, frame);
 }
 
-/// Walks along X: the feet stand in turn.
 BodyPose Walking(std::size_t frame) {
   BodyPose pose = StandingAt(0);
   const double t = 0.05 * static_cast<double>(frame);  // position in the walk, steps

@@ -29,7 +29,6 @@ struct Scheme {
 
 std::string Filled(std::string pattern, const std::string& name) { return pattern.replace(pattern.find('*'), 1, name); }
 
-/// Returns PersonSkeleton with a scheme's names.
 Skeleton Named(const Scheme& scheme) {
   Skeleton person = testing::PersonSkeleton();
   const auto rename = [&](const std::string& from, const std::string& to) {

@@ -11,7 +11,6 @@ namespace {
 
 using testing::AtRest;
 
-/// Returns a person with `factor` units per centimetre.
 Skeleton PersonTimes(double factor) {
   Skeleton person = testing::PersonSkeleton();
   for (Joint& joint : person.joints) joint.rest.translation *= factor;

@@ -17,10 +17,8 @@ BodyPose Turned(BodyPose pose, double radians, const glm::dvec3& axis, const glm
   return pose;
 }
 
-/// Returns a body that stands along Z and faces −Y.
 BodyPose StandingAlongZ(const glm::dvec3& shift = {}) { return Turned(Standing(), kPi / 2, {1, 0, 0}, shift); }
 
-/// A folded rest pose, along neither Y nor Z.
 BodyPose Folded() { return Turned(Standing(), kPi / 2, {0, 0, 1}); }
 
 UpAxis FindUpAxis(const BodyPose& rest, std::span<const BodyPose> poses) {

@@ -30,7 +30,6 @@ inline TreeState Bent(const SilhouetteBody& body, const std::vector<Bend>& bends
   return state;
 }
 
-/// A ball in a camera's view.
 struct SeenBall {
   glm::dvec3 centre;  ///< from the camera, in the world's axes, metres
   double radius;

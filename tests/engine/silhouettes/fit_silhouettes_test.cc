@@ -32,7 +32,6 @@ double MeanError(const BodyPose& a, const BodyPose& b) {
   return sum / kRoleCount;
 }
 
-// A frame of a body, seen by cameras.
 struct Shown {
   std::vector<Camera> cameras;
   std::vector<Silhouette> silhouettes;

@@ -72,7 +72,6 @@ void Tell(std::vector<std::string>& told, const std::string& text, const StreamR
   told.push_back(fmt::format("  live: {} frames{}", frames.size(), taken ? "" : "; " + ToString(taken.error())));
 }
 
-/// Returns the text with a line changed or removed.
 std::string WithLine(const std::string& text, int number,
                      const std::function<std::string(const std::string&)>& change) {
   std::istringstream lines(text);

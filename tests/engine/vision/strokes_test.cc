@@ -64,7 +64,6 @@ TEST(ReadMarks, FindsTheEndsOfALimbNotThoseOfThePen) {
   EXPECT_NEAR(beyond_b, 0, 0.25);
 }
 
-// Sets every pixel whose centre is in the disc.
 void DrawDisc(ColourImage& picture, const EffectorMark& mark, const glm::dvec2& centre) {
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {

@@ -27,7 +27,6 @@ std::vector<std::string> LineSeeds() {
           R"({"type":"no_answer","id":"1","reason":"why"})"};
 }
 
-/// Returns a world of a task, made once.
 const SpecimenProblem& ProblemOf(const char* task) {
   static std::map<std::string, std::vector<Specimen>> specimens;
   auto& made = specimens[task];

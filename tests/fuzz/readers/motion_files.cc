@@ -53,7 +53,6 @@ std::string SmallBvh(int frames) {
   return text;
 }
 
-/// Returns the BVH file of a person who stands still.
 std::string PersonBvh() { return WriteBvh(testing::AtRest(testing::PersonSkeleton(), 2)); }
 
 std::vector<std::string> BvhSeeds() { return {SmallBvh(1), SmallBvh(4), PersonBvh()}; }
@@ -154,7 +153,6 @@ void AcclaimMotionFile(std::string_view bytes) {
   if (clip) MakeBody(*clip);
 }
 
-/// Two frames of AMASS.
 std::string AmassSeed() {
   return WriteNpz({{"poses", {.shape = {2, 72}, .values = std::vector<double>(144, 0.1)}},
                    {"trans", {.shape = {2, 3}, .values = std::vector<double>(6, 1)}},

@@ -137,7 +137,6 @@ TEST(Canvas, BecomesI420AsBt601HasIt) {
   }
 }
 
-// Returns a frame that shows its number.
 Canvas Numbered(int frame) {
   Canvas canvas(64, 32);
   canvas.FillBox({0, 0, 64, 32}, {(frame % 10) / 10.0, frame / 100.0, 0.5});

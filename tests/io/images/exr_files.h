@@ -36,7 +36,6 @@ class ExrFile {
     }
     return normals;
   }
-  /// Returns the linear light as 8-bit colours.
   ColourImage Colour() {
     const auto r = Read<half>(Imf::HALF, "R"), g = Read<half>(Imf::HALF, "G"), b = Read<half>(Imf::HALF, "B");
     ColourImage colour(r.width, r.height);

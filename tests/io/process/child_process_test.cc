@@ -28,7 +28,6 @@ void WaitForOutput(const ChildProcess& child) {
   ::poll(events, child.HasUnsent() ? 2 : 1, 5000);
 }
 
-/// Reads until the child ends; returns its lines.
 std::vector<std::string> LinesUntilEnd(ChildProcess& child) {
   std::vector<std::string> lines;
   for (bool alive = true; alive;) {

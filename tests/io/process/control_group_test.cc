@@ -108,7 +108,6 @@ TEST_F(FakeGroups, NoGroupIsMadeWhereNoLimitCanBeSet) {
   EXPECT_TRUE(fs::is_empty(top_)) << "it takes away what it made";
 }
 
-/// Returns a program that takes `mb` MB and waits.
 ChildOptions Taker(const ControlGroup& group, int mb) {
   return {.program = "python3",
           .arguments = {"-c", "import sys\nheld = bytearray(b'x') * (" + std::to_string(mb) +

@@ -13,7 +13,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Returns the points of a panel's first line.
 std::vector<std::pair<double, double>> PointsOf(const std::string& svg) {
   const std::size_t begin = svg.find(" points=\"") + 9;
   const std::string text = svg.substr(begin, svg.find('"', begin) - begin);

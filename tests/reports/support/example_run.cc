@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kTrials = 12;
 
-/// The figures of one method under one condition.
 struct MethodPlan {
   std::string method;
   double median;

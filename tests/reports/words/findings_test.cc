@@ -28,7 +28,6 @@ Comparison Figures(int pairs, std::optional<double> difference, std::optional<do
   return comparison;
 }
 
-/// One condition, "adaptive" against "fixed".
 ScenarioSummary OneComparison(Comparison comparison, std::vector<std::string> methods = {"fixed", "adaptive"}) {
   comparison.metric = "orientation_error_deg";
   comparison.baseline = "fixed";

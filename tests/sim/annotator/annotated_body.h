@@ -74,7 +74,6 @@ inline BodyPose StandingBody() {
 inline Intrinsics NarrowPicture() { return {.width = 300, .height = 400, .cx = 150, .cy = 200}; }
 
 inline Camera FrontCamera() { return LookAt(NarrowPicture(), {1.5, 1.4, 3.5}, {0, 0.95, 0}); }
-/// Returns a camera on the person's left.
 inline Camera SideCamera() { return LookAt(NarrowPicture(), {3.8, 1.2, 0}, {0, 0.95, 0}); }
 
 inline std::size_t StrokeTo(Role role) {

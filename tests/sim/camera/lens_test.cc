@@ -180,7 +180,6 @@ Painter Board(const CameraModel& model) {
   };
 }
 
-/// Interpolates brightness between four pixels.
 double LightBetween(const ColourImage& picture, const glm::dvec2& at) {
   const int x = static_cast<int>(std::floor(at.x - 0.5)), y = static_cast<int>(std::floor(at.y - 0.5));
   const double right = at.x - 0.5 - x, down = at.y - 0.5 - y;

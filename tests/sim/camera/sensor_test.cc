@@ -237,7 +237,6 @@ struct Statistics {
   double mean = 0, variance = 0;
 };
 
-// Measures one colour, in linear light.
 Statistics Measure(const ColourImage& picture, char colour) {
   double sum = 0, squares = 0;
   for (int y = 0; y < picture.height; ++y) {

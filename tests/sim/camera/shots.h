@@ -12,7 +12,6 @@ namespace etude {
 
 inline constexpr WorldKey kShotWorld{.suite_seed = 7, .scenario = "camera", .trial = 0};
 
-/// Returns camera effects without any effect or noise.
 inline CameraEffects NoEffects() { return {.noise = 0}; }
 
 inline Camera PlainCamera(int width = 640, int height = 480) {

@@ -11,7 +11,6 @@ namespace {
 
 constexpr Ease kAllEases[] = {Ease::kSmooth, Ease::kLinger, Ease::kRush, Ease::kSnap, Ease::kStep};
 
-/// Returns keys with every ease.
 std::vector<PeriodicCurve::Key> RandomKeys(RandomStream& random) {
   std::vector<PeriodicCurve::Key> keys;
   double at = random.Uniform(0, 0.3);

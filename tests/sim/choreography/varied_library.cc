@@ -74,7 +74,6 @@ Directions DirectionsOf(const BodyPose& pose) {
   return directions;
 }
 
-/// The mean pose of a motion.
 struct MeanPose {
   Directions directions{};
   double hip_height = 0;
@@ -113,7 +112,6 @@ BodyPose PoseAt(const BodyMotion& motion, double frame) {
   return pose;
 }
 
-/// The style in which a dancer performs a clip.
 struct Style {
   Oscillation tempo;
   std::array<Oscillation, kPartCount> amplitudes;

@@ -9,7 +9,6 @@
 
 namespace etude {
 
-/// Returns every built-in move.
 inline const std::vector<Move>& AllMoves() {
   static const std::vector<Move> moves = [] {
     std::vector<Move> loaded;

@@ -163,7 +163,6 @@ TEST(Learner, MovesSmoothlyThroughWhateverIsShown) {
   EXPECT_LT(worst, 0.3);
 }
 
-/// Returns faults and severities of every attempt at a move.
 std::vector<std::string> LuckOf(const Learner& learner, std::size_t move) {
   std::vector<std::string> luck;
   for (const LearnerPerformance& performance : learner.performances()) {

@@ -8,7 +8,6 @@
 
 namespace etude {
 
-/// The first surface that a viewing ray hits.
 struct Sight {
   std::uint32_t label = 0;
   double depth = std::numeric_limits<double>::infinity();

@@ -35,7 +35,6 @@ void Add(const Image<Pixel>& image, Digest& digest) {
       std::span(reinterpret_cast<const std::uint8_t*>(image.pixels.data()), image.pixels.size() * sizeof(Pixel)));
 }
 
-// Returns the dancer, moved and turned.
 std::vector<Capsule> Moved(double x, double z, double turn) {
   std::vector<Capsule> shape = Dancer();
   const auto move = [&](glm::dvec3& p) {

@@ -42,7 +42,6 @@ Surface Sheet(const std::array<glm::dvec3, 4>& corners, Part part, Rgb8 colour =
           .colour = colour};
 }
 
-// Returns a sheet of 1 × 1 m that faces +Z.
 Surface FacingSheet(Part part) { return Sheet({{{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 1.5, 0}, {-0.5, 1.5, 0}}}, part); }
 
 int WorstJointDistance(Rgb8 a, Rgb8 b) {

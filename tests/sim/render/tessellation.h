@@ -40,7 +40,6 @@ inline Surface Tessellate(const Capsule& capsule, Rgb8 colour, int around) {
   return surface;
 }
 
-/// Tessellates every capsule of a body.
 inline std::vector<Surface> Tessellate(const std::vector<Capsule>& shape, const PartColours& colours, int around) {
   std::vector<Surface> surfaces;
   for (const Capsule& capsule : shape) {

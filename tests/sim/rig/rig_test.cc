@@ -18,7 +18,6 @@ using ::testing::Each;
 
 WorldKey Trial(int trial) { return {.suite_seed = 5, .scenario = "rig-test", .trial = trial}; }
 
-/// Returns a person who slides from `from` to `to`.
 std::vector<BodyPose> Walk(const glm::dvec3& from, const glm::dvec3& to) {
   std::vector<BodyPose> motion;
   for (int i = 0; i <= 20; ++i) {

@@ -23,7 +23,6 @@ std::vector<Camera> Cameras() {
   return {LookAt({}, {-2.4, 1.0, 2.9}, {0, 0.95, 0}), LookAt({}, {2.4, 2.2, 2.9}, {0, 0.95, 0})};
 }
 
-/// Returns the cameras with a quarter of the pixels.
 std::vector<Camera> SmallCameras() {
   std::vector<Camera> cameras = Cameras();
   for (Camera& camera : cameras) {

@@ -25,7 +25,6 @@ std::string GreyPng(const Image<std::uint8_t>& values) {
   return EncodePng(picture);
 }
 
-/// Returns a rectangle of `value` on 0.
 Image<std::uint8_t> Rectangle(int left, int right, std::uint8_t value, int width = kWidth) {
   Image<std::uint8_t> values(width, kHeight);
   for (int y = 10; y < 50; ++y) {

@@ -81,7 +81,6 @@ TEST(ClipActorTest, TheBearKeepsItsProportionsAndTheMannequinTheActors) {
 
 constexpr Box kBox{10, 20, 100, 140};
 
-/// Returns true if the whole figure is seen within the box.
 bool IsInside(const Studio& studio, const Figure& placed) {
   bool inside = true;
   for (const Capsule& capsule : placed.shape) {

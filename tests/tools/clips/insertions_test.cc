@@ -37,7 +37,6 @@ struct TriedClip {
   bool IsDrawn() const { return name.find(".glb") != std::string::npos; }
 };
 
-/// A fault that was put into a motion.
 struct Inserted {
   double from_s = 0, to_s = 0;
   std::optional<Role> joint = {};
@@ -191,7 +190,6 @@ double Eased(const BodyMotion& motion, int f, const std::pair<int, int>& window)
   return std::clamp(std::min(f - window.first, window.second - f) / (kEase_s * motion.rate_hz), 0.0, 1.0);
 }
 
-/// A knee bends backwards by 30° for a second.
 std::optional<Inserted> BentKnee(BodyMotion& motion, RandomStream& dice) {
   const auto window = Window(motion, 1.5, dice);
   if (!window) return std::nullopt;
@@ -319,7 +317,6 @@ const std::vector<Kind>& Kinds() {
   return kinds;
 }
 
-/// Returns true if `fault` is the inserted one.
 bool Tells(const MotionFault& fault, FaultKind kind, const Inserted& inserted) {
   // A torn part also pops when it leaves its place and when it returns.
   const bool is_kind = fault.kind == kind || (kind == kTorn && fault.kind == kPops);

@@ -12,7 +12,6 @@
 namespace etude {
 namespace {
 
-/// Returns a sensor unlike both presets.
 SkeletonSensorOptions Unknown() {
   SkeletonSensorOptions sensor = SensorV2();
   sensor[JointGroup::kTorso].size = 0.015;

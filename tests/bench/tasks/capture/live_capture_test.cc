@@ -30,7 +30,6 @@ Told PosesOf(const std::vector<std::optional<RecoveredFrame>>& frames) {
   return poses;
 }
 
-/// Captures the whole take at once.
 Told Whole(const StudioOptions& options, const CaptureMethod& method, const std::vector<BodyPose>& motion) {
   CaptureWorld world = MakeStudio(options, BookingOf(motion), kLiveKey);
   world.truth = motion;

@@ -15,7 +15,6 @@ namespace {
 
 using enum Role;
 
-// Returns a world of one standing frame and one camera.
 CaptureWorld StandingWorld() {
   CaptureWorld world{.truth = {StandingBody()}, .cameras = {FrontCamera()}};
   return world;

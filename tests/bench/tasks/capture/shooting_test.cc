@@ -51,7 +51,6 @@ CaptureWorld WorldOf(std::vector<BodyPose> poses) {
 
 constexpr WorldKey kShootingKey{.suite_seed = 5, .scenario = "shooting", .trial = 0};
 
-// A late camera's pictures equal those that a camera at the same place takes at that later time.
 TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
   ASSERT_OK(renderer, SharedRenderer());
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.05 * k; }));
@@ -99,7 +98,6 @@ TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
   }
 }
 
-// Each band of a rolling shutter equals the same rows of the whole picture at that band's time.
 TEST(Shooting, RollsExactlyBandByBand) {
   ASSERT_OK(renderer, SharedRenderer());
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.08 * k; }));

@@ -112,7 +112,6 @@ INSTANTIATE_TEST_SUITE_P(Seats, WrongAnswers,
                                            WrongAnswer{Seat::kLearner, R"({"right": true})", "pose"},
                                            WrongAnswer{Seat::kLearner, R"({"pose": [1, 2]})", "pose"}));
 
-/// Gives the same answers as a built-in recogniser.
 TEST(Seats, ABuiltInRecogniserPutInItsSeatDecidesTheSame) {
   const CoachStage& stage = StageOf("groove");
   CoachCondition condition = ConditionOf("groove", 40, 1);

@@ -115,7 +115,6 @@ TEST(CoachSession, SeesByCamerasWhoseEveryStageIsTrueWhatAPerfectSensorSees) {
   }
 }
 
-/// Corrects at the given frames.
 class At final : public MomentSource {
  public:
   explicit At(std::vector<int> frames) : frames_(std::move(frames)) {}

@@ -34,7 +34,6 @@ class DetectionExchange : public DetectionFixture {
   }
 };
 
-/// Reads the stream of a problem as an outside method does.
 SkeletonStream StreamOf(const Json& problem) {
   SkeletonStream stream{.rate_hz = problem["rate_hz"], .frames = {}};
   for (const Json& told : problem["frames"]) {

@@ -15,7 +15,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// Returns a standing body that glides along Z at 0.3 m/s.
 RawMotion Gliding(double rate_hz, std::size_t frames) {
   RawMotion motion;
   motion.name = "gliding";

@@ -125,7 +125,6 @@ RawMotion Turning() {
   return motion;
 }
 
-/// Returns the angle between two rotations, radians.
 double Apart(const glm::dquat& a, const glm::dquat& b) {
   return 2 * std::acos(std::min(1.0, std::abs(glm::dot(a, b))));
 }

@@ -27,7 +27,6 @@ double Metric(const CellResult& cell, const std::string& id) { return ValueOf(ce
 
 const WorldKey kWorld{.suite_seed = 1, .scenario = "test", .trial = 0};
 
-/// Returns the cells of three methods in one world.
 std::vector<CellResult> CellsOf(const Task& task) { return RunWorld(task, kWorld, 3); }
 
 TEST(IkTask, GivesEveryMethodACellWithAllMetrics) {

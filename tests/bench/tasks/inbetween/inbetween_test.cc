@@ -16,7 +16,6 @@ using ::testing::HasSubstr;
 
 constexpr const char* kFiles = "truth: [assimp:01_03], training: [assimp:01_01], rate_hz: 30";
 
-/// A task of one method, with its windows.
 struct Study {
   std::vector<JudgedFiles> windows;
   std::unique_ptr<Task> task;

@@ -76,7 +76,6 @@ class TransitionExchange : public TransitionFixture {
     return PoseGapCm(point.leaving, point.arriving);
   }
 
-  /// Judges an answer after it went through text, like a program's.
   static Result<CellResult> JudgeText(TaskWorld& world, const Json& answer) {
     return world.Judge(*ReadJson(*WriteJson(answer), "answer"));
   }

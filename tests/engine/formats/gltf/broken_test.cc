@@ -204,7 +204,6 @@ TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {
   }
 }
 
-// Files that exist: a parser with its own file access would find them.
 TEST(BrokenGltf, CannotReadAFileBesideItsFolder) {
   const std::filesystem::path beside = std::filesystem::path(::testing::TempDir()) / "etude_beside_its_folder.bin";
   std::ofstream(beside, std::ios::binary) << SmallBinary();

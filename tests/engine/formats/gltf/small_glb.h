@@ -23,7 +23,6 @@ std::string RawBytes(std::initializer_list<T> values) {
 
 inline std::string Floats(std::initializer_list<float> values) { return RawBytes(values); }
 
-/// Returns a GLB file of these two parts, padded as required.
 inline std::string Glb(std::string json, std::string binary = "") {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   binary.resize((binary.size() + 3) / 4 * 4, '\0');
@@ -82,7 +81,6 @@ inline std::string SmallBinary() {
 
 inline std::string SmallGlb() { return Glb(std::string(kSmallGltf), SmallBinary()); }
 
-/// Reads the content of a file that must be readable.
 inline GltfContent Read(const std::string& bytes, const FetchFile& fetch = {}) {
   auto content = ReadGltf(bytes, "test.glb", fetch);
   EXPECT_TRUE(content) << (content ? "" : ToString(content.error()));

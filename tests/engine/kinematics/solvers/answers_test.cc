@@ -12,7 +12,6 @@
 namespace etude {
 namespace {
 
-/// Sums of many runs.
 struct Runs {
   std::array<int, 5> ends{};  ///< by IkStatus
   int iterations = 0, evaluations = 0;

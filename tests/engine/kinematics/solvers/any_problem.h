@@ -16,7 +16,6 @@ inline IkOptions Tightly(int max_iterations = 1000) {
   return options;
 }
 
-/// Statistics of many trials.
 struct SolvedMany {
   int solved = 0, outside = 0;
   double hidden = 0;  ///< root mean square angle error, in units of the noise

@@ -132,7 +132,6 @@ TEST(GaussNewton, StretchesALimbTowardsATargetOutOfReach) {
   EXPECT_NEAR(solution.errors[0].position, nearest, 1e-6);
 }
 
-// Returns the sum of squares that the solver minimises.
 double SquaresAt(const IkProblem& problem, std::span<const double> angles) {
   TreeState state = problem.start;
   state.angles.assign(angles.begin(), angles.end());

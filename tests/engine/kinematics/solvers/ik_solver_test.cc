@@ -84,7 +84,6 @@ TEST_P(EverySolver, AnswersManyAsItAnswersEach) {
   }
 }
 
-// Earlier problems, also bad ones or ones with other options, must not matter.
 TEST_P(EverySolver, AnswersPreparedAsItAnswersEach) {
   const auto prepared = Prepare(*FindIkSolver(GetParam()), Body());
   IkProblem bad = FarProblem(0);
@@ -309,7 +308,6 @@ TEST(Solvers, TakeTheSettingsThatTheyDescribe) {
   EXPECT_GE(settings, 8);  // or no solver had settings
 }
 
-// The documented ranges: their values are accepted, values outside are refused.
 TEST(Solvers, TakeSettingsInTheRangesThatAreDocumented) {
   struct Range {
     std::string solver, key;

@@ -106,7 +106,6 @@ class Screws {
     }
   }
 
-  // Returns the frame of a limb.
   glm::dmat4 LimbFrame(int joint) const { return Movement(joint, tree_.joints[joint].dof_count) * at_zero_[joint]; }
 
   // Returns the velocity and rotation vector that one radian of an angle gives to a point below it.

@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kRate = kJudgedRateHz;
 
-/// A body with still limbs glides forward (+Z).
 BodyMotion Gliding(int frames, double metres_per_s) {
   BodyMotion motion = StandingClip(frames, 20);
   for (int f = 0; f < frames; ++f) motion.poses[f] = FloorMove{.z = metres_per_s * f / kRate}.Apply(motion.poses[f]);

@@ -98,7 +98,6 @@ TEST(PlanSteps, LetsFeetThatMustTravelGoOneAfterTheOther) {
   EXPECT_TRUE(steps[0].end <= steps[1].begin || steps[1].end <= steps[0].begin);
 }
 
-/// Lifts a foot from frame `first` to `last`, inclusive.
 void Lift(Role foot, int first, int last, std::vector<BodyPose>& poses) {
   const Role ankle = *ParentOf(foot);
   for (int f = first; f <= last; ++f) {
