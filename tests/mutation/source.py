@@ -13,7 +13,7 @@ class Code:
         self.tokens = tokenize(text)
         self.skipped = self._skipped()
 
-    # --- what is no code that runs -------------------------------------------------------------------------------
+    # --- code that does not run ----------------------------------------------------------------------------------
     def _skipped(self):
         skipped = [False] * len(self.tokens)
 

@@ -106,7 +106,7 @@ TEST(FindRival, AsksTheNextMetricOfWhatTheFirstDoesNotTellApart) {
 }
 
 TEST(FindRival, ChoosesOnOtherWorldsThanThoseItIsJudgedOn) {
-  // c is chosen on worlds where b is best, and vice versa: choosing on the judged worlds would reward luck.
+  // c is chosen on the worlds where b is best, and vice versa, because choosing on the judged worlds rewards luck.
   const Study study = StudyOf(ParseOne(kRivalYaml));
   const ScenarioTable table = TableOf(study, [](const std::string& method, int trial) {
     if (method == "a") return 5.0;

@@ -23,7 +23,7 @@ Camera ACamera() {
 
 DepthImage Flat(double z) { return DepthImage(kDepthWidth, kDepthHeight, static_cast<float>(z)); }
 
-/// Returns a near surface from column 200 on, and a far one before.
+/// Returns a near surface in the columns from 200 on, and a far one in the others.
 DepthImage StepEdge(double near, double far) {
   DepthImage depth = Flat(far);
   for (int y = 0; y < kDepthHeight; ++y) {

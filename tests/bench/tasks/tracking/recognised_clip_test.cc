@@ -80,7 +80,7 @@ std::vector<std::vector<double>> LookUp(const TrackingWorld& world, const std::v
   }
   std::vector<std::vector<double>> angles;
   std::vector<AngleRange> ranges = world.tree.limits;
-  for (std::size_t k = 0; k < asked.size(); ++k) {  // the frames that the problem asks for, as worlds are made
+  for (std::size_t k = 0; k < asked.size(); ++k) {  // solve each frame within the speed limits, as worlds do
     const double frame = best_start + 30 / rate_hz * best_pace * static_cast<double>(k);
     const auto state = FindStartState(world.tree, PoseOfClip(best->motion.poses, frame), ranges);
     angles.push_back(state ? state->angles : angles.back());

@@ -67,7 +67,7 @@ TEST(GltfMesh, FollowsItsBonesNotItsNode) {
   ComputeGlobals(moved.character.skeleton, moved.clips.at(0).frames.at(1), globals);  // bent forward by 90°
   const DeformedMesh deformed = Deform(OnlyMesh(moved), globals);
   EXPECT_LT(glm::length(deformed.positions[0] - glm::dvec3(0, 1, 0)), 1e-7);      // bound to the hips
-  EXPECT_LT(glm::length(deformed.positions[2] - glm::dvec3(0, 1.5, 0.5)), 1e-7);  // 0.5 above the spine, now before it
+  EXPECT_LT(glm::length(deformed.positions[2] - glm::dvec3(0, 1.5, 0.5)), 1e-7);  // 0.5 above the spine, now 0.5 ahead
 }
 
 TEST(GltfMesh, WithoutASkinHangsOnItsNode) {
