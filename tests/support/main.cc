@@ -9,8 +9,7 @@ namespace {
 
 constexpr std::string_view kHeavy = "HEAVY_";  // prefix of tests that only `scripts/test --full` runs
 
-// Returns a filter for the heavy or the other tests whose files are directly in a folder of tests/; "" if there are
-// none.
+// Returns a filter for the heavy or the other tests with files directly in a folder of tests/; "" without any.
 std::string TestsOf(const std::string& folder, bool heavy) {
   std::string filter;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();

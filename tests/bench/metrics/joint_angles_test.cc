@@ -81,8 +81,7 @@ TEST(AnglesOfRotations, AKneeBendsAsFarAsItIsBent) {
 
 TEST(AnglesOfRotations, LegsAreLiftedAheadAndOutwards) {
   RawMotion motion = RestingBody(0);
-  // At rest the thigh hangs outwards by atan(0.02 / 0.45) = 2.54°. The neutral pose has a vertical thigh, so angles
-  // count from there.
+  // At rest the thigh hangs outwards by atan(0.02 / 0.45) = 2.54°; angles count from the vertical of the neutral pose.
   AddFrame(motion, {{motion.roles[Index(Role::kLeftHip)], AboutX(-30) * AboutZ(20) * AboutY(-10)},
                     {motion.roles[Index(Role::kRightHip)], AboutX(-30) * AboutZ(-20) * AboutY(10)}});
   const AngleTracks angles = AnglesOfRotations(motion);

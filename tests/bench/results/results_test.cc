@@ -85,8 +85,7 @@ TEST(WriteJson, RefusesWhatJsonCannotHoldAndNamesItsPath) {
   EXPECT_EQ(testing::Message(WriteJson(json)), "/a/1/b is not a finite number");
 }
 
-// Every field has a different value, so that swapped fields are noticed. The second scenario and condition lack the
-// optional fields.
+// Every field differs, so that swapped fields are noticed. The second scenario and condition lack optional fields.
 TEST(Summary, SurvivesTheWayFromAFileAndBack) {
   ASSERT_OK(file, ReadJsonFile(std::filesystem::path("tests/bench/results/summary.json")));
   ASSERT_OK(scenarios, DecodeSummaries(*file, kPlace));

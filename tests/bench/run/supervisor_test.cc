@@ -208,8 +208,7 @@ TEST_F(SupervisorTest, AWorkerWhoseAnswersCannotBeWrittenEnds) {
   }
 }
 
-/// A scenario with an outside metric. A test's workers are scripts: what they answer to a world, and to an answered
-/// cell.
+/// A scenario with an outside metric. Workers are scripts: what they answer to a world, and to an answered cell.
 class MeasuringSupervisorTest : public SupervisorTest {
  protected:
   MeasuringSupervisorTest()

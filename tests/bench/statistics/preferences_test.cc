@@ -49,8 +49,7 @@ TEST(BradleyTerry, GivesEqualStrengthsToASymmetricRoundRobin) {
 }
 
 TEST(BradleyTerry, RecoversPlantedStrengths) {
-  // Strengths .1, .2, .3, .4 are recovered exactly from expected wins, and within three standard errors from drawn
-  // wins.
+  // Strengths .1, .2, .3, .4 are recovered exactly from expected wins; from drawn wins within three standard errors.
   const std::vector<double> planted = {0.1, 0.2, 0.3, 0.4};
   WinTable exact(4, std::vector<double>(4)), drawn = exact;
   RandomStream dice({7, "planted", 0}, "wins");

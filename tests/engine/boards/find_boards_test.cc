@@ -105,8 +105,8 @@ ColourImage Photograph(const std::vector<Shown>& boards, const Camera& camera, d
   return picture;
 }
 
-/// Returns a board in front of the camera at the origin, `distance` away, turned by `roll` in its plane and by `slant`
-/// out of it.
+/// Returns a board `distance` in front of the camera at the origin, turned by `roll` in its plane, by `slant` out of
+/// it.
 Standing Before(const Board& board, double distance, double roll, double slant) {
   const glm::dvec3 right(std::cos(roll) * std::cos(slant), std::sin(roll), std::cos(roll) * std::sin(slant));
   glm::dvec3 down(-std::sin(roll) * std::cos(slant), std::cos(roll), -std::sin(roll) * std::sin(slant));

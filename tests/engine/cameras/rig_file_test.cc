@@ -86,8 +86,7 @@ TEST(RigFile, ReadsQualisys) {
   EXPECT_DOUBLE_EQ(camera.intrinsics.cy, 510.5);
   EXPECT_DOUBLE_EQ(camera.distortion.k1, -0.045) << "not in 64ths";
   EXPECT_DOUBLE_EQ(camera.distortion.p2, -0.0004);
-  // QTM's x is our z, its y our x. The camera is 3 m in front and looks back, so the origin's left (our −x) is on the
-  // left.
+  // QTM's x is our z, its y our x. The camera is 3 m in front and looks back, so what is left (−x) stays left.
   EXPECT_LT(glm::distance(camera.p_WC, glm::dvec3(0, 1, 3)), 1e-12);
   const auto middle = Project(camera, {0, 1, 0}), left = Project(camera, {-0.5, 1, 0}),
              above = Project(camera, {0, 1.5, 0});

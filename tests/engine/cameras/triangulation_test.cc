@@ -88,8 +88,7 @@ TEST(Triangulation, SaysWhenTheRaysAreParallelOrNotFinite) {
   EXPECT_EQ(Triangulate(std::vector{once, broken}).status, PointStatus::kIllConditioned);
 }
 
-/// Three, five and eight cameras of different heights, distances, focal lengths and scales of H, with pixel errors of
-/// deviation 2.
+/// Three, five and eight cameras with different poses, focal lengths and scales of H; pixel errors have deviation 2.
 struct Vector {
   std::vector<Sighting> sightings;
   glm::dvec3 alike, by_pixels;

@@ -1,4 +1,4 @@
-// Finds the up axis from people in every posture, seen by usual camera set-ups; the truth must lie within the reported
+// Finds the up axis from people in every posture, with usual camera set-ups; the truth must lie within the stated
 // angle.
 #include "engine/keypoints/find_up.h"
 

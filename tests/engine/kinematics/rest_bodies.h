@@ -38,8 +38,8 @@ inline RestBody JointedRestBody() {
   return body;
 }
 
-/// Returns the same body with the joints of depth sensors: a rigid trunk, to whose middle separate joints attach hips
-/// and shoulders.
+/// Returns the same body with a depth sensor's joints: a rigid trunk; separate joints in its middle carry hips and
+/// shoulders.
 inline RestBody SensorRestBody() {
   using enum Role;
   const BodyPose rest = PlainRestBody().Pose();

@@ -13,8 +13,7 @@
 namespace etude {
 namespace {
 
-/// Returns moves by `people` people of different sizes, heights and tempos: the left arm up, both arms up, the left arm
-/// half-way up.
+/// Returns moves by `people` people of different size and tempo: the left arm up, both arms up, the left arm half-way.
 std::vector<TaughtMove> ArmMoves(int people) {
   std::vector<TaughtMove> moves(3);
   const char* const names[] = {"left", "both", "low"};

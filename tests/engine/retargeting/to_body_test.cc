@@ -308,8 +308,7 @@ TEST(ToBodyMotion, BelievesArmsBeforeTheBodyAndNoneBehindIt) {
   for (Joint& joint : bare.joints) {
     if (joint.name.ends_with("ToeBase") || joint.name.ends_with("ToeBase_End")) joint.rest.translation = {0, 0, 0};
   }
-  // Straight arms raised forwards or backwards, and knees overstretched by 40° in a fifth of the frames, as from a
-  // sensor.
+  // Straight arms raised forwards or backwards, and knees overstretched by 40° in a fifth of the frames.
   for (const double raised : {1.2, -1.2}) {
     for (const double degrees : {0.0, 20.0}) {
       Clip clip = AtRest(bare, 10);

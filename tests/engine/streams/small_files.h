@@ -66,8 +66,7 @@ inline std::string WithClock(const std::string& rows, double first, double step)
   return text;
 }
 
-/// Returns the joints of a Kinect v2 in its SDK's order: a Kinect v1's, and neck, shoulder centre, hand tips and
-/// thumbs.
+/// Returns a Kinect v2's joints in its SDK's order: a Kinect v1's, and neck, shoulder centre, hand tips, thumbs.
 inline std::vector<glm::dvec3> KinectV2Joints(const BodyPose& pose) {
   using enum Role;
   std::vector<glm::dvec3> joints;
@@ -106,8 +105,7 @@ inline std::string NtuText(const BodyMotion& motion, int state = 2, std::size_t 
   return text;
 }
 
-/// Returns output of the Azure Kinect's offline processor: millimetres, X to the camera's right, Y down, Z away from
-/// the camera.
+/// Returns output of the Azure Kinect's offline processor: millimetres, X to the camera's right, Y down, Z forward.
 inline std::string AzureText(const BodyMotion& motion, const std::string& confidence = "") {
   using enum Role;
   constexpr int kRoleOfJoint[32] = {0,  1,  2,  2,  4,  4,  5,  6,  7,  7,  7, 8, 8, 9, 10, 11,

@@ -42,8 +42,7 @@ inline void AddTo(testing::Fingerprint& print, const TransitionRecord& record) {
   print.Add(record.pairs_seen).Add(record.pairs_matched).Add(record.wait_s).Add(record.cost_unit);
 }
 
-/// Returns a library of a dance that repeats a few poses, with grades in steps of an eighth, so that most distances
-/// tie.
+/// Returns a library of a dance that repeats a few poses; grades are multiples of 1/8, so that most distances tie.
 inline MotionLibrary LibraryOfTies() {
   RandomStream dice({.suite_seed = 6, .scenario = "ties", .trial = 0}, "poses");
   const BodyMotion poses = RandomClip(dice, 60, 0.6);

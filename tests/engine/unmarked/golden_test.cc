@@ -14,8 +14,7 @@ namespace {
 
 using testing::Fingerprint;
 
-/// Films by two small cameras of a person in two colours who crosses a patterned room and swings an arm; the last frame
-/// is empty.
+/// Films by two small cameras of a two-coloured person who crosses a patterned room; the last frame is empty.
 struct SmallFilms {
   std::vector<Camera> cameras;
   std::vector<std::vector<ColourImage>> pictures;

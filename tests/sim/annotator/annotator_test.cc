@@ -245,8 +245,7 @@ TEST(MissProbability, GrowsAsALimbIsHiddenAndAsItFadesIntoWhatIsBehind) {
   EXPECT_GT(MissProbability(pale), 0.02);
 }
 
-// The slow part is an autoregressive process with correlation exp(−k / kLastingFrames) after k frames and unit
-// variance.
+// The slow part is an autoregressive process: correlation exp(−k / kLastingFrames) after k frames, unit variance.
 TEST(AnnotatorDice, HaveUnitVarianceAndTheCorrelationOfAnOrnsteinUhlenbeckProcess) {
   constexpr int kTrials = 60, kFrames = 120;
   for (const int step : {1, 7}) {

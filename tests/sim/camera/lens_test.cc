@@ -19,8 +19,7 @@ namespace {
 
 using Curve = std::vector<glm::dvec2>;
 
-/// Paints stripes of 40 pixels, vertical or horizontal, with exact pixel coverage, so that edges have sub-pixel
-/// positions.
+/// Paints stripes of 40 pixels, vertical or horizontal; exact pixel coverage gives their edges sub-pixel positions.
 Painter Stripes(const CameraModel& model, bool upright) {
   const double middle = upright ? model.pinhole().intrinsics.cx : model.pinhole().intrinsics.cy;
   return [=](int x, int y, double) {

@@ -179,8 +179,7 @@ TEST(DepthCamera, WhatIsSeenAtASlantIsLost) {
   EXPECT_FALSE(lost_at(86, 0));
 }
 
-/// Returns the share of pixels that show the near surface, among pixels whose centre is `pixels_away` on the far side
-/// of an edge.
+/// Returns the share of pixels that show the near surface, of those `pixels_away` on the far side of an edge.
 double ShareOfNear(const DepthCameraOptions& options, int pixels_away) {
   int shown = 0, all = 0;
   for (int trial = 0; trial < 8; ++trial) {

@@ -37,8 +37,7 @@ TEST(Stray, OfOneLimbIsItsAngle) {
 TEST(Stray, OfTheClockIsCountedInBeats) {
   const auto even = [](double due) { return due; };
   EXPECT_EQ(TimingStrayBeats(even, even, 4), 0);
-  // One beat of four late: the lag rises from 0 to 1 beat in the first beat, and stays 1 in the others. √((1/3 + 3) /
-  // 4).
+  // One beat of four late: the lag rises to 1 beat in the first beat, and stays 1 in the others. √((1/3 + 3) / 4).
   EXPECT_NEAR(TimingStrayBeats(
                   even, [](double due) { return due - 0.25; }, 4),
               std::sqrt((1.0 / 3 + 3) / 4), 1e-3);

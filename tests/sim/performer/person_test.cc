@@ -27,8 +27,7 @@ TEST(Person, AnAdultOfTheCanonicalStatureIsTheCanonicalBody) {
 
 TEST(Person, AToddlerIsNoSmallAdult) {
   const BodyDimensions toddler = DimensionsOf(1, 1), adult = DimensionsOf(1, 0);
-  // Hip height is less than half of a child's stature (Snyder 1977, four years: trochanter 0.46); an adult's share is
-  // 0.53.
+  // Hips are below half of a child's stature (Snyder 1977, four years: trochanter 0.46); an adult's share is 0.53.
   EXPECT_NEAR(toddler.HipHeight(), 0.465, 0.01);
   EXPECT_NEAR(adult.HipHeight(), 0.53, 0.01);
   const auto trunk = [](const BodyDimensions& body) { return body.spine + body.chest; };
@@ -129,8 +128,7 @@ bool IsTwistOfAStraightArm(const KinematicTree& tree, const TreeState& state, in
   return false;
 }
 
-/// Returns the excess of every angle over all moves of some people; `wrung` turns the left arm inwards beyond its
-/// limit.
+/// Returns the excess of every angle over all moves of some people; `wrung` over-twists the left arm inwards.
 std::map<int, BeyondLimits> Beyond(double wrung) {
   std::map<int, BeyondLimits> found;
   for (int trial = 0; trial < 12; ++trial) {

@@ -36,8 +36,7 @@ SkeletonSensorOptions Plain() {
 
 Camera SensorOf(double distance = 2.75) { return SkeletonSensorAt({.distance = distance}, SensorV2().view); }
 
-/// Mean squares of a joint's errors along the line of sight and along an axis across it, scaled to the reference
-/// distance.
+/// Mean squares of a joint's errors along the line of sight and across it, scaled to the reference distance.
 struct MeanSquares {
   double along = 0, across = 0;
 };

@@ -156,8 +156,7 @@ TEST(CaptureTask, IsCalibratedWithPointsOrWithBoardsFoundInThePictures) {
   EXPECT_GT(errors("calibration_noise_px: 0\ncalibration_measure_mm: 20\n").first, 1);
 }
 
-// In everyday clothes the trunk's hues are lost, and the person falls into pieces. More pieces cover more of the
-// person.
+// In everyday clothes the trunk's hues are lost, so the person falls into pieces. More pieces cover more of them.
 TEST(CaptureTask, FindsMoreOfThePersonInSeveralPieces) {
   ASSERT_OK(
       task,

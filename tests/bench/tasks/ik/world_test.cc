@@ -148,8 +148,7 @@ TEST(IkWorld, AnUnreachableTargetIsJustBeyondEveryPose) {
   EXPECT_EQ(std::ranges::count(was_pulled, true), 4) << "each has its turn";
 }
 
-/// Returns the largest element of JᵀΔX at the start, the gradient by angle. Axis errors are rotation vectors; all
-/// weights are one.
+/// Returns the largest element of the start's gradient JᵀΔX; axis errors are rotation vectors, all weights one.
 double LargestGradient(const KinematicTree& tree, const IkProblem& problem) {
   const TreeFrames frames = ComputeFrames(tree, problem.start);
   TreeJacobian jacobian;

@@ -46,8 +46,7 @@ SolvedMany SolveMany(int trials, double pose_range, double noise_deg, const Solv
 using SolverOnTrial =
     std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, int trial)>;
 
-/// Runs random problems, some of them solvable. Checks that angles stay within their ranges and that the status is
-/// true.
+/// Runs random problems, some solvable. Checks that angles stay within their ranges and that the status is true.
 inline void ExpectHonestAnswersToAnyProblem(const SolverOnTrial& solve) {
   int converged = 0;
   for (int trial = 0; trial < 500; ++trial) {

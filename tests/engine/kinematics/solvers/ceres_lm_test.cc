@@ -59,8 +59,7 @@ TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
   }
 }
 
-/// Returns the residuals of one whole frame: the gap in units of 0.30 m, and 2√2 times the vector part of the axes'
-/// quaternion.
+/// Returns the residuals of a whole frame: the gap in units of 0.30 m, and 2√2 times the vector part of the rotation.
 Eigen::VectorXd ResidualsOfFrame(const KinematicTree& arm, const IkProblem& problem, const Eigen::VectorXd& angles) {
   TreeState state = problem.start;
   state.angles.assign(angles.begin(), angles.end());

@@ -160,8 +160,7 @@ TEST(GaussNewton, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
   EXPECT_GE(unsolved, 10) << "else nothing was checked";
 }
 
-// Returns the share of solved frames along motions whose first pose is far off; every frame starts from the previous
-// answer.
+// Returns the share of solved frames of motions whose first pose is far off; each frame starts from the last answer.
 double ShareFollowed(int max_iterations) {
   constexpr int kMotions = 120, kFrames = 60;
   int solved = 0;

@@ -129,8 +129,7 @@ std::vector<double> LevelsOf(const InBetweenNet& net, const std::vector<TaggedCl
   return levels;
 }
 
-// Class 0 occurs in one clip and eight frames, 1 in two and four, 2 in two and five, 3 in three and three; classes are
-// far apart.
+// Class 0 is in one clip and eight frames, 1 in two and four, 2 in two and five, 3 in three and three; classes differ.
 TEST(InBetweenNet, TakesItsKeysFromTheMostFrequentPoseToTheRarest) {
   const std::vector<TaggedClip> clips = {
       ClipOfClasses({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0}, "00000000112223"),
