@@ -159,7 +159,7 @@ TEST_F(ColumnsTest, AreWhatNumPySays) {
   EXPECT_THAT(flat.substr(10), HasSubstr("'shape': (19,), }"));
 }
 
-// A column that was truncated, removed, or that points outside the folder is refused by name.
+// A column that was truncated or removed, or that points outside the folder, is refused by name.
 TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
   const fs::path own = folder() / "columns" / "poses";
   const auto with = [&](const fs::path& file, const auto& change) {
