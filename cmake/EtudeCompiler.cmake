@@ -8,7 +8,7 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "${ETUDE_OPTIMISE} -DNDEBUG")
-set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")  # for builds with sanitizers: assertions stay on
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")  # keeps assertions in builds with sanitizers
 
 # x86-64-v2 is the oldest CPU on which Etude promises identical bytes. Contracting a*b+c to a fused multiply-add would
 # change the last bit on CPUs that have that instruction.
@@ -24,7 +24,7 @@ if(ETUDE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # By default GCC collects garbage at 128 MB and at each doubling; files compiled together need about 700 MB.
   add_compile_options(--param=ggc-min-heapsize=700000)
 endif()
-# Libraries from which no symbol is used are not loaded; relocated data becomes read-only after loading.
+# Unused libraries are not loaded, and relocated data becomes read-only after loading.
 add_link_options(-Wl,--as-needed -Wl,-z,relro -Wl,-z,now)
 include(CheckLinkerFlag)
 check_linker_flag(CXX -fuse-ld=gold ETUDE_HAS_GOLD)  # linking the hundred test programs then takes a third of the time

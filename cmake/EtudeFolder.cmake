@@ -1,5 +1,5 @@
-# One folder is one target. The names of the target, its sources and its tests follow from the folder's path, so that
-# nothing is listed in one place and forgotten in another.
+# One folder is one target. The target's name, its sources and its tests follow from the folder's path, so no list can
+# be incomplete.
 
 # Options that harden code which reads untrusted files.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT ETUDE_SANITIZE)
@@ -88,8 +88,7 @@ function(etude_unity TARGET)
   endif()
   set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC treats a .cc file that is compiled together with others as a header, and warns about its types in unnamed
-    # namespaces.
+    # GCC treats a .cc file compiled together with others as a header, and warns about types in its unnamed namespaces.
     target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
   endif()
   get_target_property(sources ${TARGET} SOURCES)
@@ -150,7 +149,7 @@ function(etude_test_program NAME)
   set(patterns ${ARG_FOLDERS})
   list(TRANSFORM patterns REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/tests/\\1/*.cc")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${patterns})
-  list(FILTER sources EXCLUDE REGEX "/tests/(reports/support|fuzz/program|fuzz/readers)/")  # targets of their own
+  list(FILTER sources EXCLUDE REGEX "/tests/(reports/support|fuzz/program|fuzz/readers)/")  # have their own targets
   set(folders ${sources})
   list(TRANSFORM folders REPLACE "/[^/]*$" "")
   list(REMOVE_DUPLICATES folders)

@@ -5,9 +5,9 @@ include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(ETUDE_MODULES "${CMAKE_INSTALL_LIBDIR}/etude")
 file(RELATIVE_PATH modules_from_program "/${CMAKE_INSTALL_BINDIR}" "/${ETUDE_MODULES}")
-# In the build folder, modules are beside the program; after installation they have a folder of their own. Both paths
-# have the same length, because CMake would fill up the shorter one with empty names, and the loader would take an empty
-# name as the working folder.
+# In the build folder, modules are beside the program; after installation they have their own folder. Both paths have
+# the same length, because CMake would pad the shorter one with empty names, which the loader reads as the working
+# folder.
 set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program};$ORIGIN" BUILD_WITH_INSTALL_RPATH ON)
 install(TARGETS etude RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(TARGETS etude_training_pagmo etude_clips_assimp LIBRARY DESTINATION "${ETUDE_MODULES}")

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # The npm package ahrs 1.3.3 takes its sampleInterval in milliseconds; its README says Hz.
 #
-# Both filters divide 1000 by it to get a frequency, so that the default of 20 is 50 Hz. A sensor of 100 Hz that turns at 30
-# degrees a second for one second has turned by 30 degrees; with the README's unit the filter makes 300 of them, and says -60.
-# An update's own deltaTimeSec, in seconds, overrides it.
+# Both filters divide 1000 by it to get a frequency, so the default of 20 means 50 Hz. A sensor of 100 Hz that turns at 30
+# degrees a second for one second has turned by 30 degrees. With the README's unit the filter computes 300 degrees, which it
+# reports as -60. The deltaTimeSec of an update, in seconds, overrides the interval.
 #
 # Needs: npm and node (18 or later). Downloads 0.2 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The npm package ahrs 1.3.3 stumbles over zeros: Madgwick's filter turns to NaN, Mahony's stops correcting.
+# The npm package ahrs 1.3.3 fails at zeros: Madgwick's filter turns to NaN, Mahony's stops correcting.
 #
-# A gravity of (0, 0, 1), as an ideal or a coarse accelerometer gives it when it lies level, fits the start attitude exactly.
-# Madgwick's filter divides its correction, then zero, by the correction's length: every later attitude is NaN. Mahony's
-# corrects nothing while a component of the acceleration is zero: a sensor that is turned about one axis alone reads (0, 0.5,
-# 0.87) and stays at 0 degrees. A thousandth in the zero's place mends both. The README asks for unfiltered accelerations in g,
-# and allows to leave the magnetometer out.
+# A gravity of (0, 0, 1), which an ideal or coarse accelerometer measures when it lies level, fits the start attitude exactly.
+# Madgwick's filter then divides its correction, which is zero, by the correction's length, and every later attitude is NaN.
+# Mahony's filter corrects nothing while a component of the acceleration is zero: a sensor that is turned about one axis alone
+# measures (0, 0.5, 0.87), and its angle stays at 0 degrees. Adding a thousandth to the zero avoids both faults. The README
+# asks for unfiltered accelerations in g, and allows leaving the magnetometer out.
 #
 # Needs: npm and node (18 or later). Downloads 0.2 MB, writes to a temporary folder only.
 set -euo pipefail

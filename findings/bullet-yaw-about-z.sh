@@ -2,9 +2,9 @@
 # Bullet 3.24's btMatrix3x3::setEulerYPR turns about Z by the yaw that its documentation, and btQuaternion::setEuler, take about Y.
 #
 # LinearMath/btMatrix3x3.h documents setEulerYPR as "yaw about Y axis, pitch about X axis, roll about Z axis", which is what
-# btQuaternion::setEuler(yaw, pitch, roll) does. The function calls setEulerZYX(roll, pitch, yaw) instead: yaw about Z, pitch about Y,
-# roll about X. getEulerYPR is wrong in the same way, so that a round trip within the matrix hides it; angles that pass from a
-# quaternion to a matrix, or out of a matrix to anything else, become another rotation. All angles are valid; none is near a pole.
+# btQuaternion::setEuler(yaw, pitch, roll) does. But the function calls setEulerZYX(roll, pitch, yaw): yaw about Z, pitch about Y,
+# roll about X. getEulerYPR has the same fault, so a round trip through the matrix hides it. Angles that pass between a matrix and a
+# quaternion, or anything else, become another rotation. All angles are valid; none is near a pole.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 0.4 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# A BVH joint's position channels move it from its OFFSET in three.js r187 and put it in the OFFSET's place in Assimp 5.2.5.
+# A BVH joint's position channels move it from its OFFSET in three.js r187, and replace its OFFSET in Assimp 5.2.5.
 #
 # The format's usual description (University of Wisconsin, CS 838, 1999) makes a root's translation the sum of its OFFSET and its position
-# channels, and gives other joints no position channels. With an OFFSET of zero nobody notices. Recorders exist that repeat the
-# first frame's place as the root's OFFSET, and tools that write six channels for every joint: such a body stands elsewhere by
-# the whole OFFSET. The hips of this file are at 180 in one reader and at 90 in the other, the chest 40 or 20 above them. Neither
-# reader warns, and no line of a BVH file says which is meant.
+# channels, and gives other joints no position channels. With a zero OFFSET both readers agree. But some recorders repeat the first
+# frame's position as the root's OFFSET, and some tools write six channels for every joint; the readers then differ by the whole OFFSET.
+# The hips of this file are at 180 in one reader and at 90 in the other, the chest 40 or 20 above them. Neither reader warns, and no line
+# of a BVH file states which meaning applies.
 #
 # Needs: curl, dpkg-deb, npm and node (18 or later), Debian 12 or later, x86-64. Downloads 9 MB, writes to a temporary folder only.
 set -euo pipefail

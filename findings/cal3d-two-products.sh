@@ -2,8 +2,8 @@
 # Cal3D 0.11's a *= b and a * b are different products of the same two quaternions: each is the other with a and b exchanged.
 #
 # CalQuaternion's operator*= gives Hamilton's product a b, operator* gives b a; the header documents neither order. Code that replaces
-# `bone *= parent` by `bone = bone * parent` composes the rotations the other way round. A vector that is multiplied by a quaternion
-# turns by the opposite angle besides: +90 degrees about Z takes X to -Y.
+# `bone *= parent` by `bone = bone * parent` composes the rotations in the other order. Moreover, a vector that is multiplied by a
+# quaternion turns by the opposite angle: +90 degrees about Z takes X to -Y.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 0.3 MB, writes to a temporary folder only.
 set -euo pipefail

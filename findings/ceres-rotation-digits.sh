@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Ceres 2.2.0 rotates a third of all points to other last digits than Ceres 2.1.0.
 #
-# ceres::AngleAxisRotatePoint takes the angle by hypot in 2.2.0 and by sqrt of a sum of squares in 2.1.0, and rotates by angles
-# below 1.5e-8 exactly where 2.1.0 takes the first-order approximation. Of 100,000 seeded points, 38 % differ in the last digits at
-# angles up to 3, and 37 % at angles near 1e-8; none by more than 4e-15. The function stands in a header, so a program that refines
-# cameras gives other bytes once it is compiled against the other version.
+# ceres::AngleAxisRotatePoint computes the angle by hypot in 2.2.0, and by the square root of a sum of squares in 2.1.0. Below
+# 1.5e-8 it rotates exactly in 2.2.0, and by the first-order approximation in 2.1.0. Of 100,000 seeded points, 38 % differ in the
+# last digits at angles up to 3, and 37 % at angles near 1e-8; none by more than 4e-15. The function is in a header, so a program
+# that refines cameras gives other bytes when it is compiled with the other version.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 3 MB, writes to a temporary folder only.
 set -euo pipefail
@@ -41,7 +41,7 @@ for version in 2.1.0+really2.1.0+dfsg-1 2.2.0+dfsg-4.1+b2; do
   curl -sSfo package.deb "http://deb.debian.org/debian/pool/main/c/ceres-solver/libceres-dev_${version}_amd64.deb"
   name=${version%%+*}
   dpkg-deb -x package.deb "$name"
-  mkdir "$name/glog"  # rotation.h takes from it a check that a release build leaves out
+  mkdir "$name/glog"  # rotation.h includes it for a check that release builds omit
   printf '#include <iostream>\n#define DCHECK_NE(a, b) while (false) std::cerr\n' > "$name/glog/logging.h"
   g++ -O1 -w -std=c++17 -ffp-contract=off -I "$name" -I "$name/usr/include" rotate.cc -o "$name/rotate"
 done

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # DART 6.12.1 misplaces all markers of a C3D file of whole numbers that a DEC machine wrote, and puts lost markers at the origin.
 #
-# A C3D file holds its coordinates as real or as whole numbers, in the form of an Intel, a DEC or a MIPS processor (The C3D File
-# Format: A User Guide). Real numbers of DEC and Intel differ, their whole numbers are the same. DART takes DEC's whole numbers
-# for real ones, two of them for each: of the four files below three give the places that were written, the last one gives
-# others. A marker that the cameras lost has a residual of -1 in every form; DART returns no residual, so that it stands at the
-# origin, as if it had been seen there. loadC3DFile returns true. It turns the axes (its x, y, z are the file's y, z, x) and
+# A C3D file holds its coordinates as real or as whole numbers, in the format of an Intel, a DEC or a MIPS processor (The C3D
+# File Format: A User Guide). Real numbers of DEC and Intel differ; their whole numbers are the same. DART reads DEC's whole
+# numbers as real ones, two for each. Of the four files below, three give the positions that were written, and the last one gives
+# others. A marker that the cameras lost has a residual of -1 in every format; DART returns no residual, so the marker appears at
+# the origin as if it had been seen there. loadC3DFile returns true. It changes the axes (its x, y, z are the file's y, z, x) and
 # returns metres.
 #
 # Needs: curl, tar with xz, dpkg-deb, g++ and python3. Downloads 12 MB, writes to a temporary folder only.
@@ -14,7 +14,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 
-# Debian 12's packages: one source file, which its patches leave as it is, and the headers.
+# Debian 12's packages: one source file, which Debian does not patch, and the headers.
 curl -sSfo dart.tar.xz 'http://deb.debian.org/debian/pool/main/d/dart/dart_6.12.1+dfsg4.orig.tar.xz'
 tar -xf dart.tar.xz --strip-components=3 dart-6.12.1/dart/utils/C3D.cpp
 for path in d/dart/libdart-utils-dev_6.12.1+dfsg4-12+b2_amd64 d/dart/libdart-dev_6.12.1+dfsg4-12+b2_amd64 \
@@ -37,7 +37,7 @@ def write(path, processor, scale):
     def words(*values):
         return struct.pack(f"<{len(values)}h", *values)
 
-    def reals(*values):  # DEC's number has its halves exchanged, and reads as four times the value
+    def reals(*values):  # DEC exchanges a number's halves, and its exponent is higher by two
         if processor == INTEL:
             return struct.pack(f"<{len(values)}f", *values)
         return b"".join(raw[2:] + raw[:2] for raw in (struct.pack("<f", 4 * value) for value in values))

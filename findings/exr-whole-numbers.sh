@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # three.js r187 and parse-exr 1.0.2 misread colours and depths of an OpenEXR picture that also has a channel of whole numbers.
 #
-# UINT is one of OpenEXR's three pixel types ("Technical Introduction to OpenEXR"), meant for object identifiers and the like: a
-# camera's labels beside its colours. Both readers count no bytes for such a channel when they look for the others, so that what
-# lies behind it comes from the wrong place. The picture has the right size and format; only its values are wrong.
-# OpenEXR's own library, which writes the file here, reads it back as it was.
+# UINT is one of OpenEXR's three pixel types ("Technical Introduction to OpenEXR"), meant for object identifiers and the like,
+# such as a camera's labels beside its colours. Both readers count no bytes for such a channel, so they read the channels after
+# it from the wrong place. The picture has the right size and format; only its values are wrong. OpenEXR's own library, which
+# writes the file here, reads it correctly.
 #
 # Needs: curl, dpkg-deb, g++, npm and node (18 or later), Debian 12, x86-64. Downloads 6 MB, writes to a temporary folder only.
 set -euo pipefail

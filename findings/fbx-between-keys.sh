@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# three.js r187 and Assimp 5.2.5 read the keys of an FBX file but not what lies between them: constant keys glide, splines turn straight.
+# three.js r187 and Assimp 5.2.5 read the keys of an FBX file but ignore how it interpolates: constant keys move gradually, splines become
+# straight.
 #
-# Each key of a curve says how it goes on (KeyAttrFlags: constant, linear, cubic with automatic or given tangents), and the three curves
-# of a rotation go on as angles. The FBX SDK (in FBX2glTF 0.9.7) does so. The other two make a quaternion of each key and turn from
-# one to the next along the shortest arc: a joint that stands still until its next key is half-way there at half the time. Even
-# where all keys are linear, a joint that turns about two axes takes another path. Files with a key in every frame hide it. There is no warning.
+# Each key of a curve states its interpolation (KeyAttrFlags: constant, linear, cubic with automatic or given tangents), and the three curves of
+# a rotation interpolate angles. The FBX SDK (in FBX2glTF 0.9.7) does so. The other two make a quaternion of each key and turn from one to the
+# next along the shortest arc: a joint that should stand still until its next key is half-way there at half the time. Even if all keys are
+# linear, a joint that turns about two axes takes another path. Files with a key in every frame hide it. There is no warning.
 #
 # Needs: curl, dpkg-deb, npm and node (18 or later), Debian 12 or later, x86-64. Downloads 23 MB, writes to a temporary folder only.
 set -euo pipefail

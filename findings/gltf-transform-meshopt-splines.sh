@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# glTF Transform 4.5.1's meshopt(), as it is by default, turns the tangents of rotation splines into unit quaternions: the motion changes.
+# glTF Transform 4.5.1's meshopt(), by default, turns the tangents of rotation splines into unit quaternions: the motion changes.
 #
-# The output of a CUBICSPLINE sampler holds an in-tangent, a value and an out-tangent for each key (glTF 2.0, appendix C). meshopt()
-# of level "high", the default, sends the whole output through EXT_meshopt_compression's quaternion filter (its appendix B), which keeps
-# unit quaternions only and without their sign. A zero tangent comes back as (1, 0, 0, 0), a turn of 90 degrees that eases in and out
-# stands at 24 degrees after a quarter of its time, instead of 13, without a warning. Level "medium" and samplers of LINEAR keep their motion.
+# The output of a CUBICSPLINE sampler holds an in-tangent, a value and an out-tangent for each key (glTF 2.0, appendix C). meshopt() of level
+# "high", the default, sends the whole output through EXT_meshopt_compression's quaternion filter (its appendix B), which keeps only unit
+# quaternions, without their sign. A zero tangent becomes (1, 0, 0, 0), and a turn of 90 degrees that eases in and out is at 24 degrees after
+# a quarter of its time instead of 13. There is no warning. Level "medium" and LINEAR samplers keep their motion.
 #
 # Needs: npm and node (18 or later). Downloads 2 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# h5wasm 0.10.3 answers with numbers that are not in the file when it cannot decode a dataset: h5py's own compression "lzf" is enough.
+# h5wasm 0.10.3 returns numbers that are not in the file if it cannot decode a dataset: h5py's own compression "lzf" is enough.
 #
-# LZF comes with h5py (one of its three documented ways to compress), and pose tracks are kept in such files. h5wasm has no LZF filter.
-# HDF5 notices that and prints an error trace, but Dataset.value does not look at it: it returns an array of the right length and type
-# with whatever stood in its buffer. Nothing is thrown. The same numbers compressed with gzip are read right.
+# LZF comes with h5py (one of its three documented ways to compress), and pose tracks are stored in such files. h5wasm has no LZF
+# filter. HDF5 notices that and prints an error trace, but Dataset.value ignores the error: it returns an array of the right length and
+# type with the previous content of its buffer. It throws nothing. The same numbers compressed with gzip are read correctly.
 #
 # Needs: Debian's apt-get, dpkg-deb, npm and node (18 or later), x86-64. Downloads 50 MB, writes to a temporary folder only.
 set -euo pipefail
@@ -13,7 +13,7 @@ cd "$folder"
 
 npm install --silent --no-audit --no-fund --ignore-scripts h5wasm@0.10.3 > /dev/null
 
-# h5py with all that it needs, unpacked. apt-get resolves it without touching this system.
+# Unpacks h5py with its dependencies. apt-get resolves them without changing this system.
 mkdir -p apt/etc/apt/apt.conf.d apt/etc/apt/preferences.d apt/var/lib/apt/lists/partial apt/var/lib/dpkg apt/var/cache/apt/archives/partial
 : > apt/var/lib/dpkg/status
 echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" > apt/etc/apt/sources.list

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Ignition Math 6.10.0 gives a turn of less than 0.114 degrees an angle of 0 about X: at 1000 Hz, speeds below 114 degrees a second vanish.
 #
-# Quaternion::ToAxis, documented to return the rotation as axis and angle, takes for no rotation what has a vector part of a
-# squared length up to a millionth. Quaternion::Scale, which goes through ToAxis, loses such turns too. Log of the same
-# quaternion keeps them. At 100 degrees a second, the turn between two frames gives 100 at 30 Hz and 0 at 1000.
+# Quaternion::ToAxis, documented to return the rotation as axis and angle, returns no rotation if the vector part's squared length is at
+# most a millionth. Quaternion::Scale, which uses ToAxis, loses such turns too. Log of the same quaternion keeps them. At 100 degrees a
+# second, the turn between two frames gives 100 at 30 Hz and 0 at 1000 Hz.
 #
 # Needs: curl, dpkg-deb and g++. Downloads 0.3 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # OpenCV 5.0.0's undistort gives other pixels than initUndistortRectifyMap and remap, of which it "is simply a combination".
 #
-# Its documentation says so, and in 4.12.0 the pictures are equal. OpenCV 5 interpolates at the place that a map of floats names, where 4.x
-# rounded it to 1/32 of a pixel; undistort still makes maps of whole numbers and rounds. Of a chequered picture, seen through an ordinary
-# lens, a tenth of all pixels differ, by up to 4 grey levels at the edges that calibrations measure. Maps of type CV_16SC2 give what
-# undistort gives, and a program that undistorts film by kept maps and still pictures by undistort has two cameras.
+# Its documentation says so, and in 4.12.0 the pictures are equal. OpenCV 5 interpolates at the exact position that a map of floats
+# contains, where 4.x rounded it to 1/32 of a pixel; undistort still makes maps of whole numbers and rounds. Of a chequered picture, seen
+# through an ordinary lens, a tenth of all pixels differ, by up to 4 grey levels at the edges that calibrations measure. Maps of type
+# CV_16SC2 give the same as undistort. A program that undistorts films by stored maps and still pictures by undistort thus gets two
+# different cameras.
 #
 # Needs: npm and node (18 or later). Downloads 9 MB, writes to a temporary folder only.
 set -euo pipefail

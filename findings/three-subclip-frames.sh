@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # three.js r187's AnimationUtils.subclip starts a frame late in 45 % of all cuts of a clip of 30 frames a second.
 #
-# "Creates a new clip, containing only the segment of the original clip between the given frames." Tracks keep their times as 32-bit
-# floats; subclip multiplies them by the rate and compares with the whole number, so that frame 17 of a clip at 30 Hz stands at
-# 16.99999988. The cut then begins with frame 18, and since the new clip is moved to time 0, all of it is a frame early. The end
-# fails likewise: a cut that excludes frame 27 holds it. At 100 Hz it is 48 % of all cuts, the first of them at frame 1; at 32 Hz,
-# whose times are exact in binary, none.
+# "Creates a new clip, containing only the segment of the original clip between the given frames." Tracks store their times as
+# 32-bit floats; subclip multiplies them by the rate and compares with the whole number, so frame 17 of a clip at 30 Hz has the
+# number 16.99999988. The cut then begins with frame 18, and since the new clip is moved to time 0, all of it is a frame early. The
+# end fails likewise: a cut that excludes frame 27 contains it. At 100 Hz, 48 % of all cuts fail, the first of them at frame 1; at
+# 32 Hz, whose times are exact in binary, none fails.
 #
 # Needs: npm and node (18 or later). Downloads 5 MB, writes to a temporary folder only.
 set -euo pipefail

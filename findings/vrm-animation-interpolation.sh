@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# three-vrm 3.5.5 plays a VRM Animation's STEP rotations as a glide and its CUBICSPLINE rotations as the quaternion (0, 0, 0, 0).
+# three-vrm 3.5.5 plays a VRM Animation's STEP rotations as a gradual turn and its CUBICSPLINE rotations as the quaternion (0, 0, 0,
+# 0).
 #
 # VRMC_vrm_animation takes "the animations of the glTF core" as they are (its section "Animations"), and a glTF sampler is STEP,
-# LINEAR or CUBICSPLINE (glTF 2.0, appendix C). createVRMAnimationClip makes a new track of the times and values and forgets how to
-# read them: STEP becomes LINEAR, and of a spline's triples (in-tangent, value, out-tangent) the in-tangent is taken for the rotation.
-# three.js itself plays the same file correctly. There is no warning.
+# LINEAR or CUBICSPLINE (glTF 2.0, appendix C). createVRMAnimationClip makes a new track of the times and values without their
+# interpolation: STEP becomes LINEAR, and of a spline's triples (in-tangent, value, out-tangent) the in-tangent is taken for the
+# rotation. three.js itself plays the same file correctly. There is no warning.
 #
 # Needs: npm and node (18 or later). Downloads 6 MB, writes to a temporary folder only.
 set -euo pipefail

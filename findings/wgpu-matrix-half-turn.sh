@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# wgpu-matrix 3.4.2's quat.rotationTo gives (0, 0, 0, 0) for two opposite directions: this is not a rotation, although a half turn is asked for.
+# wgpu-matrix 3.4.2's quat.rotationTo gives (0, 0, 0, 0), which is no rotation, for two opposite directions instead of a half turn.
 #
-# The documentation promises the shortest rotation from one unit vector to another. The library has a branch for opposite vectors, which
-# should turn by 180 degrees about a perpendicular axis, but the axis comes out as zero. A matrix made of that quaternion is the
-# identity, so that the limb that should turn round stays where it is. gl-matrix 3.4.4, whose function has the same name, is right.
+# The documentation promises the shortest rotation from one unit vector to another. The library has a branch for opposite vectors, which should
+# turn by 180 degrees about a perpendicular axis, but the axis becomes zero. A matrix made from this quaternion is the identity, so the limb
+# that should turn round stays in place. gl-matrix 3.4.4, whose function has the same name, is right.
 #
 # Needs: npm and node (18 or later). Downloads 3 MB, writes to a temporary folder only.
 set -euo pipefail

@@ -53,9 +53,9 @@ def bridged(track):
 
 
 def low_pass(motion, rate_hz, cutoff_hz, order):
-    """Filters along the first axis with a Butterworth filter, forwards and backwards. The sections of second order
-    come from the bilinear transformation. The cutoff is raised, so that both passes together have the given one
-    (Winter 2009). The ends are extended by point reflection."""
+    """Filters along the first axis with a Butterworth filter, forwards and backwards, in second-order sections by
+    the bilinear transformation. The cutoff is raised, so that both passes together have the given one (Winter 2009).
+    The ends are extended by point reflection."""
     if not 0 < cutoff_hz < rate_hz / 2 or len(motion) < 4:
         return motion
     sections = order // 4 or 1  # a pass has half of the order, a section the order two

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A learner in the coach's loop. It does what the coach did a third of a second earlier, but leaves its arms hanging in
+"""A learner in the coach's loop. It repeats what the coach did a third of a second earlier, but lets its arms hang in
 every move that it has not been shown slowly. It never forgets, and never gives up.
 """
 from collections import deque

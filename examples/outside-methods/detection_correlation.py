@@ -42,7 +42,7 @@ class Correlation:
     def __init__(self, setting):
         self.joints, self.moves = setting.joints, {}
         for move in setting.moves:
-            if not move.poses:  # no other person has performed it, so nothing is known about it
+            if not move.poses:  # no other person has performed this move, so nothing is known about it
                 continue
             step = STRIDE * move.rate_hz / 30
             count = int(len(move.poses) / step)

@@ -91,8 +91,8 @@ class Eyes:
 
 
 def with_usual(own, usual):
-    """Returns the measures `own` of a session's events, in order of time, and beside them the same minus what is
-    usual: at first the median of all people, `usual`; later more and more the person's own median so far."""
+    """Returns the measures `own` of a session's events in order of time, and beside them the same minus the usual:
+    at first all people's median, `usual`, later more and more this person's own median."""
     beyond = own - usual
     for i in range(len(own) - 1, 0, -1):
         beyond[i] -= i / (i + TRUST) * (np.median(own[:i], axis=0) - usual)
@@ -131,7 +131,7 @@ def train(folders):
     share = np.where(right, right.mean(), 1 - right.mean())  # right and wrong performances have equal weight in total
     inverse = np.linalg.inv(kernel(rows, rows) + np.diag(2 * RIDGE * share))
     weights = inverse @ np.where(right, 1.0, -1.0)
-    # Predict each session with a model trained without it (closed form of leave-one-block-out).
+    # Predict each session by a model trained without it (closed form of leave-one-block-out).
     left_out = np.where(right, 1.0, -1.0)
     for session in np.unique(sessions):
         block = sessions == session

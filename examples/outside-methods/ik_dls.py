@@ -60,8 +60,8 @@ def forward(tree, root, angles):
 
 
 def lacking(tree, targets, places, rotations):
-    """Returns six errors per effector: the vector from it to its target, and the rotation vector between their axes,
-    which is accurate for small angles."""
+    """Returns six errors per effector: the vector to its target, and the rotation vector between their axes,
+    accurate for small angles."""
     lacks = []
     for effector, target in zip(tree["effectors"], targets):
         rotation = rotations[effector["joint"]]
@@ -74,7 +74,7 @@ def lacking(tree, targets, places, rotations):
 
 
 def only_asked(tree, numbers):
-    """Sets the errors to zero that the world does not ask for: it may ask for positions only, or for rotations only."""
+    """Sets errors to zero that the world does not ask for: it may ask for positions only, or for rotations only."""
     names = tree.get("asked", ["position", "orientation"])
     asked = 3 * ["position" in names] + 3 * ["orientation" in names]
     return [number if asked[i % 6] else 0 for i, number in enumerate(numbers)]
@@ -119,8 +119,7 @@ def is_solved(tree, lacks):
 
 
 def prepare(setting, options):
-    """Stores the setting, and finds the angles that move each effector: those of its joint and of the joints above
-    it."""
+    """Stores the setting, and finds the angles that move each effector: those of its joint and of all joints above."""
     tree = {**setting, "max_steps": min(setting["max_steps"], options.get("max_steps", 100)), "affects": []}
     for effector in tree["effectors"]:
         moves, joint = [False] * len(tree["angles"]), effector["joint"]
@@ -153,7 +152,7 @@ def answer(tree, problem):
         else:
             damping *= 4
     degrees = [math.degrees(a) for a in angles]
-    # Converting to degrees and back may exceed a limit by a rounding error.
+    # Converting to degrees and back may exceed a limit by rounding.
     degrees = [min(max(d, a["lower_deg"]), a["upper_deg"]) for d, a in zip(degrees, tree["angles"])]
     return {"angles_deg": degrees, "iterations": steps, "fk_evaluations": steps + 1}
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fills gaps on numpy arrays. Each number of a pose follows the cubic that leaves with the velocity of the last past
-frame and arrives with the mean velocity across the gap. Quaternions are then normalised."""
+"""Fills gaps on numpy arrays. Each number of a pose follows a cubic that begins with the velocity of the last past
+frame and ends with the mean velocity across the gap. Quaternions are then normalised."""
 import etude
 import numpy as np
 

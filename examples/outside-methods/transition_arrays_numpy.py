@@ -10,8 +10,8 @@ import numpy as np
 
 
 def placed(poses, frame, onto, hips):
-    """Returns the poses rotated about the vertical and moved on the floor, so that pose `frame` has the heading of
-    the pose `onto` and its hip centre's place on the floor. hips: the indices of hip centre, left and right hip."""
+    """Returns the poses turned about the vertical and moved on the floor, so that pose `frame` gets the heading and
+    the hip centre's place of the pose `onto`. hips: the indices of hip centre, left and right hip."""
     centre, left, right = hips
 
     def heading(pose):

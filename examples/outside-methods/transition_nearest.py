@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Changes clips where they look most alike. Candidates are all pairs of a frame that clip `from` shows soon enough and
-a frame of clip `to`; it takes the pair with the smallest distance between poses (as in motion graphs: Kovar, Gleicher,
-Pighin 2002).
+"""Changes clips where they look most alike. Candidates are all pairs of a frame of clip `from` within the time limit
+and a frame of clip `to`; it takes the pair with the smallest distance between poses (as in motion graphs: Kovar,
+Gleicher, Pighin 2002).
 
 Before poses are compared, they are aligned as Etude aligns them: by hip centre on the floor, and by heading.
 """
@@ -9,7 +9,7 @@ import math
 
 import etude
 
-LOOK_AHEAD = 2  # poses this many frames later are compared too, so that not only poses but also velocities agree
+LOOK_AHEAD = 2  # poses this many frames later are compared too, so that velocities also agree
 
 
 def laid_down(pose, joints):

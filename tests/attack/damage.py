@@ -30,7 +30,7 @@ READERS = {
     "replay": ["replay", "RUN"],
     "verify": ["verify", "RUN"],
 }
-# Files of a user: how each is made, and what reads it.
+# User files: how each is made, and what reads it.
 FILES = {f"clap.{ending}": (["clip", "convert", "builtin:clap", "FILE"], ["clip", "info", "FILE"])
          for ending in ("bvh", "glb", "trc", "csv", "c3d", "npz", "mot")} | {
     "tags.xml": (["bridge", "builtin:clap", "builtin:sway", "-o", "FILE"], ["bridge", "builtin:clap", "builtin:sway", "--check", "FILE"]),
@@ -41,7 +41,7 @@ CAN_UNSEALED = ("report", "gate", "compare", "rows", "replay")
 
 
 def damaged(content, dice):
-    """The bytes of a file after one accident; never the same as before."""
+    """Returns a file's bytes after one random accident; they always differ from before."""
     kind = dice.choice(["flip", "cut", "empty", "double a line", "lose a line", "swap lines", "zeros", "another number", "noise"])
     now = bytearray(content)
     lines = content.splitlines(keepends=True)
@@ -74,7 +74,7 @@ def damaged(content, dice):
 
 
 class Damage:
-    """Makes what is damaged once; each round damages a copy."""
+    """Makes the runs and files to damage once; each round damages a copy."""
 
     def __init__(self, etude, folder):
         self.etude, self.folder = etude, pathlib.Path(folder)
@@ -103,7 +103,7 @@ class Damage:
             raise SystemExit(f"etude {words[0]}: {result.stderr.decode(errors='replace')}")
 
     def interrupt(self):
-        """A run that was killed when half of its cells were done."""
+        """Makes a run that was killed when half of its cells were done."""
         shutil.rmtree(self.interrupted, ignore_errors=True)
         run = subprocess.Popen([self.etude, "run", self.scenario, "-o", self.interrupted, "--jobs", "1", "--sync-seconds", "0",
                                 "--trials", "60"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -120,7 +120,8 @@ class Damage:
         self.must("run", self.scenario, "-o", self.resumed, "--jobs", "1", "--trials", "60", "--resume")
 
     def round(self, number):
-        """Gives what was damaged how, what read it, and what was wrong with how that ended; "" when nothing was."""
+        """Damages a copy; returns what was damaged and how, the reader, and the fault of its end ("" if there is
+        none)."""
         dice = random.Random(f"damage/{number}")
         what = dice.choice(["sealed", "sealed", "unsealed", "unsealed", "journal", "shard", "baseline", "pack", *FILES])
         copy = self.folder / f"round-{number}{pathlib.Path(what).suffix}"
@@ -161,7 +162,7 @@ class Damage:
         said = result.stderr.decode(errors="replace")
         complaints = [line for line in said.splitlines()
                       if line.startswith("etude: ") and not line.startswith("etude: read unsealed: ")]
-        if result.returncode not in (0, 1, 2) and (reader, result.returncode) != ("gate", 3):  # rows that are missing
+        if result.returncode not in (0, 1, 2) and (reader, result.returncode) != ("gate", 3):  # rows may be missing
             return f"ended with {result.returncode}: {said[-300:]}"
         if result.returncode == 2 and len(complaints) != 1:
             return f"{len(complaints)} complaints: {said[-300:]}"

@@ -32,20 +32,20 @@ def children(process):
 
 
 def marked(mark):
-    """The processes of a round, by the home that they were given, and what is not dead of them."""
+    """Returns a round's living processes, which have its home folder in their environment."""
     found = {}
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             if b"HOME=" + mark.encode() + b"\0" in process.joinpath("environ").read_bytes():
                 found[int(process.name)] = process.joinpath("cmdline").read_bytes().replace(b"\0", b" ").decode()[:120]
         except OSError:
-            continue  # it has just ended, or is nobody's of ours
+            continue  # it has just ended, or it is not a process of ours
     return found
 
 
 def kill_once(etude, targets, moment_s, at_fence=False):
-    """One round: the moment counts from when the last target appears, or from when a fence has just been begun.
-    Gives who is left, and how many were killed."""
+    """Plays one round; the moment counts from the last target's start, or from a fence's. Returns the processes
+    left, and the number killed."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="attack-"))
     try:
         (folder / "attack.yaml").write_text(SCENARIO)
@@ -59,7 +59,7 @@ def kill_once(etude, targets, moment_s, at_fence=False):
             if at_fence:
                 if any(children(launcher) for launcher in launchers):
                     break
-                continue  # it is a matter of milliseconds
+                continue  # The state lasts only milliseconds, so look again at once.
             if targets == ("run",) or (workers if "launcher" not in targets else launchers):
                 break
             time.sleep(0.002)
@@ -68,7 +68,7 @@ def kill_once(etude, targets, moment_s, at_fence=False):
         launchers = [launcher for worker in workers for launcher in children(worker)]
         victims = ([run.pid] if "run" in targets else []) + (workers if "worker" in targets else [])
         victims += launchers if "launcher" in targets else []
-        # Those who were below a victim have to go; who is started in their place is nobody's concern.
+        # Every process below a victim must end. A process that is started in its place need not.
         below, look = set(), list(victims)
         while look:
             process = look.pop()
@@ -104,12 +104,12 @@ def kill_once(etude, targets, moment_s, at_fence=False):
 
 def round_of(etude, targets, number):
     name = "+".join(targets)
-    moment = WINDOW_S * random.Random(f"{name}/{number}").random() ** 3  # most of them early
+    moment = WINDOW_S * random.Random(f"{name}/{number}").random() ** 3  # most kills are early
     left, victims = kill_once(etude, targets, moment, at_fence=number % 2 == 1)
     return {"kind": name, "round": number, "moment_s": round(moment, 4), "killed": victims, "wrong": sorted(left.values())}
 
 
 def loads(count):
-    """So many processes that want a processor; they go with us."""
+    """Starts `count` processes that keep a processor busy; they end with this program."""
     spin = "import ctypes; ctypes.CDLL(None).prctl(1, 9, 0, 0, 0)\nwhile True: pass"
     return [subprocess.Popen([sys.executable, "-c", spin]) for _ in range(count)]

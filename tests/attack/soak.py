@@ -18,7 +18,7 @@ import kills
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NOBODY = 65534
-# An attack that is a test, too: its file below tests/, here with its heavy cases.
+# The attacks that are tests, too: the test's file below tests/, run here with its heavy cases.
 TESTS = {
     "the fence": "zoo/zoo_test.py",
     "answers looked up": "zoo/lookup_test.py",
@@ -34,7 +34,7 @@ TESTS = {
     "interruption": "cli/interrupt_test.py",
     "bad input": "cli/errors_test.py",
 }
-# Kills of these, at random moments of a run's start.
+# The targets of kills at random moments of a run's start.
 KILLS = {
     "kills of a run": [("run",)],
     "kills of workers and launchers": [("worker",), ("launcher",), ("worker", "launcher")],
@@ -43,7 +43,7 @@ DAMAGE = "damaged files"
 
 
 class Record:
-    """The rounds that were played by one user, and those to come."""
+    """The rounds that one user has played."""
 
     def __init__(self, folder, hours):
         folder.mkdir(parents=True, exist_ok=True)
@@ -65,7 +65,7 @@ class Record:
 
 
 def tested(options, test):
-    """Runs a test; gives how many of its cases ran, and the names of those that failed."""
+    """Runs a test; returns how many of its cases ran, and the names of the failed cases."""
     result = subprocess.run([sys.executable, ROOT / "tests" / test], cwd=ROOT, capture_output=True, text=True,
                             env=os.environ | {"ETUDE": options.etude, "ETUDE_HEAVY": "1"})
     said = result.stdout + result.stderr
@@ -124,7 +124,7 @@ def play_all(options, record):
 
 
 def play_as_nobody(options):
-    """The same attacks by a user without any rights, who cannot be told from any other. Gives that process's exit
+    """Plays the same attacks as a user without any rights, whose processes own no file of ours. Returns the exit
     code."""
     folder = options.out / "user"
     folder.mkdir(parents=True, exist_ok=True)
@@ -132,7 +132,7 @@ def play_as_nobody(options):
     try:
         for path in (folder, *folder.iterdir(), scratch):
             os.chown(path, NOBODY, NOBODY)
-        python = shutil.which("python3", path="/usr/bin:/bin") or sys.executable  # not one of root's home
+        python = shutil.which("python3", path="/usr/bin:/bin") or sys.executable  # not a Python in root's home
         return subprocess.run([python, __file__, *sys.argv[1:], "--as-user"], user=NOBODY, group=NOBODY, extra_groups=[],
                        env=os.environ | {"HOME": scratch, "TMPDIR": scratch, "PYTHONDONTWRITEBYTECODE": "1"}).returncode
     finally:
@@ -150,7 +150,7 @@ def main():
     parser.add_argument("--hours", type=float, default=24, help="after which it stops, to go on another time")
     parser.add_argument("--etude", default=os.environ.get("ETUDE", "build/release/etude"))
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/soak/attack"))
-    parser.add_argument("--as-user", action="store_true", help=argparse.SUPPRESS)  # by whom root had this started
+    parser.add_argument("--as-user", action="store_true", help=argparse.SUPPRESS)  # set if root started this process
     options = parser.parse_args()
     options.etude, is_root = os.path.abspath(options.etude), os.getuid() == 0
     record = Record(options.out / ("root" if is_root else "user"), options.hours)

@@ -1,5 +1,4 @@
-"""Tests the driver of the attacks: it does not repeat a round, and shows failed rounds in the table and in the exit
-code."""
+"""Tests the driver of the attacks: it repeats no round, and shows failed rounds in the table and in the exit code."""
 import contextlib
 import io
 import pathlib
@@ -32,7 +31,7 @@ class Soak(unittest.TestCase):
             self.assertIn("fake, round 0: ['test_a']", said)
             self.assertRegex(said, r"\| fake \| user \| 1 \| 2 tests, 1 of them skipped \| 1 \| \d+ \|")
             self.assertIn("Not root", said)
-            # It goes on where it was: the round is not played again.
+            # The soak continues where it stopped: the round is not played again.
             self.assertEqual(self.run_soak(folder, PASSES)[0], 1)
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(self.run_soak(folder, PASSES)[0], 0)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""People compare films without knowing the methods: the page in a browser, its key, and what their answers say."""
+"""Tests `etude report --blind` and `etude blind`: the page of films in a browser, its key, and the summary of
+answers."""
 import base64
 import json
 import pathlib
@@ -126,7 +127,7 @@ class Blind(EtudeCase):
             page.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(self.folder))
             page.open(self.page)
             self.assertTrue(page.ask("[...document.querySelectorAll('[data-answer]')].every((b) => b.disabled)"))
-            page.press("ArrowLeft")  # nothing is answered before the film was seen
+            page.press("ArrowLeft")  # no answer counts before the film was seen
             self.assertEqual(page.ask("document.getElementById('place').textContent"), "Pair 1 of 2")
             page.ask("document.querySelector('.pair:not([hidden]) video').dispatchEvent(new Event('ended'))")
             for held in "repeat", "altKey", "ctrlKey", "metaKey":
@@ -135,7 +136,7 @@ class Blind(EtudeCase):
             for key in ["ArrowLeft", "ArrowDown"]:
                 page.ask("document.querySelector('.pair:not([hidden]) video').dispatchEvent(new Event('ended'))")
                 page.press(key)
-            self.assertTrue(page.ask("document.getElementById('save').disabled"))  # no name yet
+            self.assertTrue(page.ask("document.getElementById('save').disabled"))  # the name is still missing
             page.ask("(() => { rater.value = 'Anna B.'; rater.dispatchEvent(new Event('input')); save.click(); })()")
             self.assertEqual(page.logged, [])
             saved = self.folder / f"answers-{self.key['page']}-Anna_B..json"

@@ -8,19 +8,19 @@ import subprocess
 import tempfile
 
 CHROMIUM = shutil.which("chromium")
-# Pictures drawn by the processor: no test may depend on a graphics card.
+# The processor draws the pictures, so no test depends on a graphics card.
 SWITCHES = ["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
             "--no-first-run", "--hide-scrollbars", "--remote-debugging-pipe"]
 
 
 class Browser:
-    """One page. `with Browser() as page: page.open(path); page.press("k"); page.ask("document.title")`."""
+    """One page of a browser: `with Browser() as page: page.open(path); page.press("k"); page.ask("document.title")`."""
 
     def __init__(self, *switches, width=1280, height=800):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         commands, self.write = os.pipe()
         self.read, answers = os.pipe()
-        # The browser reads file 3 and writes file 4; a shell puts them there.
+        # The browser reads commands from file 3 and writes answers to file 4; a shell opens both.
         words = [CHROMIUM, *SWITCHES, *switches, f"--window-size={width},{height}", f"--user-data-dir={self.profile.name}", "about:blank"]
         self.process = subprocess.Popen(["/bin/bash", "-c", f'exec 3<&{commands} 4>&{answers}; exec "$0" "$@"', *words],
                                         pass_fds=(commands, answers), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -73,13 +73,14 @@ class Browser:
                 return answer["result"]
 
     def set(self, width=1280, height=800, media="", **features):
-        """The size of the window, and what it says of its reader: prefers_color_scheme="dark"."""
+        """Sets the window's size and the media features that the page sees, such as prefers_color_scheme="dark"."""
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         self.send("Emulation.setEmulatedMedia", media=media,
                   features=[{"name": name.replace("_", "-"), "value": value} for name, value in features.items()])
 
     def open(self, path, width=None, scheme="light", media="", forced=False, script=True):
-        """Shows a file; at a width with a colour scheme, forced colours or without scripts, or as it was set before."""
+        """Shows a file. With a width, also sets colour scheme and forced colours; otherwise keeps the earlier
+        settings."""
         if width is not None:
             self.set(width, 900, media, prefers_color_scheme=scheme, forced_colors="active" if forced else "none")
         self.send("Emulation.setScriptExecutionDisabled", value=not script)
@@ -88,14 +89,14 @@ class Browser:
             pass
 
     def ask(self, expression):
-        """The value of an expression; a promise is waited for."""
+        """Returns the value of an expression; waits for a promise."""
         answer = self.send("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
             raise RuntimeError(answer["exceptionDetails"]["exception"].get("description", str(answer)))
         return answer["result"].get("value")
 
     def wait(self, expression):
-        """Until an expression holds, a minute at most."""
+        """Waits until an expression is true, for at most a minute."""
         self.ask(f"""new Promise((resolve, reject) => {{ const end = performance.now() + 6e4; const look = () => ({expression}) ? resolve() :
                  performance.now() > end ? reject(Error('never came true: ' + {json.dumps(expression)})) : setTimeout(look, 20); look(); }})""")
 

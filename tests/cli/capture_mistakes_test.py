@@ -1,8 +1,8 @@
-"""Tests `etude capture` with other people's rigs, keypoints and mistakes. Points are exact, so that every millimetre of
-deviation is an error.
+"""Tests `etude capture` with other tools' rigs and keypoints, and with users' mistakes. Points are exact, so every
+millimetre of deviation is an error of the program.
 
-The test generates a walking figure, four cameras, their calibration in every format, keypoints in every format, and one
-mistake at a time. `--poses` prints the distances between skeletons and noisy keypoints.
+The test generates a walking figure, four cameras, their calibration and keypoints in every format, and one mistake at a
+time. `--poses` prints the distances between skeletons and noisy keypoints.
 """
 import copy
 import functools
@@ -39,22 +39,22 @@ def rotation(axis, angle):
 def rodrigues(R):
     angle = math.acos(max(-1, min(1, (np.trace(R) - 1) / 2)))
     axis = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
-    if angle > math.pi - 1e-6:  # of half a turn that is nothing
+    if angle > math.pi - 1e-6:  # for a half turn the axis above is zero
         axis = (R + np.eye(3))[:, np.argmax(np.diag(R))]
     length = np.linalg.norm(axis)
-    return axis * 0 if length == 0 else angle * axis / length  # the unit matrix has no axis
+    return axis * 0 if length == 0 else angle * axis / length  # the identity has no axis
 
 
 @functools.lru_cache(maxsize=None)
 def figure(t, centre=(0.0, 0.0), pace=1.0):
-    """A figure of 1.7 m that turns, swings its arms and steps aside; metres, Y up, the floor at 0."""
+    """Returns a figure of 1.7 m that turns, swings its arms and steps aside; metres, Y up, the floor at 0."""
     facing = 0.5 * math.sin(0.8 * t * pace)
     forward, left = np.array([math.sin(facing), 0, math.cos(facing)]), np.array([math.cos(facing), 0, -math.sin(facing)])
     up = np.array([0, 1.0, 0])
     step = min(1, max(0, (t * pace - 0.7) / 0.6))
-    step = step ** 3 * (10 - 15 * step + 6 * step * step)  # both feet go a step on at once: resting places that span a floor
+    step = step ** 3 * (10 - 15 * step + 6 * step * step)  # both feet step, so that their resting places span a floor
     centre = (centre[0] + 0.3 * step, centre[1] - 0.25 * step)
-    # Both feet stand, apart in both directions, and do not turn; knees bend.
+    # Both feet stand still, apart in both directions; the knees bend.
     hips = np.array([centre[0] + 0.06 * math.sin(1.7 * t * pace), 0.86 + 0.04 * math.cos(2.1 * t * pace), centre[1]])
     p = {"MidHip": hips}
     chest = hips + 0.5 * (up * math.cos(0.1) + forward * math.sin(0.1))
@@ -105,7 +105,7 @@ class Lens:
 
 
 class Camera:
-    """Looks at (0, 0.9, 0); OpenCV's pixels."""
+    """A camera that looks at (0, 0.9, 0), in OpenCV's pixels."""
 
     def __init__(self, place, lens=Lens()):
         self.place, self.lens = np.array(place, float), lens
@@ -117,22 +117,22 @@ class Camera:
         self.K = np.array([[FOCAL, 0, WIDTH / 2 - 0.5], [0, FOCAL, HEIGHT / 2 - 0.5], [0, 0, 1]])
 
     def pixel(self, points):
-        """Where a point is seen, or each of a row of points."""
+        """Returns the pixel of a point, or of each row of points."""
         p = self.R @ (points - self.place).T
         x, y = self.lens(p[0] / p[2], p[1] / p[2])
         return np.array([self.K[0, 0] * x + self.K[0, 2], self.K[1, 1] * y + self.K[1, 2]]).T
 
     def person(self, points):
-        """Where named points are seen: name → pixel."""
+        """Returns the pixels of named points: name → pixel."""
         return dict(zip(points, self.pixel(np.array(list(points.values())))))
 
     def outside(self, turn, unit, shift):
-        """R and T from a file's world, whose coordinates are (turn · p + shift) / unit."""
+        """Returns R and T from a file's world with coordinates (turn · p + shift) / unit."""
         R = self.R @ turn.T
         return R, -R @ ((turn @ self.place + shift) / unit)
 
 
-Z_UP = np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]], float)  # (z, x, y): Pose2Sim's and QTM's
+Z_UP = np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]], float)  # (z, x, y), the axes of Pose2Sim and QTM
 
 
 def matrix_text(name, values, rows, columns):
@@ -141,7 +141,7 @@ def matrix_text(name, values, rows, columns):
 
 
 def toml(cameras, turn, unit, shift=np.zeros(3), name="[{}]", matrix=False, extra="", change=lambda *same: same):
-    """Cameras as Pose2Sim writes them, of which `change` gives name, R, T and K."""
+    """Returns cameras as Pose2Sim writes them; `change` may replace name, R, T and K."""
     text = ""
     for i, (key, camera) in enumerate(cameras.items()):
         key, R, T, K = change(key, *camera.outside(turn, unit, shift), camera.K)
@@ -158,7 +158,7 @@ def first_frame(cameras):
 
 
 def rig_files(kind, cameras):
-    """The files of a rig in that format, and the arguments that name it and its cameras."""
+    """Returns a rig's files in that format, and the arguments that name the rig and its cameras."""
     turn, shift = first_frame(cameras)
     names = ",".join(cameras)
     if kind == "Pose2Sim":
@@ -219,7 +219,7 @@ def rig_files(kind, cameras):
 
 
 def swapped(person, only=None):
-    """Left and right exchanged."""
+    """Returns the person with left and right exchanged."""
     other = lambda name: {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:] if name in LEFT_RIGHT else name
     legs = ("Hip", "Knee", "Ankle", "Toe", "Heel")
     return {name: person[other(name) if only is None or name.endswith(legs) else name] for name in person}
@@ -232,7 +232,7 @@ LEFT_RIGHT = {name for name in HALPE if name[0] in "LR" and ("L" + name[1:]) in 
 
 
 def seen_people(cameras, mistake, truth):
-    """people[camera][frame]: a list of people, each name → pixel."""
+    """Returns people[camera][frame]: a list of people, each name → pixel."""
     seen = {}
     dice = np.random.default_rng(7)
     noise_px = 2 if mistake == LATE_AND_NOISY else 0
@@ -246,7 +246,7 @@ def seen_people(cameras, mistake, truth):
             person = {key: p + noise_px * dice.normal(size=2) for key, p in camera.person(truth(time)).items()}
             people = [person]
             if mistake == "two people, identities cross":
-                # Somebody passes behind, and in the picture through, the one who is wanted.
+                # A second person walks behind the first; in the picture they overlap.
                 people.append(camera.person(figure(k / RATE, (1 - k / RATE, -1.1), 0.7)))
                 people = people[::-1] if k % 2 else people
             if name == "cam2":
@@ -262,7 +262,7 @@ def seen_people(cameras, mistake, truth):
 
 
 def write_keypoints(folder, kind, seen):
-    """The people of every camera in that format; gives further arguments."""
+    """Writes the people of every camera in that format; returns further arguments."""
     folder.mkdir()
     names = COCO if kind in ("COCO results", "AlphaPose", "MMPose") else HALPE
     for camera, frames in seen.items():
@@ -302,7 +302,7 @@ def read_trc(path):
 
 
 def write_trc(path, rate, frames, truth):
-    """A reference of other people: markers in mm, Y up, at their own rate."""
+    """Writes a reference as other tools do: markers in mm, Y up, at their own rate."""
     text = ("PathFileType\t4\t(X/Y/Z)\tr.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
             f"{rate}\t{rate}\t{frames}\t{len(HALPE)}\tmm\nFrame#\tTime" + "".join(f"\t{name}\t\t" for name in HALPE) + "\n\t"
             + "".join(f"\tX{i}\tY{i}\tZ{i}" for i in range(1, len(HALPE) + 1)) + "\n\n")
@@ -313,7 +313,8 @@ def write_trc(path, rate, frames, truth):
 
 
 def errors_mm(found, truth):
-    """Distances after the best turn about the vertical and shift: what no rig tells. Heights are not turned away."""
+    """Returns the distances after the best turn about the vertical and shift, which no rig determines. Other turns
+    stay errors."""
     a, b = [], []
     for k, frame in enumerate(found):
         exact = truth(k / RATE)
@@ -345,7 +346,7 @@ def altered_toml(change):
 
 
 def altered_size(gain):
-    """EasyMocap's files, which tell no size, of cameras that were calibrated with pictures of another one."""
+    """Returns EasyMocap's files, which contain no picture size, of cameras calibrated with pictures of another size."""
     def files(cameras):
         others = {name: copy.copy(camera) for name, camera in cameras.items()}
         for camera in others.values():
@@ -356,7 +357,7 @@ def altered_size(gain):
 
 FLIP, EXCHANGED = np.diag([1.0, -1, -1]), {"cam1": "cam2", "cam2": "cam1"}
 PADDED = (WIDTH - HEIGHT) / 2
-# What no page names: the rig, a change of every pixel, and what is said of it.
+# Mistakes outside the documentation: the rig, a change of every pixel, and the message.
 STRANGERS = {
     "two cameras exchanged": (altered_toml(lambda name, R, T, K: (EXCHANGED.get(name, name), R, T, K)), None,
                               "corrected: films or keypoints of cam1 and cam2 are exchanged"),
@@ -388,7 +389,7 @@ LIMBS = ([("MidHip", "Neck", 0.13), ("Neck", "Head", 0.09), ("LShoulder", "RShou
 
 
 def drawn(camera, person):
-    """A picture of the figure in red before a patterned room; of nobody: the room."""
+    """Returns a picture of the figure in red before a patterned room; without a person, the room."""
     v, u = np.mgrid[0:HEIGHT, 0:WIDTH].astype(float)
     picture = np.stack([90 + u % 40, 100 + (v + 2 * u) % 50, 120 + 0 * u], 2)
     for a, b, radius in LIMBS if person else ():
@@ -412,7 +413,7 @@ class Mistakes(EtudeCase):
 
     def take(self, rig="Pose2Sim", keypoints="OpenPose, 26", mistake="none", cameras=None, lens=Lens(LENS[:5]),
              truth=figure, pixels=None, noise_px=0):
-        """Writes a take; gives its folder, its rig, its films and the options that the rig needs."""
+        """Writes a take; returns its folder, rig, films and the options that the rig needs."""
         folder = self.folder / f"take{len(list(self.folder.iterdir()))}"
         folder.mkdir()
         names = list(PLACES)[:cameras or (2 if rig == "OpenCV stereo" else 4)]
@@ -436,7 +437,7 @@ class Mistakes(EtudeCase):
         return folder, folder / named, [folder / f"{name}.mp4" for name in names], arguments
 
     def capture(self, *how, more=(), truth=figure, **named):
-        """Runs a capture; gives what it printed, and the errors in mm."""
+        """Runs a capture; returns its output and the errors in mm."""
         folder, rig, films, arguments = self.take(*how, truth=truth, **named)
         result = self.etude("capture", "--rig", rig, *films, "--keypoints",
                             folder / "keypoints", "--points", folder / "p.trc", *(() if "-o" in more else ("-o", folder / "m.csv")), *arguments, *more)
@@ -485,7 +486,7 @@ class Mistakes(EtudeCase):
                     told, errors, _ = self.capture(rig, cameras=cameras, pixels=pixels, lens=Lens(LENS[:4]))
                     self.check(told, errors, words=words)
 
-    # Of estimators that err by 8 px nothing of that kind must be said, and exchanged cameras still be found.
+    # With errors of 8 px no mistake may be reported, but exchanged cameras must still be found.
     def test_imprecise_keypoints_are_no_mistake_of_the_session(self):
         told, _, _ = self.capture(cameras=2, noise_px=8)
         for word in ("are exchanged", "the rig's", "keypoints are", "focal length"):
@@ -532,7 +533,7 @@ class Mistakes(EtudeCase):
                 self.ends(0, "capture", "--rig", file, *films, "--keypoints", folder / "keypoints", "--points", folder / "p.trc", "-o", folder / "m.csv",
                           "--outlier", "90", *arguments)
                 found = read_trc(folder / "p.trc")
-                points = np.array([list(frame.values()) for frame in found])  # every marker in every frame
+                points = np.array([list(frame.values()) for frame in found])  # every frame has every marker
                 middle = points.mean((0, 1))
                 self.ends(0, "forecast", file, "--middle", f"{middle[0]:.3f},{middle[2]:.3f}", "--size", "3,2.2,3", "--calibration", "0,0,0",
                           "--noise-px", noise_px, "--table", folder / "map.csv")
@@ -556,7 +557,7 @@ class Mistakes(EtudeCase):
                 told, _, _ = self.capture(off(films), cameras=cameras, lens=Lens(), noise_px=noise_px)
                 self.assertRegex(told, r"doubtful: with (a focal length|focal lengths) " + words)
 
-    # A square about the picture makes people squat, whatever an estimator errs by.
+    # Pixels relative to a padded square make people look squat, however noisy the estimator is.
     def test_shares_of_a_square_that_err_are_doubted(self):
         rig, shares, _ = STRANGERS["shares of a padded square"]
         for cameras, noise_px in ((2, 2), (4, 2), (4, 6)) if HEAVY else ((2, 2),):
@@ -591,7 +592,7 @@ class Mistakes(EtudeCase):
         self.assertAlmostEqual(float(drift[1]), -0.06, delta=0.03, msg=told)
         self.assertIn("reference: 50 frames, but 60 in the films; the first 50 are compared", told)
 
-    # Errors of two pixels hide how late a film is from what mends clocks by itself; not that it is.
+    # Errors of 2 px hide the delay from the automatic correction, but the report still doubts the clock.
     def test_a_late_film_of_keypoints_that_err_is_doubted_and_can_be_set(self):
         told, errors, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2)
         self.assertRegex(told, r"doubtful: cam2: its frames seem (2\.[89]|3\.[012]) frames later than cam1's; --sync 0\.2 would correct it")
@@ -616,7 +617,7 @@ class Mistakes(EtudeCase):
             self.assertGreater(int(frames), FRAMES / 2)
             self.assertLess(float(median), 2)
         curves = re.findall(r"<path class=\"line\"[^>]* d=\"(M[^\"]+)\"", text)
-        self.assertGreaterEqual(len([c for c in curves if c.count("L") > FRAMES / 2]), 4)  # two cameras, two feet
+        self.assertGreaterEqual(len([c for c in curves if c.count("L") > FRAMES / 2]), 4)  # two cameras × two feet
         self.assertRegex(text, r"<td>shank</td><td class=\"n\">4[23]\.")
         typed = shlex.split(html.unescape(re.search(r"<dt>Command</dt><dd>(etude capture [^<]*)</dd>", text)[1]))
         self.assertIn(str(page), typed)
@@ -630,7 +631,7 @@ class Mistakes(EtudeCase):
         rooms = self.folder / "rooms"
         rooms.mkdir()
         for name, camera in cams.items():
-            fast = 1 + (name == "cam3")  # twice as many pictures a second
+            fast = 1 + (name == "cam3")  # cam3 has twice the frame rate
             film = np.stack([drawn(camera, figure(0.5 + k / rate / fast)) for k in range(frames * fast)])
             for pixels, path in ((film, self.folder / f"{name}.mp4"), (drawn(camera, None)[None], rooms / f"{name}.png")):
                 subprocess.run(["ffmpeg", "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{WIDTH}x{HEIGHT}",
@@ -647,11 +648,11 @@ class Mistakes(EtudeCase):
         for camera in cams:
             row = re.search(rf"<td>{camera}</td><td class=\"n\">(\d+)</td><td class=\"n\">([\d.]+)</td>", text)
             self.assertEqual(int(row[1]), frames)
-            self.assertLess(float(row[2]), 20)  # per cent: its flesh is not that of an average adult
+            self.assertLess(float(row[2]), 20)  # per cent; the flesh is thicker than an average adult's
         self.assertNotIn("Keypoints left out", text)
         self.assertRegex(text, r"nothing is doubtful\.")
 
-        # A body of half the size cannot be theirs: nothing is written unless it is accepted.
+        # A body of half the size does not fit: nothing is written unless it is accepted.
         small = ["capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes", "--rooms", rooms,
                  "--stature", "0.7", "-o", self.folder / "small.csv", *arguments]
         refused = self.ends(1, *small, "--json")
@@ -664,7 +665,7 @@ class Mistakes(EtudeCase):
         self.ends(0, *small, "--accept-doubtful")
         self.assertTrue((self.folder / "small.csv").exists())
 
-        # The same, with keypoints beside the outlines.
+        # The same with keypoints and outlines.
         moving = lambda t: figure(0.5 + t)
         write_keypoints(self.folder / "keypoints", "OpenPose, 26", {
             name: [[camera.person(moving(k / rate / fast))] for k in range(frames * fast)]
@@ -696,8 +697,8 @@ ROLES = {"head": "Head"} | {f"{side}_{joint}": side[0].upper() + name for side i
 
 
 def poses():
-    """Median distance of the skeleton's joints, mm, of keypoints that err: frames by themselves, smoothed, all at
-    once."""
+    """Prints the median distance (mm) of the skeleton's joints for noisy keypoints: frame by frame, smoothed, and
+    adjusted."""
     case = Mistakes()
     Mistakes.setUpClass()
     case.setUp()

@@ -33,7 +33,7 @@ def unit(a):
 
 
 def project(camera, point):
-    """OpenCV's pixels of a camera that looks at (0, 1, 0)."""
+    """Returns OpenCV's pixels of a camera that looks at (0, 1, 0)."""
     z = unit(sub((0, 1, 0), PLACES[camera]))
     x = unit(cross(z, (0, 1, 0)))
     y = cross(z, x)
@@ -42,7 +42,7 @@ def project(camera, point):
 
 
 def body(t):
-    """A stick figure as COCO's seventeen keypoints, arms swinging."""
+    """Returns a stick figure with swinging arms as COCO's seventeen keypoints."""
     a = 0.6 * math.sin(3 * t)
     points = [(0, 1.62, 0.1), (0.03, 1.66, 0.08), (-0.03, 1.66, 0.08), (0.08, 1.64, 0), (-0.08, 1.64, 0)]
     rows = {"shoulder": [], "elbow": [], "wrist": [], "hip": [], "knee": [], "ankle": []}
@@ -69,7 +69,7 @@ def make_film(path, size=f"{WIDTH}x{HEIGHT}", rate=RATE, frames=FRAMES, what="te
 class Capture(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        """Point pairs, keypoints, films and the rig, made once; every test has a copy."""
+        """Makes point pairs, keypoints, films and the rig once; every test copies them."""
         cls.shared = cls.shared_folder()
         lines = ["camera,x,y,z,u,v"]
         for camera in PLACES:
@@ -164,7 +164,7 @@ class Capture(EtudeCase):
         result = self.ends(0, "calibrate", "--print", board, "--board", "5x4x0.1")
         self.assertEqual(board.read_bytes()[:4], b"\x89PNG")
         self.assertIn("500 x 400 mm: needs A2 paper", result.stdout)
-        # As guided it fits on paper, and the file says how large it is.
+        # The board of the guide fits on paper, and the file states its size.
         self.assertIn("170 x 238 mm: fits on A4 or Letter", self.etude("calibrate", "--print", board, "--overwrite").stdout)
         head = board.read_bytes()
         width, height = struct.unpack(">II", head[16:24])
@@ -184,7 +184,7 @@ class Capture(EtudeCase):
         result = self.ends(0, *self.capture("-o", self.folder / "m.bvh", "--points", trc))
         self.assertIn("person 1: seen by left (20 frames), middle (20 frames), right (20 frames)", result.stdout)
         self.assertIn("upper arm 29.0, forearm 25.0", result.stdout)
-        # The points are where the figure was: an independent projection made the keypoints.
+        # The points are at the figure's places: an independent projection made the keypoints.
         lines = trc.read_text().splitlines()
         names = [name for name in lines[3].split("\t")[2:] if name]
         row = [float(v) / 1000 for v in lines[6 + 7].split("\t")[2:]]
@@ -203,7 +203,7 @@ class Capture(EtudeCase):
         beside = self.etude(*self.capture("-o", self.folder / "n.csv", "--reference", trc, "--distances", distances)).stdout
         self.assertRegex(beside, r"LWrist +0\.0 +0\.0 +0\.0 +0\.0\n")
         self.assertIn("agreement, not error", beside)
-        # A reference of joints, as Etude writes them, is compared with the skeleton's; one of other markers is refused.
+        # A reference of joints, in Etude's format, is compared with the skeleton's; one of other markers is refused.
         joints = self.etude(*self.capture("-o", self.folder / "j.csv", "--reference", self.folder / "m.trc")).stdout
         self.assertRegex(joints, r"left_wrist +0\.0 +")
         strange = self.folder / "strange.trc"
@@ -219,13 +219,13 @@ class Capture(EtudeCase):
         self.assertIn("--distances requires --reference", self.refusal(
             *self.capture("-o", self.folder / "o.csv", "--distances", self.folder / "o.json")))
 
-        # On exact keypoints of a body that keeps its lengths the skeleton's joints lie on their points.
+        # For exact keypoints of a body with constant lengths, the skeleton's joints lie on the points.
         self.assertRegex(result.stdout, r"left_knee +0\.0 +0\.0\n")
         self.assertRegex(result.stdout, r"\nall +0\.0 +0\.[0-9]\n")
 
     def test_sets_clocks_by_keypoints(self):
         late = self.keypoints / "right_json"
-        for k in range(FRAMES):  # what the camera sees four frames later
+        for k in range(FRAMES):  # this film is four frames ahead
             flat = [v for point in body((k + 4) / RATE) for v in (*project("right", point), 0.9)]
             (late / f"right_{k}.json").write_text(json.dumps({"people": [{"pose_keypoints_2d": flat}]}))
         for k in range(FRAMES - 2, FRAMES):

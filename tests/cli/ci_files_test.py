@@ -16,18 +16,19 @@ EXAMPLE = ROOT / "examples" / "ci-repository"
 
 
 def fill_in(text, known):
-    """A server's ${{ … }}, of which each must be known."""
+    """Replaces a server's ${{ … }}; each must be known."""
     return re.sub(r"\$\{\{ *(.*?) *\}\}", lambda match: known[match[1]], str(text))
 
 
 def holds(condition, known):
-    """Whether a step of an action runs, by the few forms that ours have; one that fails ends those without always()."""
+    """Evaluates a step's condition in the few forms that ours have. After a failed step, only steps with always()
+    run."""
     words = condition.replace("&&", " and ").replace("always()", "True")
     return eval(re.sub(r"\b(?:inputs|github)\.\w+", lambda match: repr(known[match[0]]), words), {})  # noqa: S307: our own files
 
 
 def containerfile(text):
-    """Its instructions: (name, words)."""
+    """Returns the instructions of a container file: (name, words)."""
     lines = re.sub(r"\\\n", " ", re.sub(r"^#.*\n", "", text, flags=re.M)).splitlines()
     found = [line.split(None, 1) for line in lines if line.strip()]
     for instruction in found:
@@ -49,7 +50,7 @@ class CiFiles(EtudeCase):
             (self.prefix / folder).mkdir(parents=True)
         (self.prefix / "bin" / "etude").symlink_to(ETUDE)
         (self.prefix / "share" / "etude" / "ci").symlink_to(CI)
-        for program in "gh", "curl":   # what the servers are told, is kept
+        for program in "gh", "curl":   # log what the servers are sent
             (self.prefix / "bin" / program).write_text(f'#!/bin/sh\necho "$@" >> {self.folder}/{program}\n')
             (self.prefix / "bin" / program).chmod(0o755)
         self.environment = {"PATH": f"{self.prefix}/bin:/usr/bin:/bin", "HOME": str(self.folder), "CI": "true"}
@@ -59,7 +60,8 @@ class CiFiles(EtudeCase):
                               env={**self.environment, **variables}, timeout=120)
 
     def run_action(self, **changed):
-        """Takes the steps of ci/action.yml as GitHub would: (the failed step or None, the job's summary, outputs)."""
+        """Runs the steps of ci/action.yml as GitHub does: returns (the failed step or None, the job's summary,
+        outputs)."""
         action = yaml.safe_load((CI / "action.yml").read_text())
         workflow = yaml.safe_load((self.repository / ".github/workflows/etude.yml").read_text())
         call = next(step for step in workflow["jobs"]["gate"]["steps"] if "/ci@" in step.get("uses", ""))
@@ -109,7 +111,7 @@ class CiFiles(EtudeCase):
         failed, summary, verdict = self.run_action()
         self.assertEqual((failed, verdict), ("Run and gate", "regression"))
         self.assertRegex(summary, r"\*\*worse\*\* \| ik-weights \| joint\\_noise\\_deg=5 \| ours \| effector position error \|")
-        self.assertIn("72 same", summary)  # the others are what they were
+        self.assertIn("72 same", summary)  # the other clips are unchanged
 
     def test_what_is_missing_is_told_in_the_summary(self):
         summary, right = self.folder / "summary", {"SUITE": "quick/ik", "METHOD": "{name: ours, exec: [python3, solver.py]}",
@@ -183,7 +185,7 @@ class CiFiles(EtudeCase):
                                                   "CI_JOB_TOKEN": "secret"})
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("https://host/api/v4/projects/3/packages/generic/etude/v1/etude_1_amd64.deb", (self.folder / "curl").read_text())
-        # Both build by the one script, on every Debian that is named.
+        # Both files build with the same script, on every Debian listed.
         debians = [str(number) for number in github["strategy"]["matrix"]["debian"]]
         self.assertEqual(debians, gitlab["parallel"]["matrix"][0]["DEBIAN"])
         self.assertIn({"run": "ci/packages dist"}, github["steps"])

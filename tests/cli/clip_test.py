@@ -38,7 +38,7 @@ class Clips(EtudeCase):
         return told["clips"]
 
     def places(self, clip, *options):
-        """Every joint's place in every frame, as the program's CSV has it."""
+        """Returns every joint's position in every frame, from the program's CSV."""
         path = self.folder / "places.csv"
         self.works("convert", clip, path, "--overwrite", *options)
         with open(path) as table:
@@ -229,7 +229,7 @@ class Render(Clips):
 
 
 def lopsided(text):
-    """A body whose build does not tell its arms: one upper arm is twice as long."""
+    """A body whose proportions do not identify its arms: one upper arm is twice as long."""
     return re.sub(r"(JOINT LeftForeArm\s*\{\s*OFFSET)\s+(\S+)\s+(\S+)\s+(\S+)",
                   lambda m: " ".join([m[1]] + [str(2 * float(number)) for number in m.groups()[1:]]), text)
 
@@ -253,7 +253,7 @@ class Map(Clips):
         self.refuses("map", clip, "-o", template, says=["no joint found for", "left_elbow", "'Q1'"])
         self.assertIn("# left_elbow:", template.read_text())
         self.assertIn('"Q1"', template.read_text())
-        self.assertEqual(template.read_text().count("\n  # "), 20 - 12)  # what names tell is kept: ten limb joints, neck, head
+        self.assertEqual(template.read_text().count("\n  # "), 20 - 12)  # names identify ten limb joints, neck and head
         taught = self.write("taught.yaml", "roles:\n  left_elbow: Q1\n  right_elbow: Q2\n")
         self.assert_same_places(self.places(known), self.places(clip, "--joint-map", taught), 1e-9)
         wrong = self.write("wrong.yaml", "roles:\n  left_elbw: Q1\n")
@@ -280,7 +280,7 @@ class Map(Clips):
         scenario = self.cut_scenario(odd, "builtin:sway")
         self.assertIn("no joint found for left_elbow", self.ends(2, "run", scenario, "-o", self.out).stderr)
         self.ends(0, "run", scenario, "-o", self.out, "--joint-map", taught)
-        taught.unlink()  # the manifest holds its text
+        taught.unlink()  # the manifest contains the map's text
         again = self.ends(0, "run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
         for name in ("manifest.json", "cells.jsonl"):
             self.assertEqual((self.out / name).read_bytes(), (self.folder / "again" / name).read_bytes())

@@ -21,7 +21,7 @@ class Coach(EtudeCase):
         cls.take, cls.expert = shared / "take.csv", shared / "expert.csv"
         cls.etude("clip", "convert", "builtin:standby", cls.take)
         cls.etude("clip", "convert", "builtin:warm_up", cls.expert)
-        # As people do, who follow the coach, 0.3 s late.
+        # People who follow the coach are 0.3 s late.
         head, first, *rows = cls.expert.read_text().splitlines()
         poses = [row.split(",", 1)[1] for row in [first] * 10 + rows]
         cls.expert.write_text("\n".join([head] + [f"{i / 30:.6f},{pose}" for i, pose in enumerate(poses)]) + "\n")
@@ -115,7 +115,7 @@ class Coach(EtudeCase):
         clicks = self.folder / "clicks.wav"
         head, frames = self.coach("--now", "--stream", self.expert, "--beats", beats, "--click", clicks, "--brief")
         self.assertAlmostEqual(head["tempo_bpm"], 93.75)
-        self.assertAlmostEqual(frames[0]["music"]["play_from_s"], 0.3, delta=0.02)  # tags stand on whole frames
+        self.assertAlmostEqual(frames[0]["music"]["play_from_s"], 0.3, delta=0.02)  # tags are at whole frames
         with wave.open(str(clicks)) as sound:
             self.assertEqual(sound.getframerate(), 44100)
             self.assertAlmostEqual(sound.getnframes() / 44100, 0.3 + 199 * 0.64 + 1, places=3)

@@ -1,4 +1,4 @@
-"""Tests `etude crowd`: a crowd is tracked, reported on, and filmed."""
+"""Tests `etude crowd`: it tracks a crowd, reports on it, and films it."""
 import json
 import re
 import subprocess

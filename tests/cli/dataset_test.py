@@ -1,5 +1,5 @@
 """Tests export and scoring of data sets: the truth scores perfectly, other answers do not, and incomplete answers
-are not scored."""
+are refused."""
 import csv
 import json
 import shutil
@@ -22,7 +22,7 @@ methods:
 class DataSets(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        """One export of each scenario, and its truth turned into a folder of answers, for all tests to copy."""
+        """Exports each scenario, and turns the truth into answers, once for all tests."""
         cls.shared = cls.shared_folder()
         cls.index = cls.export("ik", IK)
         cls.export("film", FILM, "--depth")
@@ -77,7 +77,7 @@ class DataSets(EtudeCase):
         self.assertIn("--rate", again.stderr)
 
     def exported(self, name="ik"):
-        """The data set of a scenario, and the answers to it that may be changed."""
+        """Returns a copy of a scenario's data set, and answers to it that may be changed."""
         shutil.copy(self.shared / name / f"{name}.yaml", self.folder)
         shutil.copytree(self.shared / name / "answers", self.folder / "answers")
         return self.shared / name / "data", self.folder / "answers"
@@ -247,7 +247,7 @@ class DataSets(EtudeCase):
         problem = json.loads((inputs / "000/problem.json").read_text())
         for camera in problem["cameras"]:
             self.assertEqual(png_size((inputs / "000" / camera["background"]).read_bytes()), (640, 480))
-        # The command of docs/datasets.md makes the pictures that the problem names, and no others.
+        # The command of docs/datasets.md writes exactly the pictures that the problem names.
         for number, camera in enumerate(problem["cameras"], 1):
             film = inputs / "000" / f"camera-{number}.mkv"
             subprocess.run(["ffmpeg", "-v", "error", "-i", film, "-start_number", "0",
@@ -263,7 +263,7 @@ class DataSets(EtudeCase):
                                float(lines[8].split("\t")[lines[3].split("\t").index("head") + 1]), places=4)
         self.assertTrue((truth / "camera-2.yaml").read_text().startswith("%YAML:1.0\n---\n"))
         self.assertEqual((truth / "camera-1-0002.exr").read_bytes()[:4], b"\x76\x2f\x31\x01")
-        # A BVH file of the truth is a clip like any other.
+        # The truth's BVH file can be used as a clip.
         clip = self.etude("run", self.folder / "film.yaml", "--clips", truth / "truth.bvh", "-o", self.folder / "again")
         self.assertEqual(clip.returncode, 0, clip.stderr)
         mine = [row for row in self.score(data, answers) if row["method"] == "predictions"]

@@ -1,4 +1,4 @@
-"""Tests `etude run --dry-run`: it forecasts the time and the findings, and writes nothing."""
+"""Tests `etude run --dry-run`: it forecasts a run's time and findings, and writes nothing."""
 
 import json
 import pathlib
@@ -58,7 +58,7 @@ class DryRun(EtudeCase):
         one, = told["scenarios"]
         self.assertTrue(one["kept"])
         cost = kept[one["work"]]
-        # Of a world and of all: what is kept, by one pace.
+        # The forecast scales the stored costs of a world and of the run by one pace.
         pace = one["world_s"] * one["conditions"] / cost["trial"]
         self.assertAlmostEqual(told["run_s"] * told["workers"], pace * (cost["once"] + 5 * cost["trial"]), 9)
 
@@ -68,7 +68,7 @@ class DryRun(EtudeCase):
         kept = {one["work"] for one in json.loads((SCENARIOS / "costs.json").read_text())["scenarios"]}
         self.assertGreater(len(works), 60)
         self.assertEqual([name for name, work in works.items() if work not in kept], [], "scripts/costs measures them")
-        # The control: another number of sweeps is other work.
+        # The control: another number of sweeps has another cost.
         text = (SCENARIOS / "quick" / "ik.yaml").read_text()
         (self.folder / "other.yaml").write_text(text.replace("max_sweeps: 1000", "max_sweeps: 900"))
         other = json.loads(self.etude("list", "scenarios", self.folder, "--json").stdout)["scenarios"][0]
@@ -81,7 +81,7 @@ class DryRun(EtudeCase):
         drawn = self.facts("quick/transition", *(word for clip in clips for word in ("--clips", clip)))["scenarios"][0]
         self.assertEqual((kept["kept"], drawn["kept"]), (True, False))
         self.assertEqual(kept["units"], drawn["units"])
-        # Of fewer trials and another seed, units are counted.
+        # With fewer trials or another seed, units are counted anew.
         self.assertLessEqual(self.facts("quick/transition", "--trials", 3)["scenarios"][0]["units"], 6)
         self.assertGreater(self.facts("quick/transition", "--seed", 2)["scenarios"][0]["units"], 6)
 

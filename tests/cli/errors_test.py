@@ -1,5 +1,4 @@
-"""Tests bad input: it gives one message with the place and the allowed values, and exit code 2, and nothing is
-written."""
+"""Tests bad input: it gives one message with the place and the allowed values, exit code 2, and no file."""
 import json
 import os
 import re
@@ -93,7 +92,7 @@ class Errors(EtudeCase):
         self.assertEqual(os.listdir(odd), [])
 
     def test_no_message_and_no_table_shows_a_name_as_another(self):
-        """Names and values that turn the direction of writing, that nobody sees, or that command a terminal."""
+        """Tests names and values that reverse the direction of writing, are invisible, or command a terminal."""
         hostile = "a\u202eb\u200f\u2066\ufeff\u009b"
         bare = IK.split("sweep")[0]
         files = {

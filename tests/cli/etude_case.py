@@ -15,23 +15,23 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from json_schema import complaints, load_schema  # noqa: E402
 
 ETUDE = os.environ["ETUDE"]
-HEAVY = bool(os.environ.get("ETUDE_HEAVY"))  # scripts/test --full
-heavy = unittest.skipUnless(HEAVY, "heavy")  # costs more than it tells at every change
-os.environ["PATH"] = "/usr/bin:" + os.environ["PATH"]  # a fence shows no Python of a home
+HEAVY = bool(os.environ.get("ETUDE_HEAVY"))  # set by scripts/test --full
+heavy = unittest.skipUnless(HEAVY, "heavy")  # takes too long for every change
+os.environ["PATH"] = "/usr/bin:" + os.environ["PATH"]  # a fence shows no Python in a home folder
 
 
 COMMAND_GROUPS = ["Run and judge", "Your motions", "Your recordings of people", "Your cameras", "Share"]
 
 
 def commands_in(help_text):
-    """The names of all subcommands that a help text lists, whatever their group."""
+    """Returns the names of all subcommands in a help text."""
     headings = "|".join(["Subcommands", *COMMAND_GROUPS])
     listed = re.findall(rf"^(?:{headings}):\n((?:  .*\n)+)", help_text, re.M)
     return [name for block in listed for name in re.findall(r"^  (\S+)", block, re.M)]
 
 
 def ik_scenario(trials, question="Does it run?", weights="fixed"):
-    """A scenario of two solvers under two conditions, quick to run."""
+    """Returns a scenario of two solvers under two conditions that runs quickly."""
     return f"""scenario: ik
 question: {question}
 task: ik
@@ -46,12 +46,13 @@ methods:
 IK = ik_scenario(trials=4)
 
 
-# What a run promises to be the same bytes, however it came about.
+# The files that two runs promise to share byte for byte.
 SHARED = ["manifest.json", "cells.jsonl", "columns", "summary.json", "series", "recordings"]
 
 
 def cells_in_journal(folder, kind="cell"):
-    """How many cells a run has flushed so far; of the kind `answered`: those that programs measure, before they do."""
+    """Returns the number of cells that a run has flushed; with `answered`, of answered cells that programs have yet
+    to measure."""
     try:
         lines = (folder / "journal.jsonl").read_bytes().split(b"\n")[:-1]
     except FileNotFoundError:
@@ -60,7 +61,7 @@ def cells_in_journal(folder, kind="cell"):
 
 
 def png_size(data):
-    """The size of a PNG file, after checking every chunk and unpacking its pixels."""
+    """Returns the size of a PNG file; checks every chunk and unpacks the pixels."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, pixels, size = 8, b"", None
     while at < len(data):
@@ -84,8 +85,7 @@ class EtudeCase(unittest.TestCase):
         self.out = self.folder / "out"
 
     def facts(self, command, *arguments):
-        """What `command` tells with --json and nothing else on standard output, after checking it against its
-        schema."""
+        """Returns the output of `command` with --json, which must be JSON that fits its schema."""
         done = self.etude(*command.split(), *(() if "--" in arguments else ("--json",)), *arguments)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(done.stdout.count("\n"), 1, done.stdout)
@@ -98,14 +98,14 @@ class EtudeCase(unittest.TestCase):
 
     @classmethod
     def shared_folder(cls):
-        """A scratch folder of the whole class: what all its tests read is made once, in setUpClass."""
+        """Makes the class's scratch folder for files that setUpClass writes once for all tests."""
         scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(scratch.cleanup)
         return pathlib.Path(scratch.name)
 
     @classmethod
     def run_once(cls, text):
-        """A scenario of that text and its run, for the whole class: their paths."""
+        """Writes and runs a scenario for the whole class; returns both paths."""
         shared = cls.shared_folder()
         scenario, whole = shared / "ik.yaml", shared / "whole"
         scenario.write_text(text)
@@ -119,24 +119,25 @@ class EtudeCase(unittest.TestCase):
         return str(path)
 
     def cut_scenario(self, *clips, trials=1, more="", clip_key=None):
-        """The path of a scenario of task transition with one method, and more."""
+        """Writes a scenario of task transition with one method; returns its path."""
         clip_key = clip_key or f"clips: {[str(clip) for clip in clips]}"
         return self.write("t.yaml", f"scenario: t\nquestion: Does it run?\ntask: transition\n{clip_key}\ntrials: {trials}\n"
                                     f"methods:\n  - {{name: cut, choice: now, join: cut}}\n{more}")
 
     @staticmethod
     def etude(*arguments, text=None):
-        """Runs the program; `text` is what it reads from its standard input."""
+        """Runs the program; `text` is its standard input."""
         return subprocess.run([ETUDE, *map(str, arguments)], input=text, capture_output=True, text=True, timeout=120)
 
     def ends(self, code, *arguments, text=None):
-        """The same, which must end with that code."""
+        """Runs the program, which must end with `code`."""
         result = self.etude(*arguments, text=text)
         self.assertEqual(result.returncode, code, result.stdout + result.stderr)
         return result
 
     def refusal(self, *arguments, says=(), leaves=None):
-        """The one line in which a command is refused, with all those words; it leaves no file of that name."""
+        """Returns the line that refuses a command. It must contain all of `says`, and the file `leaves` must not
+        exist."""
         complaint = self.ends(2, *arguments).stderr
         self.assertEqual(complaint.count("\n"), 1, complaint)
         for words in [says] if isinstance(says, str) else says:
@@ -145,7 +146,7 @@ class EtudeCase(unittest.TestCase):
         return complaint
 
     def run_suite(self, *arguments, out=None, code=0):
-        """`etude run` that must succeed, or end with 1 where a method has no answer; gives the rows."""
+        """Runs `etude run`, which must end with `code` (1: a method has no answer); returns the rows."""
         out = out or self.out
         self.ends(code, "run", *arguments, "-o", out)
         return [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()]
@@ -157,7 +158,7 @@ class EtudeCase(unittest.TestCase):
             time.sleep(0.005)
 
     def assert_same_results(self, folder, other):
-        """Same bytes in every file that two runs promise to share; says how many were compared."""
+        """Checks that the files that two runs must share have the same bytes; returns their number."""
         compared = 0
         for part in SHARED:
             files = [path.relative_to(root) for root in (folder, other)

@@ -1,4 +1,4 @@
-"""Tests `etude evaluate`: it compares files of other formats, rates and sizes with their truths."""
+"""Tests `etude evaluate`: it compares files of different formats, rates and sizes with their truths."""
 import csv
 import json
 import pathlib
@@ -17,7 +17,7 @@ BENDS = [[f"{side}_{joint}" for joint in limb] for side in ("left", "right")
 
 
 def trc(names, frames, rate):
-    """A TRC file in millimetres; None is a gap."""
+    """Returns a TRC file in millimetres; None is a gap."""
     lines = ["PathFileType\t4\t(X/Y/Z)\tmine.trc",
              "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames",
              f"{rate}\t{rate}\t{len(frames)}\t{len(names)}\tmm\t{rate}\t1\t{len(frames)}",
@@ -32,7 +32,7 @@ def trc(names, frames, rate):
 class Evaluate(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        """A built-in move as files, and its joints."""
+        """Writes a built-in move as files, and reads its joints."""
         cls.shared = cls.shared_folder()
         for name in ("clap.csv", "clap.bvh", "clap.npz", "clap.c3d"):
             made = cls.etude("clip", "convert", "builtin:clap", cls.shared / name)
@@ -57,7 +57,7 @@ class Evaluate(EtudeCase):
         return [json.loads(line) for line in ((out or self.out) / "cells.jsonl").read_text().splitlines()]
 
     def given(self, found, truth, rate):
-        """What the second implementation reads, of lists of frames."""
+        """Returns lists of frames as the second implementation's input."""
         def column(frames, name):
             return [frame[self.names.index(name)] for frame in frames]
         return {"rate_hz": rate, "found": found, "truth": truth, "segment": 100, "found_turns": [], "true_turns": [],
@@ -69,7 +69,7 @@ class Evaluate(EtudeCase):
 
     def assert_agrees(self, row, given, places):
         for name, metric in METRICS.items():
-            expected = metric(given) if name != "lag_ms" else None  # it is not sought
+            expected = metric(given) if name != "lag_ms" else None  # no lag is searched here
             if expected is None:
                 self.assertIsNone(row[name], name)
             else:
@@ -79,14 +79,14 @@ class Evaluate(EtudeCase):
         dice = random.Random(61)
         noisy = [[None if dice.random() < 0.02 else [1.05 * x + dice.gauss(0.01, 0.02) for x in p] for p in frame]
                  for frame in self.frames]
-        # As the file holds them.
+        # Rounded as in the file.
         noisy = [[p and [round(1000 * x, 6) / 1000 for x in p] for p in frame] for frame in noisy]
         answer = self.trc_file("answer.trc", noisy)
         self.evaluate(self.shared / "clap.csv", answer)
         row, = self.rows()
         self.assertEqual((row["status"], row["clip"], row["method"]), ("ok", "clap", "answer"))
         self.assert_agrees(row, self.given(noisy, self.frames, 30), 9)
-        # Against other files of the same motion, as far as these hold its digits.
+        # The same motion in other formats, within the digits that each stores.
         for name, places in ("clap.npz", 5), ("clap.bvh", 2), ("clap.c3d", 2):
             out = self.folder / name
             self.evaluate(self.shared / name, answer, "--metric", "mpjpe_root_mm", out=out)
@@ -135,7 +135,7 @@ class Evaluate(EtudeCase):
         self.assertEqual(facts["moves"], [])
         self.assertEqual(facts["only_before"], [])
         self.assertEqual(sorted(facts["only_after"]), ["evaluate, a", "evaluate, c"])
-        # A baseline of the two files passes with four, and misses one that goes.
+        # A baseline of two files passes a run of four, and fails if one of the two is missing.
         baseline = self.folder / "two.json"
         self.assertEqual(self.etude("gate", self.out, "--baseline", baseline, "--update").returncode, 0)
         gated = self.etude("gate", more, "--baseline", baseline)
@@ -144,7 +144,7 @@ class Evaluate(EtudeCase):
         fewer = self.etude("gate", self.out, "--baseline", self.folder / "four.json")
         self.assertEqual(fewer.returncode, 3, fewer.stdout)
         self.assertIn("evaluate, a", fewer.stdout + fewer.stderr)
-        # Both runs hold; once a file changes, replay and verify say which.
+        # Both runs are intact; after a file changes, replay and verify name it.
         self.assertEqual(self.etude("verify", self.out).returncode, 0)
         self.trc_file("m/d.trc", self.frames)
         for command in "replay", "verify":
@@ -189,7 +189,7 @@ class Evaluate(EtudeCase):
         pathlib.Path(torso).write_text(pathlib.Path(torso).read_text().replace("ROOT Hips", "ROOT Torso"))
         self.evaluate(truth, lower, "--metric", "mpjpe_root_mm")
         row, = self.rows()
-        # Hips, knees, ankles and toes lie 37 mm lower below the pelvis; the other joints do not.
+        # Below the pelvis everything lies 37 mm too low; the other joints are right.
         self.assertIn(", root Hips, ", row["reason"])
         judged = int(row["reason"].split()[0])
         self.assertAlmostEqual(row["mpjpe_root_mm"], 37 * 8 / judged, 3)
@@ -200,7 +200,7 @@ class Evaluate(EtudeCase):
                           self.rows(out)[0]["reason"])
 
     def test_files_that_state_their_times_are_judged_by_them(self):
-        def from_ten(name, frames, late=0):  # as exported by a program that keeps the take's clock
+        def from_ten(name, frames, late=0):  # like a program that keeps the take's clock
             path = self.trc_file(name, frames)
             head, body = path.read_text().split("\n\n")
             rows = [row.split("\t", 2) for row in body.splitlines()]
@@ -298,7 +298,7 @@ class Evaluate(EtudeCase):
         for name in "clap", "sway":
             self.ends(0, "clip", "convert", f"builtin:{name}", f"{self.folder}/{name}/")
             shutil.copytree(self.folder / name, truth, dirs_exist_ok=True)
-        # The same recordings by another tracking system, 1 cm aside.
+        # The same recordings by another tracking system, shifted by 1 cm.
         for path in (path for path in truth.rglob("*") if path.is_file()):
             copy = mine / path.relative_to(truth).parent / path.name.replace("tracksys-etude", "tracksys-imu")
             copy.parent.mkdir(parents=True, exist_ok=True)

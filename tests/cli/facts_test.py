@@ -1,4 +1,4 @@
-"""Tests --json: every command with findings also prints them as JSON by docs/schemas/facts.schema.json."""
+"""Tests --json: every command with findings also prints them as JSON that fits docs/schemas/facts.schema.json."""
 import json
 import pathlib
 import re
@@ -23,7 +23,7 @@ class Facts(EtudeCase):
         first = json.loads(baseline.read_text())
         moved = next(line for line in first["values"] if line["metric"] == "position_error_cm")
         moved["values"] = [value + 1 for value in moved["values"]]
-        baseline.write_text(json.dumps(first))  # which its seal does not fit
+        baseline.write_text(json.dumps(first))  # so the seal no longer fits
         cell = "ik/joint_noise_deg=2/000/fixed"
         calls = {
             "check-method": ["--task", "ik", "--no-fence", "--json", "--", "python3", OUTSIDE],

@@ -20,7 +20,7 @@ THREE = os.environ.get("ETUDE_THREE")
 
 
 def turn(axis_times_angle):
-    """The rotation of a vector's length about its direction (Rodrigues)."""
+    """Returns the rotation by a vector's length about its direction (Rodrigues)."""
     angle = math.sqrt(sum(v * v for v in axis_times_angle))
     if angle == 0:
         return numpy.eye(3)
@@ -30,7 +30,8 @@ def turn(axis_times_angle):
 
 
 class Fbx(MotionFileCase):
-    # Joint: parent, place in the parent (cm), turn about x, y, z (degrees) at a time in seconds, all after a turn of its own.
+    # Joint: parent, offset from the parent (cm), Euler angles about x, y, z (degrees) over time (s). Each joint also has a
+    # constant rotation of its own.
     FBX_BODY = {
         "Hips": (None, (0, 95, 0), lambda t: (0, 40 * t, 0), (0, 0, 0)),
         "Spine": ("Hips", (0, 20, 0), lambda t: (10 * t, 0, 0), (0, 0, 0)), "Neck": ("Spine", (0, 30, 0), None, (0, 0, 0)),
@@ -45,12 +46,13 @@ class Fbx(MotionFileCase):
                ("Foot", "Leg", 1, (0, -42, 0), None, (0, 0, 0)), ("ToeBase", "Foot", 1, (0, -5, 14), None, (0, 0, 0)))}}
 
     def fbx(self, name, unit_cm, up, frames=31, rate=30, late_ticks=0, inactive=(), pivots=None):
-        """An FBX file in text, and the places of its joints by frame in metres, Y up, by forward kinematics of our own.
+        """Writes an FBX text file; returns it and the joints' positions by frame (metres, Y up) by forward
+        kinematics of our own.
 
-        Keys about Y come late_ticks later. At joints of `inactive` RotationActive is 0, beside a PreRotation and an
-        order. Joints of `pivots` turn about a point, in centimetres from themselves."""
+        Keys about Y come late_ticks later. Joints of `inactive` have RotationActive 0 beside a PreRotation and an
+        order. Joints of `pivots` turn about a point, given in centimetres from the joint."""
         pivots = pivots or {}
-        def euler(degrees):  # about x first, then y, then z
+        def euler(degrees):  # x first, then y, then z
             x, y, z = (turn(numpy.radians(a) * axis) for a, axis in zip(degrees, numpy.eye(3)))
             return z @ y @ x
         stand = numpy.eye(3) if up == "y" else numpy.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])  # Y up to Z up
@@ -91,7 +93,7 @@ class Fbx(MotionFileCase):
             'Objects:  {\nAnimationStack: 1, "AnimStack::Walk", "" {\n}\nAnimationLayer: 2, "AnimLayer::Base", "" {\n}\n'
             + "".join(objects) + '}\nConnections:  {\nC: "OO",2,1\n' + "".join(links) + "}\n")
         lines, depth = [], 0
-        for line in text.splitlines():  # three.js goes by the tabs
+        for line in text.splitlines():  # three.js parses by indentation
             depth -= line.startswith("}")
             lines.append(depth * "\t" + line)
             depth += line.endswith("{")
@@ -116,7 +118,7 @@ class Fbx(MotionFileCase):
             self.assertLess(self.apart_from_truth(path, places), 1e-4, up)
 
     def apart_from_truth(self, path, places):
-        """How far wrists, elbows, ankles and knees are from where they should be, beside the hips, metres."""
+        """Returns the largest error (metres) of wrists, elbows, ankles and knees, relative to the hips."""
         worst = 0
         joints = self.joints(path, "--rate", 30)
         self.assertEqual(len(joints), len(places))
@@ -128,7 +130,7 @@ class Fbx(MotionFileCase):
         return worst
 
     def test_fbx_keys_of_three_axes_that_are_not_at_one_time(self):
-        for late_ticks in (0, 1, 80, 1000, 46186):  # up to a microsecond
+        for late_ticks in (0, 1, 80, 1000, 46186):  # at most a microsecond
             path, places = self.fbx("late.fbx", 1, "y", late_ticks=late_ticks)
             self.assertIn("FBX, 31 frames at 30 Hz", self.etude("clip", "info", path).stdout, late_ticks)
             self.assertLess(self.apart_from_truth(path, places), 1e-4, late_ticks)
@@ -164,17 +166,17 @@ class Fbx(MotionFileCase):
 
     @unittest.skipUnless(THREE, "ETUDE_THREE names no folder of npm's package three")
     def test_fbx_lies_where_three_js_puts_it(self):
-        """Every joint in every frame, metres; a file is in centimetres unless it tells otherwise."""
+        """Compares every joint in every frame, in metres; a file is in centimetres unless it says otherwise."""
         files = [(self.fbx("y.fbx", 1, "y")[0], 0.01), (self.fbx("z.fbx", 100, "z")[0], 1)]
         files += [(pathlib.Path("/usr/share/assimp/models/FBX", name), 0.01) for name in ("huesitos.fbx", "animation_with_skeleton.fbx")]
         for path, metres in files:
             self.assertLess(self.apart_from_three(path, metres), 1e-4, path)
 
     def apart_from_three(self, path, metres):
-        """How far the furthest joint lies from where three.js puts it, metres."""
+        """Returns the largest distance (metres) of a joint from three.js's."""
         out = self.folder / "out.glb"
         self.ends(0, "clip", "convert", path, out, "--overwrite", "--unit", "m")
-        facts = json.loads(self.etude("clip", "info", out, "--json").stdout)["clips"][0]  # exit code 2 of what is no body
+        facts = json.loads(self.etude("clip", "info", out, "--json").stdout)["clips"][0]  # code 2: the file has no body
         ours = second_readers.read_gltf(out, facts["name"].partition("#")[2], facts["rate_hz"], facts["frames"])
         words = ["node", pathlib.Path(__file__).with_name("three_fbx.mjs"), THREE, path, facts["rate_hz"], facts["frames"]]
         theirs = json.loads(subprocess.run(list(map(str, words)), capture_output=True, text=True, check=True).stdout)
@@ -200,7 +202,7 @@ class Fbx(MotionFileCase):
             path.write_text(text[:int(len(text) * share)])
             self.refused(path, "whole.fbx: ")
 
-    # assimp goes round and round until its stack is full: found by fuzzing.
+    # On this file, found by fuzzing, assimp recurses until its stack overflows.
     def test_an_fbx_file_that_ends_its_reader_ends_nothing_else(self):
         path, _ = self.fbx("circle.fbx", 1, "y")
         path.write_text(path.read_text().replace("Connections:  {", f'Connections:  {{\nC: "OO",{1000 + 3},{1000 + 3}'))

@@ -1,13 +1,12 @@
-"""Prints, for each motion file, what the program makes of it, and how far its joints lie from the positions of second
-readers.
+"""Prints, for each motion file, what the program reads, and how far its joints lie from second readers' positions.
 
-    ETUDE=build/release/etude python3 tests/cli/file_table.py FOLDER            # a line of Markdown a file
+    ETUDE=build/release/etude python3 tests/cli/file_table.py FOLDER            # a line of Markdown per file
     ETUDE=build/release/etude python3 tests/cli/file_table.py --rows FOLDER     # and a transition and a capture of each
 
 A role is compared in every frame in which a joint of the file plays it: the second reader's position, in the unit and
-axes that the program reports, against `etude clip convert`; one floor height is subtracted. For markers, points between
-them play roles; these are not compared. `--rows`: `played` makes a transition from the clip to `builtin:wave`, and the
-clip is filmed for a fifth of a second and captured with adaptive weights, as in scenarios/quick.
+axes that the program reports, against `etude clip convert`, minus one floor height. Roles at points between markers are
+not compared. `--rows`: `played` makes a transition from the clip to `builtin:wave`, and the clip is filmed for a fifth
+of a second and captured with adaptive weights, as in scenarios/quick.
 """
 import csv
 import json
@@ -41,8 +40,8 @@ def converted(source, rate):
 
 
 def worst_mm(path, facts):
-    """The largest distance of a joint from the second reader's, millimetres, and of how many; None without such a
-    reader."""
+    """Returns a joint's largest distance (mm) from the second reader's, and the number of joints; None without a
+    second reader."""
     body, rate = facts["body"], facts["rate_hz"]
     if facts["format"] in ("GLB", "glTF"):
         theirs = readers.read_gltf(path, facts["source"].partition("#")[2], rate, facts["frames"])
@@ -54,16 +53,17 @@ def worst_mm(path, facts):
     turned = numpy.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]]) if body["up"] == "z" else numpy.eye(3)
     apart = []
     for role, told in body["roles"].items():
-        # The hip centre lies between the hips, whatever the file has there; ends of limbs have no name in some formats.
+        # The program puts the hip centre between the hips, wherever the file has it. In some formats limb ends have no
+        # name.
         if told["composed"] or role == "hip_centre" or told["joint"] not in theirs:
             continue
-        # A row too many is dropped, and said.
+        # The program may drop one leading frame (a T-pose), and reports it.
         place = theirs[told["joint"]][:facts["frames"]] @ turned.T * body["metres_per_unit"]
         dropped = len(place) - len(ours[role])
         assert dropped == 0 or (body["dropped_t_pose"] and dropped > 0), (path, dropped)
         apart.append(ours[role] - place[dropped:])
     apart = numpy.array(apart)
-    apart[..., 1] -= apart[..., 1].mean()  # the floor, which `info` finds at another rate
+    apart[..., 1] -= apart[..., 1].mean()  # subtract the floor, which `info` finds at another rate
     return 1000 * numpy.linalg.norm(apart, axis=2).max(), len(apart)
 
 
@@ -78,7 +78,7 @@ SCENARIO = """  - {{scenario: t{number}, question: q, task: transition, clips: [
 
 
 def run_rows(sources):
-    """{source: what a transition and a capture of it came to}, of one run."""
+    """Runs a transition and a capture of each source in one run; returns {source: results}."""
     with tempfile.TemporaryDirectory() as folder:
         suite, out = pathlib.Path(folder) / "s.yaml", pathlib.Path(folder) / "out"
         suite.write_text(SCENARIOS + "".join(SCENARIO.format(number=i, clip=json.dumps(source)) for i, source in enumerate(sources)))

@@ -1,5 +1,5 @@
 """Tests `etude forecast`, which computes a rig's expected error, and `etude transition`, which writes a transition
-into a file."""
+to a file."""
 import csv
 import math
 import pathlib
@@ -31,7 +31,7 @@ def matrix(rows, cols, values):
 
 
 def rig(places, focal=900):
-    """Cameras of 1280 x 960 pixels that look at (0, 1, 0), as Etude writes rigs."""
+    """Returns cameras of 1280 x 960 pixels that look at (0, 1, 0), in Etude's rig format."""
     text = "%YAML:1.0\n---\ncameras: [ " + ", ".join(f'"cam{i}"' for i in range(len(places))) + " ]\n"
     for i, place in enumerate(places):
         z = unit(sub([0, 1, 0], place))
@@ -69,7 +69,7 @@ class Forecast(EtudeCase):
         self.assertEqual(max(float(row["error_mm"]) for row in rows if row["error_mm"]), told["worst_mm"])
         self.assertEqual(names["map.png"].read_bytes()[:4], b"\x89PNG")
         self.assertIn("What would help", names["page.html"].read_text())
-        # The same twice, and in words.
+        # A second call gives the same facts; a third prints them as text.
         self.assertEqual(self.facts("forecast", path), told)
         said = self.etude("forecast", path).stdout
         self.assertIn(f"A point errs by {told['median_mm']:.1f} mm in the median", said)
@@ -99,7 +99,7 @@ class Transition(EtudeCase):
         seen = self.etude("clip", "info", out)
         self.assertEqual(seen.returncode, 0, seen.stderr)
         self.assertIn(f"{told['duration_s']:.2f} s", seen.stdout)
-        # Another method, in words; and what is refused.
+        # Another method as text, and refusals.
         said = self.etude("transition", "builtin:groove", "builtin:clap", "--at", "1", "-o", self.folder / "cut.trc", "--choice",
                           "now", "--join", "cut")
         self.assertEqual(said.returncode, 0, said.stderr)

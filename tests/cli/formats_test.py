@@ -1,4 +1,4 @@
-"""Tests `etude clip` on motion files in the formats that people own, written here by second implementations."""
+"""Tests `etude clip` on motion files of other tools' formats, written here by second implementations."""
 import csv
 import json
 import math
@@ -15,7 +15,7 @@ from motion_file_case import MotionFileCase
 
 
 def edit_glb(path, change):
-    """Changes the scene of a GLB file; `change` takes it and the file's numbers, and gives more numbers or nothing."""
+    """Changes the scene of a GLB file; `change` gets it and the file's numbers, and may return more numbers."""
     data = path.read_bytes()
     length = struct.unpack("<I", data[12:16])[0]
     scene, numbers = json.loads(data[20:20 + length]), data[28 + length:]
@@ -34,7 +34,7 @@ class Formats(MotionFileCase):
         upright = [math.pi / 2, 0, 0]  # Y up to Z up
         for t in range(frames):
             poses[t, :3] = upright
-            poses[t, 3 * 18 + 1] = -1.2 * t / frames  # the left elbow bends forward, about the file's Y
+            poses[t, 3 * 18 + 1] = -1.2 * t / frames  # the left elbow bends forwards, about the file's Y axis
             places[t] = [0, -0.01 * t, 0.9]
         arrays = {"poses": poses, "trans": places, rate_key: numpy.array(120.0), "gender": numpy.array("neutral"), **more}
         path = self.folder / name
@@ -50,7 +50,7 @@ class Formats(MotionFileCase):
             self.assertEqual(len(joints), 60)
             for t in (0, 30, 59):
                 body = joints[t]
-                # Level arms in the T-pose; the forearm turns about the vertical by the told angle.
+                # The arms of the T-pose are level; the forearm turns about the vertical by the angle above.
                 upper, lower = (body[b] - body[a] for a, b in (("left_shoulder", "left_elbow"), ("left_elbow", "left_wrist")))
                 self.assertAlmostEqual(numpy.linalg.norm(lower), 0.25, places=6)
                 angle = math.atan2(numpy.linalg.norm(numpy.cross(upper, lower)), upper @ lower)
@@ -71,7 +71,7 @@ class Formats(MotionFileCase):
         for cut in (30, len(whole) // 2, len(whole) - 9):
             (self.folder / "cut.npz").write_bytes(whole[:cut])
             self.refused(self.folder / "cut.npz", "cut.npz")
-        at = whole.index(b"PK\x01\x02") + 24  # the size of the first member in the directory
+        at = whole.index(b"PK\x01\x02") + 24  # the first member's size in the central directory
         (self.folder / "cut.npz").write_bytes(whole[:at] + struct.pack("<I", 300_000_000) + whole[at + 4:])
         self.refused(self.folder / "cut.npz", "bytes unpack to 300000000")
         for at in range(100, len(whole), len(whole) // (40 if HEAVY else 6)):
@@ -87,7 +87,7 @@ class Formats(MotionFileCase):
         self.assertIn("at 50 Hz", self.ends(0, "clip", "info", path, "--map", told).stdout)
         numpy.savez(path, positions=body["positions"], names=body["names"], rate_hz="30")
         self.refused(path, "rate_hz is not such a number")
-        # Of 170 m, or lying on Z: by the options, or by keys.
+        # A body in mm or cm with Z up: declared by options, or by keys of the file.
         z_up = body["positions"][:, :, [0, 2, 1]] * [1, -1, 1]
         for unit, name in (1000, "mm"), (100, "cm"):
             numpy.savez(path, positions=unit * z_up, names=body["names"], rate_hz=30.0)
@@ -114,7 +114,7 @@ class Formats(MotionFileCase):
         self.ends(0, "clip", "convert", "builtin:sway", clip)
         ours, theirs = self.joints("builtin:sway"), self.joints(clip)
         self.assertEqual(len(ours), len(theirs))
-        floor = theirs[0]["head"][1] - ours[0]["head"][1]  # a file of markers finds its own
+        floor = theirs[0]["head"][1] - ours[0]["head"][1]  # the floor of a marker file is estimated
         self.assertLess(abs(floor), 0.05)
         for a, b in zip(ours, theirs):
             for name in a:
@@ -124,7 +124,7 @@ class Formats(MotionFileCase):
         self.assertEqual(len(self.joints(table)), len(ours))
 
     def c3d(self, labels, frames, place):
-        """A C3D file of floats, little-endian: places in millimetres, Z up."""
+        """Returns a C3D file of little-endian floats: positions in millimetres, Z up."""
         def parameter(name, kind, sizes, data):
             body = struct.pack("<bB", kind, len(sizes)) + bytes(sizes) + data + b"\0"
             return bytes([len(name), 1]) + name.encode() + struct.pack("<H", 2 + len(body)) + body
@@ -163,7 +163,7 @@ class Formats(MotionFileCase):
         self.refused(self.c3d(["A", "B"], 3, lambda t, i: (0, 0, 0)), "its markers (A, B) are not of a known set")
 
     def body(self, reference):
-        """A built-in move's frames × 20 × 3, metres, and its names."""
+        """Returns a built-in move (frames × 20 × 3, metres) and its joint names."""
         frames = self.joints(reference)
         return list(frames[0]), numpy.array([[frame[name] for name in frames[0]] for frame in frames])
 
@@ -188,7 +188,7 @@ class Formats(MotionFileCase):
             columns = "".join(f"\t{name}\t\t" for name in names)
             rows = [f"{t + 1}\t{t / 30:.6f}\t" + "\t".join(f"{each * v:.9f}" for v in frame.ravel()) for t, frame in enumerate(places)]
             cells = rows[7].split("\t")
-            cells[2 + 3 * 5:5 + 3 * 5] = ["", "", ""]  # the sixth marker is not seen in the eighth frame
+            cells[2 + 3 * 5:5 + 3 * 5] = ["", "", ""]  # a gap: the sixth marker in the eighth frame
             rows[7] = "\t".join(cells)
             path.write_text(f"PathFileType\t4\t(X/Y/Z)\tsway.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
                             f"30\t30\t{len(rows)}\t{len(names)}\t{unit}\nFrame#\tTime{columns}\n\tX1\n" + "\n".join(rows) + "\n")
@@ -308,8 +308,8 @@ class Formats(MotionFileCase):
                  "shoulder_centre left_shoulder right_shoulder head left_shoulder right_shoulder left_elbow right_elbow "
                  "left_wrist right_wrist").split()
         joints = places[:, [names.index(name) for name in order]]
-        joints = joints - [1, 0, 1] * joints[:1, :1]  # begins at the origin
-        # Its features, by its own definitions: turns and steps from frame to frame, joints in the axes of the body.
+        joints = joints - [1, 0, 1] * joints[:1, :1]  # starts above the origin
+        # HumanML3D's features by their definition: turns and steps per frame, joints in the body's axes.
         turns = numpy.concatenate([[0], 0.02 * numpy.cumsum(numpy.sin(numpy.arange(len(joints) - 1) / 7))])
         features = numpy.random.default_rng(1).normal(size=(len(joints), 263))
         for t, turn in enumerate(turns):
@@ -327,7 +327,7 @@ class Formats(MotionFileCase):
         numpy.testing.assert_allclose(numpy.load(converted), joints, atol=1e-9)
         self.assertIn("at 20 Hz", self.etude("clip", "info", f"{converted}#smpl", "--rate", 20).stdout)
 
-    # SOMA's joints at rest, metres from their parents; the left side. Fingers are chains of 3 cm.
+    # SOMA's joints at rest, metres from their parents, left side only. Fingers are chains of 3 cm.
     SOMA = {"Hips": (0, 1, 0), "Spine1": (0, .05, 0), "Spine2": (0, .071, 0), "Chest": (0, .076, -.008), "Neck1": (0, .263, -.006),
             "Neck2": (0, .077, .023), "Head": (0, .061, .02), "HeadEnd": (0, .15, 0), "Jaw": (0, .005, .031), "LeftEye": (.032, .054, .076),
             "LeftShoulder": (.016, .232, .051), "LeftArm": (.149, 0, -.055), "LeftForeArm": (.287, 0, 0), "LeftHand": (.271, 0, 0),
@@ -335,7 +335,7 @@ class Formats(MotionFileCase):
             "LeftShin": (0, -.432, -.008), "LeftFoot": (0, -.422, -.035), "LeftToeBase": (0, -.051, .132), "LeftToeEnd": (0, -.01, .06)}
 
     def soma(self, is_whole):
-        """SOMA's 77 joints or its 30 as (name, parent, offset)."""
+        """Returns SOMA's 77 or 30 joints: (name, parent, offset)."""
         joints = []
 
         def chain(parent, names):
@@ -389,7 +389,7 @@ class Formats(MotionFileCase):
                 places = numpy.array(places)
                 six = "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation"
 
-                # As Kimodo's export and BONES-SEED have it: a Root above, centimetres, no End Site.
+                # The layout of Kimodo's export and BONES-SEED: a Root above the hips, centimetres, no End Site.
                 def block(number):
                     name, parent, offset = joints[number]
                     below = "".join(block(k) for k in range(count) if joints[k][1] == number)
@@ -507,7 +507,7 @@ class Formats(MotionFileCase):
         self.assertIn("animations by KHR_animation_pointer are not read", self.info(path)["clips"][0]["body"]["note"])
 
     def turned(self, name, unit=1.0):
-        """A BVH of the sway in another unit."""
+        """Writes the BVH of the sway in another unit."""
         path = self.folder / name
         self.ends(0, "clip", "convert", "builtin:sway", path)
         if unit != 1:

@@ -1,4 +1,4 @@
-"""Tests places that accept no more data: a full disk, a limit on file sizes, a read-only disk, and another user's
+"""Tests places that accept no more data: a full disk, a limit on file sizes, a read-only disk, another user's
 folder. Every command that writes ends with exit code 3 and one sentence, and leaves no incomplete file."""
 import json
 import os
@@ -14,7 +14,7 @@ from etude_case import HEAVY, EtudeCase, ik_scenario
 ETUDE = os.path.abspath(etude_case.ETUDE)
 
 SCENARIO = ik_scenario(trials=4) + "video: {compare: [fixed], trials: [0]}\n"
-PLACE = "PLACE"  # stands for the folder that takes no more
+PLACE = "PLACE"  # placeholder for the folder that accepts no more data
 COMMANDS = {
     "run": ["run", "s.yaml", "-o", "PLACE/out", "--jobs", "1"],
     "run --overwrite": ["run", "s.yaml", "-o", "PLACE/run", "--overwrite", "--jobs", "1"],
@@ -38,7 +38,7 @@ SLOW = {
     "clip render film": ["clip", "render", "builtin:clap", "-o", "PLACE/film.mp4"],
     "report with films": ["report", "PLACE/run"],
 }
-# The place is full but for so many bytes when the command begins; what that has left is printed.
+# Leaves $FREE bytes in the place, runs the command, and prints the temporary files that it left.
 FULL = """mount -t tmpfs -o size=4m tmpfs "$PLACE" && cp -r run "$PLACE" && cat /dev/zero > "$PLACE/filler" 2>/dev/null
 truncate -s "-$FREE" "$PLACE/filler"
 "$@"; code=$?

@@ -1,4 +1,4 @@
-"""Tests `etude gate` and `etude compare` in the way that a CI server and a reviewer use them."""
+"""Tests `etude gate` and `etude compare` as a CI server and a reviewer use them."""
 import json
 import os
 import pathlib
@@ -20,7 +20,7 @@ EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples/outside-metho
 class Gate(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        """A run, its baseline, and a run that is worse, made once; tests have copies."""
+        """Makes a run, its baseline and a worse run once; tests copy them."""
         cls.shared = cls.shared_folder()
         for name, text in ("run", SCENARIO), ("worse", WORSE):
             (cls.shared / "ik.yaml").write_text(text)
@@ -42,7 +42,7 @@ class Gate(EtudeCase):
         return result.stdout + result.stderr
 
     def make_baseline(self, text=None):
-        """A run in `self.out` and its baseline: of SCENARIO, or of another text."""
+        """Makes a run in `self.out` and its baseline, of SCENARIO or another text."""
         if text:
             self.run_suite(self.write("ik.yaml", text))
             self.gate(self.out, "--baseline", self.baseline, "--update", expect=0)
@@ -69,7 +69,7 @@ class Gate(EtudeCase):
         self.be_worse()
         text = self.gate(self.now, "--baseline", self.baseline, expect=1)
         self.assertRegex(text, r"worse +ik joint_noise_deg=2 +fixed")
-        self.assertIn("ik, fixed", text)  # its settings changed
+        self.assertIn("ik, fixed", text)  # this method's settings changed
         self.assertIn("**worse**", (self.now / "report" / "gate.md").read_text())
         suites = xml.etree.ElementTree.parse(self.now / "report" / "gate.xml").getroot()
         failures = [case.get("name") for case in suites.iter("testcase") if case.find("failure") is not None]
@@ -123,7 +123,7 @@ class Gate(EtudeCase):
         self.gate(self.now, "--baseline", self.baseline, expect=0)
 
     def test_a_baseline_that_was_edited_is_refused_by_its_seal(self):
-        """Each passed as "4 better, 8 same" when baselines had no seal."""
+        """Before baselines had seals, each of these edits passed as "4 better, 8 same"."""
         self.make_baseline()
         whole = self.baseline.read_text()
         self.assertNotIn("unsealed", self.gate(self.out, "--baseline", self.baseline, expect=0))
@@ -135,7 +135,7 @@ class Gate(EtudeCase):
             self.assertIn(f"{self.baseline}: was changed after gate --update wrote it: its seal does not match", told)
             told = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
             self.assertIn("etude: read unsealed: ", told)
-        # Its seal taken away, it is no baseline; called one of an older version, it is read only with --unsealed. --update makes a new one.
+        # Without its seal a baseline is refused. As one of an older schema it is read with --unsealed only. --update seals it.
         self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole))
         self.assertIn("a baseline of schema 2 lacks its 'seal'", self.gate(self.out, "--baseline", self.baseline, expect=2))
         self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole).replace('"schema":2', '"schema":1'))
@@ -143,7 +143,7 @@ class Gate(EtudeCase):
         self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
         self.gate(self.out, "--baseline", self.baseline, "--update", expect=0)
         self.assertEqual(self.baseline.read_text(), whole)
-        # Another layout is the same baseline.
+        # Another JSON layout is the same baseline.
         self.baseline.write_text(json.dumps(json.loads(whole), indent=1))
         self.assertNotIn("unsealed", self.gate(self.out, "--baseline", self.baseline, expect=0))
 
@@ -158,7 +158,7 @@ class Gate(EtudeCase):
         self.assertEqual([path.name for path in self.baseline.parent.iterdir()], ["ik.json"])
 
     def run_program(self, program):
-        """A run in which `program` is a method beside a built-in one: its exit code and the folder of the run."""
+        """Runs `program` beside a built-in method; returns the exit code and the run's folder."""
         own = f"  - {{name: own, exec: [python3, {self.write('own.py', program)}]}}\n"
         return self.etude("run", self.write("own.yaml", SCENARIO + own), "-o", self.now)
 
@@ -244,7 +244,7 @@ class Gate(EtudeCase):
                 re.sub(r'"values":\[[^,]+,', '"values":[null,', whole, count=1):
             self.baseline.write_text(broken)
             self.assertIn(str(self.baseline), self.gate(self.out, "--baseline", self.baseline, expect=2))
-            # What is no baseline is not written over.
+            # A file that is not a baseline is not overwritten.
             self.gate(self.out, "--baseline", self.baseline, "--update", expect=2)
             self.assertEqual(self.baseline.read_text(), broken)
         self.baseline.write_text(whole)

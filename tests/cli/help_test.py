@@ -1,4 +1,4 @@
-"""Tests that every command's help ends with three examples of this command, and that all names in them exist."""
+"""Tests that every command's help ends with three examples of this command, and that the names in them exist."""
 import os
 import re
 import shlex
@@ -9,7 +9,7 @@ import unittest
 from etude_case import COMMAND_GROUPS, ETUDE, EtudeCase, commands_in
 
 
-# What is typed, and the one word that it can be made of.
+# Typed texts, and the only word that completes each.
 ASKED = ["ga", "gate --basel", "clip in", "clip info --js", "run full/ik_we", "scenario copy full/ik_we", "help clip rend", "hel",
          "completion z"]
 COMPLETED = ["gate", "--baseline", "info", "--json", "full/ik_weights", "full/ik_weights", "render", "help", "zsh"]

@@ -41,7 +41,8 @@ class Installed(EtudeCase):
         manifest = (empty / "out" / "manifest.json").read_text()
         for path in str(moved), str(BUILD), "/usr/share":
             self.assertNotIn(path, manifest)
-        # A folder without scenarios wins nothing. What is here wins else, and that is said; a copy is a start.
+        # A local folder without scenarios is not used. A local folder with scenarios is used instead of the shipped
+        # one, and this is reported.
         (empty / "quick").mkdir()
         (empty / "quick" / "notes.txt").touch()
         told = run("run", "quick", "--dry-run")
@@ -63,7 +64,7 @@ class Installed(EtudeCase):
         self.assertTrue(os.access(moved / "share" / "etude" / "ci" / "gate", os.X_OK))
 
     def links_lead_somewhere(self, docs):
-        """Every link of an installed page, but for those into the source's rooms, which nothing of is installed."""
+        """Checks every link of an installed page, except links to source folders, which are not installed."""
         rooms, followed = {"engine", "sim", "io", "bench", "tools", "reports", "cli", "tests", "CONTRIBUTING.md"}, 0
         for page in docs.rglob("*.md"):
             text = re.sub(r"```.*?```|`[^`\n]*`", "", page.read_text(), flags=re.S)
@@ -78,7 +79,7 @@ class Installed(EtudeCase):
     def test_a_package_runs_in_a_bare_root_as_an_ordinary_user(self):
         self.make_packages()
         package = next(self.folder.glob("etude_*.deb"))
-        # What ci/Containerfile does, in a root that needs no builder of containers.
+        # Runs the steps of ci/Containerfile in a root, without a container builder.
         image = containerfile((CI / "Containerfile").read_text())
         self.assertEqual(image[:2], [["FROM", "debian:13"], ["COPY", "etude_*.deb /tmp/"]])
         steps = [f"chroot \"$1\" sh -c {shlex.quote(words)}" for name, words in image if name == "RUN"]
@@ -117,7 +118,7 @@ class Installed(EtudeCase):
         subprocess.run(["cpack", "-G", "DEB", "-B", self.folder], cwd=BUILD, check=True, stdout=subprocess.DEVNULL)
 
     def make_root(self, *hooks):
-        """A bare root of this machine's Debian in which these hooks of mmdebstrap ran."""
+        """Returns a bare root of this machine's Debian in which these hooks of mmdebstrap ran."""
         root = self.folder / "root"
         suite = platform.freedesktop_os_release()["VERSION_CODENAME"]
         made = subprocess.run(["mmdebstrap", "--variant=apt", "--mode=root", suite, root,
@@ -128,7 +129,7 @@ class Installed(EtudeCase):
         return root
 
     def run_inside(self, root, *commands):
-        """What commands of an ordinary user say in that root, run in a row in an empty home."""
+        """Returns the output of an ordinary user's commands, run in sequence in the root with an empty home."""
         script = f"mount -t proc proc {root}/proc && chroot {root} su etude -c {shlex.quote(' && '.join(['cd', *commands]))}"
         ran = subprocess.run(["unshare", "--mount", "sh", "-c", script], capture_output=True, text=True)
         self.assertEqual(ran.returncode, 0, ran.stdout[-2000:] + ran.stderr[-2000:])

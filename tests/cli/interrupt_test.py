@@ -1,5 +1,5 @@
-"""Tests Ctrl-C at any moment: one line is printed, the exit code is 130, and nothing is left half done. Also tests
-the progress of long work."""
+"""Tests Ctrl-C at any moment: one line is printed, the exit code is 130, and no file is incomplete. Also tests the
+progress of long work."""
 import os
 import pathlib
 import pty
@@ -28,7 +28,7 @@ methods: [{name: fixed, segmenter: hue, calibration: dlt, solver: ccd, weights: 
 
 class Interrupts(EtudeCase):
     def interrupt(self, arguments, is_begun, sent=signal.SIGINT):
-        """What the program says when it is interrupted once it `is_begun`."""
+        """Interrupts the program once `is_begun` is true; returns its output."""
         program = subprocess.Popen([ETUDE, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 60
@@ -42,7 +42,7 @@ class Interrupts(EtudeCase):
         return said
 
     def left(self):
-        """All files of the scratch folder that somebody has begun and not finished."""
+        """Returns the unfinished files in the scratch folder."""
         return [path for path in self.folder.rglob("*") if ".partial" in path.name]
 
     def test_work_that_leaves_nothing_ends_at_once(self):
@@ -92,7 +92,7 @@ class Interrupts(EtudeCase):
 
         def renders(_):
             began = self.left()
-            time.sleep(0.5)  # the world's pictures take much longer
+            time.sleep(0.5)  # the world's pictures take much longer than this
             sent_at.append(time.monotonic())
             return began
 
@@ -131,7 +131,7 @@ class Interrupts(EtudeCase):
         try:
             while chunk := os.read(terminal, 4096):
                 said += chunk
-        except OSError:  # how the end of a terminal is told
+        except OSError:  # a closed terminal raises OSError
             pass
         os.close(terminal)
         self.assertEqual(report.wait(timeout=60), 0)

@@ -3,8 +3,8 @@ import math
 
 
 def standing(left, right):
-    """The twenty joints, metres, of a person with straight arms so many degrees from hanging, in the order of the
-    roles."""
+    """Returns the twenty joints (metres, in the order of roles) of a person whose straight arms are raised by these
+    degrees."""
     joints = [(0, .95, 0), (0, 1.15, 0), (0, 1.42, 0), (0, 1.65, 0)]
     for side, angle in ((1, left), (-1, right)):
         s, c = side * math.sin(math.radians(angle)), -math.cos(math.radians(angle))
@@ -15,7 +15,7 @@ def standing(left, right):
 
 
 def arms(high, seconds=2, rate=30, both=True):
-    """Both arms, or the left one alone, up to so many degrees and down again."""
+    """Returns poses of both arms, or of the left one, rising to `high` degrees and falling."""
     poses, rest, count = [], rate // 2, int(rate * seconds)
     for t in range(-rest, count + rest):
         part = 0 if not 0 <= t < count else .5 - .5 * math.cos(2 * math.pi * t / count)
@@ -25,7 +25,7 @@ def arms(high, seconds=2, rate=30, both=True):
 
 
 def kinect(poses, tilt=0.0):
-    """Rows of a Kinect v1 that stands 3 m away, 1 m high."""
+    """Returns rows of a Kinect v1 that stands 3 m away and 1 m high."""
     rows = []
     for joints in poses:
         row = []

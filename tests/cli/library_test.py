@@ -1,5 +1,5 @@
 """Tests the installed libetude and libetude_sim: four programs that find them by `find_package(Etude)`, and the
-symbols that they export."""
+exported symbols."""
 import json
 import pathlib
 import re

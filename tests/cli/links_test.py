@@ -1,4 +1,4 @@
-"""Tests that no command follows a link below a folder that somebody else filled: none writes or reads through it, or
+"""Tests that no command follows a link in a folder filled by somebody else: none writes or reads through it, or
 reveals its target."""
 import os
 import pathlib
@@ -18,7 +18,7 @@ class Links(EtudeCase):
     def setUp(self):
         super().setUp()
         shutil.copytree(self.whole, self.out)
-        self.home = self.folder / "home"  # of the user, who only asks for a stranger's run
+        self.home = self.folder / "home"  # the user's home; the run is a stranger's
         self.home.mkdir()
         (self.home / "key").write_text("secret\n")
 
@@ -69,7 +69,7 @@ class Links(EtudeCase):
                      "series/ik.jsonl", "recordings", recording]:
             link, kept = self.out / part, self.folder / "kept"
             link.rename(kept)
-            link.symlink_to(kept)  # what it says is right, and it is not ours to read
+            link.symlink_to(kept)  # the content is valid, but not ours to read
             for command, *more in [["gate"], *(readers if part == "cells.jsonl" else [])]:
                 with self.subTest(linked=str(part), command=command):
                     self.refuse(link, command, self.out, *more, "--unsealed")
@@ -102,7 +102,7 @@ class Links(EtudeCase):
             self.ends(0, "run", scenario, "--shard", f"{i}/2", "-o", self.folder / str(i))
         journal, kept = shard / "journal.jsonl", self.folder / "kept"
         lines = journal.read_text().splitlines(keepends=True)
-        for text in "".join(lines), "".join(lines[:-3]):  # whole; with cells that are still to be run
+        for text in "".join(lines), "".join(lines[:-3]):  # complete; and with cells still to run
             journal.unlink()
             kept.write_text(text)
             journal.symlink_to(kept)

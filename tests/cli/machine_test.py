@@ -1,6 +1,6 @@
-"""Tests faults of this machine during a run. They are reported as the machine's, never as a method's answer: the run
-is refused before the first cell, or a cell is not run. Also tests file systems without locks, and kills of any
-process."""
+"""Tests faults of this machine during a run. They are reported as the machine's faults, never as a method's answer:
+the run is refused before the first cell, or a cell is not run. Also tests file systems without locks, and kills of
+any process."""
 import json
 import os
 import pathlib
@@ -25,7 +25,7 @@ duration_s: 0.1
 trials: 1
 methods: [{name: plain}]
 """
-# Answers with the frame asked at; of a folder that it is told, and can write to, it makes a file at its first answer.
+# Answers with the frame of the request. At its first answer it makes a file in the folder that it is given, if it can.
 METHOD = """import json, os, shutil, sys
 for line in sys.stdin:
     message = json.loads(line)
@@ -43,9 +43,9 @@ for line in sys.stdin:
     print(json.dumps(reply), flush=True)
 """
 MB = 1 << 20
-PYTHON = "/usr/bin/python3"  # a fence shows what is the system's
+PYTHON = "/usr/bin/python3"  # a fence shows the system's files
 LIBRARIES = [path for name in ("libOSMesa.so.8", "libEGL.so.1")
-             if os.path.exists(path := f"/usr/lib/x86_64-linux-gnu/{name}")]  # each draws
+             if os.path.exists(path := f"/usr/lib/x86_64-linux-gnu/{name}")]  # each of them can draw
 
 
 def limit(kind, value):
@@ -66,7 +66,7 @@ class Machine(EtudeCase):
                               env=os.environ | (environment or {}), preexec_fn=before, **more)
 
     def least_space(self):
-        """The least address space in which the program comes to its first line, in steps of 4 MB."""
+        """Returns the least address space in which the program prints its first line, in steps of 4 MB."""
         starts = lambda space: subprocess.run([ETUDE, "--version"], capture_output=True,
                                               preexec_fn=limit(resource.RLIMIT_AS, space)).returncode == 0
         return next(space for space in range(64 * MB, 1024 * MB, 4 * MB) if starts(space))
@@ -81,7 +81,7 @@ class Machine(EtudeCase):
         self.assertEqual(set(codes), {0, 3})
 
     def test_a_capture_whose_memory_ends_is_not_run_and_resuming_runs_it(self):
-        """Rows `out_of_memory` once, which --resume did not mend."""
+        """Earlier, such cells became rows `out_of_memory`, which --resume kept."""
         whole, codes = self.folder / "whole", []
         self.run_suite(self.capture, out=whole)
         for space in range(256, 512, 8) if HEAVY else (300,):
@@ -97,7 +97,7 @@ class Machine(EtudeCase):
         self.assertIn(3, codes)
 
     def test_the_manifest_is_the_same_in_any_address_space(self):
-        """Without LLVM in it, --resume spoke of libraries that had changed."""
+        """Earlier, the manifest lacked LLVM in a small address space, so --resume reported changed libraries."""
         scenario, whole, least = self.write("ik.yaml", IK), self.folder / "whole", self.least_space()
         self.run_suite(scenario, out=whole)
         for more in range(0, 160, 8) if HEAVY else (16, 64):
@@ -135,7 +135,7 @@ class Machine(EtudeCase):
     def test_what_the_machine_refuses_is_refused_with_its_cause_and_nothing_is_written(self):
         (self.folder / "file").touch()
         (self.folder / "relative").mkdir()
-        nobody = {"user": 65534} if os.getuid() == 0 else {}  # nothing limits root's processes
+        nobody = {"user": 65534} if os.getuid() == 0 else {}  # root's processes are not limited
         self.folder.chmod(0o777)
         settings = [
             ("TMPDIR is not there", self.outside, "not a folder for temporary files", {"environment": {"TMPDIR": "/nonexistent"}}),
@@ -220,7 +220,7 @@ class Machine(EtudeCase):
         self.assertIn("another run is writing into it", held.stderr)
 
     def test_nobody_but_a_run_locks_its_folder(self):
-        """A method that sees the folder of another run may lock all that it can open there."""
+        """A method that sees another run's folder could lock every file that it can open there."""
         many = IK.replace("trials: 4", "trials: 3000")
         first = subprocess.Popen([ETUDE, "run", self.write("many.yaml", many), "-o", self.out], stderr=subprocess.DEVNULL)
         self.wait_for_cells(self.out)
@@ -245,7 +245,7 @@ class Machine(EtudeCase):
     @heavy
     def test_a_damaged_file_is_refused_or_read_aright(self):
         made = damage.Damage(ETUDE, self.folder)
-        rounds = [made.round(number) for number in (*range(11), 753)]  # that one: a key of host.json
+        rounds = [made.round(number) for number in (*range(11), 753)]  # 753 changes a key of host.json
         self.assertEqual([entry for entry in rounds if entry["wrong"]], [])
         self.assertIn(2, {entry["exit"] for entry in rounds})
 

@@ -18,7 +18,7 @@ trials: 3
 methods: [{name: a, solver: gauss-newton}, {name: b, solver: damped-least-squares}]
 """
 FEW = ("--trials", "2")
-# One metric, all manners: told by options.manner.
+# One metric with all behaviours; options.manner selects one.
 METRIC = """import json, os, sys, time
 manner, asked = None, 0
 for line in sys.stdin:
@@ -75,7 +75,7 @@ def vector(expected, more=""):
     return f", vectors: [{VECTOR}expected: {expected}{more}}}]"
 
 
-# What most tests look at: good metrics, one that looks round and takes its time, and bad ones.
+# The metrics of most tests: good ones, one that looks around slowly, and bad ones.
 ALL = "  - iterations\n" + own("mine", more=", version: 3, unit: mm, practical: 2" + vector(250)) + own("looks", "looks") + \
       "".join(own(name, name, vector("null") if name == "absent" else "") for name in BAD) + \
       "expect: [{metric: mine, of: a, at_most: -1e9}]\ngate: {metrics: [mine]}\n"
@@ -84,7 +84,7 @@ ALL = "  - iterations\n" + own("mine", more=", version: 3, unit: mm, practical: 
 class OwnMetrics(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        """One run of the examples, and one of everything that a program may do."""
+        """Runs the examples once, and once everything that a metric's program may do."""
         cls.shared = cls.shared_folder()
         (cls.shared / "m").mkdir()
         cls.scenario = cls.shared / "s.yaml"
@@ -149,14 +149,14 @@ class OwnMetrics(EtudeCase):
         parts = [self.folder / f"part{i}" for i in (1, 2)]
         command = ["run", scenario, "--shard", "1/2", "-o", str(parts[0])]
         self.kill_at(1, "cell", command, parts[0])
-        self.assertIn(cells_in_journal(parts[0]), (1, 2, 3))  # of four
+        self.assertIn(cells_in_journal(parts[0]), (1, 2, 3))  # four cells in all
         self.ends(0, *command, "--jobs", 2, "--resume")
         self.ends(0, "run", scenario, "--shard", "2/2", "-o", parts[1])
         self.ends(0, "merge", *parts, "-o", self.folder / "merged")
         self.assert_same_results(self.out, self.folder / "merged")
 
     def kill_at(self, count, kind, command, folder):
-        """Kills a run of one worker when its journal has so many cells of a kind."""
+        """Kills a run of one worker when its journal has `count` cells of a kind."""
         killed = subprocess.Popen([ETUDE, *map(str, command), "--jobs", "1"], stderr=subprocess.DEVNULL, cwd=ROOT)
         self.wait_for_cells(folder, count, kind=kind)
         killed.kill()
@@ -164,7 +164,7 @@ class OwnMetrics(EtudeCase):
 
     @heavy
     def test_what_is_answered_or_measured_is_neither_asked_nor_measured_again_after_kills(self):
-        """Killed in the midst of methods and in the midst of metrics: each is asked once of each cell."""
+        """Kills runs while methods answer and while metrics measure: each cell is answered and measured once."""
         (self.folder / "own").mkdir()
         (self.folder / "own/own.py").write_text(SLOW_METHOD)
         (self.folder / "m").mkdir()
@@ -177,7 +177,7 @@ class OwnMetrics(EtudeCase):
         self.assertIn("lacks 6 of 6 cells", self.etude("merge", self.out, "-o", self.folder / "merged").stderr)
         self.kill_at(2, "cell", command, self.out)
         answered = (self.out / "stderr/s~own.txt").read_text().count("asked")
-        self.assertIn(answered, (3, 4))  # the one that was killed over is asked again
+        self.assertIn(answered, (3, 4))  # the cell at the kill is asked again
         self.assertEqual(len(self.run_suite(scenario, "--resume", "--jobs", 2)), 6)
         self.assertEqual((self.out / "stderr/s~own.txt").read_text().count("asked"), answered)
         self.run_suite(scenario, out=self.folder / "whole")

@@ -8,7 +8,7 @@ from etude_case import EtudeCase
 
 class MotionFileCase(EtudeCase):
     def joints(self, path, *options):
-        """The twenty joints of a clip by frame, as `etude clip convert` writes them."""
+        """Returns a clip's twenty joints by frame, as `etude clip convert` writes them."""
         out = self.folder / "joints.csv"
         self.ends(0, "clip", "convert", path, out, "--overwrite", *options)
         with open(out) as file:

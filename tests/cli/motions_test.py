@@ -13,7 +13,7 @@ from kinect_rows import arms, kinect
 from motion_file_case import MotionFileCase
 
 CMU = "/usr/share/assimp/models/BVH/01_03.bvh"
-TASKS = {  # each with the track that its methods make
+TASKS = {  # each with the track of its methods
     "ik": ("solution", "trials: 2", "{name: a, solver: ccd, weights: fixed}", "{name: b, solver: gauss-newton}"),
     "tracking": ("solution", "trials: 2\nclips: ['builtin:clap']", "{name: a, solver: ccd, weights: fixed}",
                  "{name: b, solver: gauss-newton}"),
@@ -30,14 +30,14 @@ TASKS = {  # each with the track that its methods make
 
 
 def turn(axis, degrees):
-    """The rotation about an axis of the file (X, Y, Z)."""
+    """Returns the rotation about an axis of the file (X, Y, Z)."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     return {"X": numpy.array([[1, 0, 0], [0, c, -s], [0, s, c]]), "Y": numpy.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]),
             "Z": numpy.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])}[axis]
 
 
 def read_mot(path):
-    """The places of parts' ends by frame, by a .mot file's own model; the limits of angles, and the angles."""
+    """Returns the ends of parts by frame, by a .mot file's own model; the limits of angles; and the angles."""
     head, _, table = path.read_text().partition("endheader\n")
     facts = dict(line.split("=") for line in head.splitlines() if "=" in line)
     parts, limits = {}, {}
@@ -59,7 +59,7 @@ def read_mot(path):
             for (sign, axis), angle in turns:
                 own = own @ turn(axis, row[angle] * (-1 if sign == "-" else 1))
             axes[name], ends[name] = own, ends[parent] + own @ bone
-        # X forward, Y up, Z right; Etude: X to the left, Y up, Z forward
+        # the file: X forward, Y up, Z right; Etude: X left, Y up, Z forward
         frames.append({name: numpy.array([-z, y, x]) for name, (x, y, z) in ends.items()})
     return frames, limits, rows, {name: parent for name, (parent, _, _) in parts.items()}
 
@@ -140,9 +140,9 @@ class Motions(MotionFileCase):
             self.assertLess(worst_deg, 0.01, clip)
             if is_rigid:
                 self.assertLess(worst_m, 1e-5)
-            for name in parents:  # and by the program itself
+            for name in parents:  # the program reads its own file
                 numpy.testing.assert_allclose(again[name], found[name], atol=1e-9, err_msg=name)
-            for name in rows[0]:  # no whole turns from frame to frame
+            for name in rows[0]:  # angles do not jump by whole turns
                 if name != "time":
                     steps = numpy.abs(numpy.diff([row[name] for row in rows]))
                     self.assertLess(steps.max(), 180, (clip, name))
@@ -166,7 +166,7 @@ class Motions(MotionFileCase):
         joints = self.joints("builtin:clap")[:1]
         path = self.folder / "bent.csv"
         body = joints[0]
-        # The right thigh raised forward by 60 degrees, the shank hanging: hip and knee bent by 60.
+        # The right thigh is raised forward by 60° and the shank hangs: hip and knee flexion are 60°.
         knee, ankle = body["right_hip"] + 0.4 * numpy.array([0, -.5, math.sqrt(.75)]), numpy.array([0, -.4, 0])
         bent = {**body, "right_knee": knee, "right_ankle": knee + ankle, "right_foot": knee + ankle + [0, -.05, .17]}
         with open(path, "w") as file:
@@ -190,7 +190,7 @@ class Motions(MotionFileCase):
             worst_mm, joints = file_table.worst_mm(path, facts)
             self.assertLess(worst_mm, most_mm)
             self.assertGreater(joints, 15)
-        facts["body"]["metres_per_unit"] *= 1.01  # the check must find that a unit is one per cent off
+        facts["body"]["metres_per_unit"] *= 1.01  # the control: with a unit wrong by 1 % the check must fail
         self.assertGreater(file_table.worst_mm(path, facts)[0], 5)
 
     def test_a_rate_that_is_told(self):
@@ -222,7 +222,7 @@ class Motions(MotionFileCase):
         self.assertIn("the role left_hand has the joint", self.refusal("teach", CMU, "--map", roles, "-o", moves))
 
     def test_a_picture_of_roles_also_where_some_are_missing(self):
-        def pixels(path):  # of the two colours of roles: found by names, found by the build
+        def pixels(path):  # the two colours: roles found by names, and by proportions
             width, height = png_size(path.read_bytes())
             self.assertEqual(width, 1200)
             raw = subprocess.run(["ffmpeg", "-v", "error", "-i", path, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"], capture_output=True)

@@ -1,5 +1,5 @@
-"""Tests outside methods in a run: a good one is a method like any other; a hostile one gets rows, and nothing else
-suffers."""
+"""Tests outside methods in a run: a good one is a method like any other; a hostile one gets rows and harms nothing
+else."""
 import json
 import os
 import pathlib
@@ -33,7 +33,7 @@ def outside(name, *command, more=""):
 
 
 def soon(happens, limit_s=30):
-    """Waits for something to happen."""
+    """Waits until `happens` returns true."""
     end = time.monotonic() + limit_s
     while not happens() and time.monotonic() < end:
         time.sleep(0.02)
@@ -146,7 +146,7 @@ class OutsideMethods(EtudeCase):
         self.assertIn("right and wrong performances are needed", nothing.stderr)
 
     def radians(self):
-        """The example solver, which answers radians for degrees."""
+        """Returns the example solver, changed to answer in radians instead of degrees."""
         text = (EXAMPLES / "ik_dls.py").read_text()
         for file in EXAMPLES.glob("*.py"):
             shutil.copy(file, self.folder)
@@ -187,7 +187,7 @@ class OutsideMethods(EtudeCase):
         for program in (["python3", EXAMPLES / "coach_policy.py"], ["node", EXAMPLES / "coach_policy.mjs"]):
             said = subprocess.run(program, input=told, capture_output=True, text=True, check=True,
                                   env={**os.environ, "PYTHONPATH": str(ROOT / "python")}).stdout
-            answers.append([json.loads(line) for line in said.splitlines()][1:])  # without its name
+            answers.append([json.loads(line) for line in said.splitlines()][1:])  # without the method's name
         self.assertEqual(*answers)
         self.assertEqual({message["answer"]["correct"] for message in answers[0] if "answer" in message}, {True, False})
 
@@ -212,7 +212,7 @@ class OutsideMethods(EtudeCase):
                 try:
                     words = process.read_bytes()
                 except OSError:
-                    continue  # it has just ended
+                    continue  # the process has just ended
                 if b"hostile.py" in words and mark in words:
                     found.append(process)
             return found

@@ -19,7 +19,7 @@ READERS = [["report", "OUT", "--no-video"], ["rows", "OUT"], ["gate", "OUT"], ["
 class Overwriting(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        """Two runs that can be told apart by every row, made once: their scenarios and their rows."""
+        """Makes two runs that differ in every row, once; keeps their scenarios and rows."""
         cls.shared = cls.shared_folder()
         cls.scenarios, cls.rows = [], []
         for noise in (3, 4):
@@ -35,7 +35,7 @@ class Overwriting(EtudeCase):
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def read_on(self, run):
-        """Reads the run with one reader after the other until `run` has ended; checks that each read one run, or
+        """Reads the run with one reader after the other until `run` ends; checks that each read one of the runs, or
         none."""
         for words in itertools.cycle(READERS):
             if run.poll() is not None:
@@ -43,14 +43,14 @@ class Overwriting(EtudeCase):
             reader = self.etude(*(self.out if word == "OUT" else word for word in words))
             complaints = [line for line in reader.stderr.splitlines() if line.startswith("etude: ")]
             self.assertIn(reader.returncode, (0, 2, 3), f"{words[0]}: {reader.stderr}")
-            if words[0] != "gate":  # which prints that a run is incomplete
+            if words[0] != "gate":  # gate prints that a run is incomplete
                 self.assertEqual(len(complaints), int(reader.returncode != 0), f"{words[0]}: {reader.stderr}")
             if words[0] == "rows" and reader.returncode == 0:
                 self.assertIn(reader.stdout, self.rows)
             self.read += 1
 
     def write_on(self, stop):
-        """Writes files of a report into the run, one after the other, whatever stands there."""
+        """Writes report files into the run, one after the other, whatever is there."""
         for number in itertools.count():
             if stop.is_set():
                 return
@@ -58,7 +58,7 @@ class Overwriting(EtudeCase):
                 (self.out / "report").mkdir(exist_ok=True)
                 (self.out / "report" / f"{number % 100}.html").touch()
             except FileNotFoundError:
-                pass  # replaced in between
+                pass  # the run was replaced meanwhile
             time.sleep(0.0002)
 
     def test_a_run_takes_anothers_place_while_others_read_it(self):
@@ -79,7 +79,7 @@ class Overwriting(EtudeCase):
         print(f"{ROUNDS} runs replaced, read {self.read} times meanwhile")
 
     def files(self):
-        """The files of the run, told from others of their names; a number on the disk is given again."""
+        """Returns the run's files as (name, inode, time); the time is needed because inodes are reused."""
         found = set()
         for name in os.listdir(self.out) if self.out.exists() else []:
             with contextlib.suppress(FileNotFoundError):
@@ -102,7 +102,7 @@ class Overwriting(EtudeCase):
             run.stderr.close()
             self.assertIn(self.files() & old, (old, set()))
             whole += self.files() >= old
-        # What a killed run has set aside goes with the next.
+        # The next run removes what a killed run has moved aside.
         self.run_suite(self.scenarios[0], "--overwrite")
         self.run_suite(self.scenarios[1], "--overwrite")
         self.assertEqual([path.name for path in self.folder.iterdir()], ["out"])

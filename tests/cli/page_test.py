@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests the page of a run in a headless browser, as its readers use it: at every width, in every mode, by keyboard."""
+"""Tests a run's page in a headless browser, as its readers use it: at every width, in every mode, by keyboard."""
 import base64
 import json
 import pathlib
@@ -35,14 +35,14 @@ SCENARIO = f"""scenarios:
 
 OPEN = "document.querySelectorAll('details').forEach((d) => { d.open = true; })"
 WORDS = "document.body.innerText.trim().split(/\\s+/).length"
-# What is cut, or reaches beyond the window, without a place to scroll.
+# Returns elements that are clipped, or wider than the window, without a place to scroll.
 CLIPPED = """[...document.querySelectorAll('body *')].filter((e) => {
   const box = e.getBoundingClientRect();
   if (!box.width || e.closest('.scroll, .skip, .defs, svg, .menu, .tools') || e.matches('script, style, br')) return false;
   const inner = getComputedStyle(e).overflowX !== 'visible' && e.scrollWidth > e.clientWidth + 1;
   return box.right > innerWidth + 1 || box.left < -1 || inner;
 }).map((e) => e.tagName + '.' + e.className + ' ' + e.textContent.slice(0, 40))"""
-# Text whose contrast with what lies behind it is below 4.5, and how many texts were looked at.
+# Returns the texts whose contrast with their background is below 4.5, and the number of texts.
 CONTRAST = """(() => {
   const parse = (text) => { const n = text.match(/[\\d.]+/g).map(Number); return [n[0], n[1], n[2], n[3] ?? 1]; };
   const light = (c) => c.slice(0, 3).map((v) => v / 255).map((v) => v <= .04045 ? v / 12.92 : ((v + .055) / 1.055) ** 2.4)
@@ -88,11 +88,11 @@ class Page(EtudeCase):
                     self.browser.ask(OPEN)
                     self.assertLessEqual(self.browser.ask("document.documentElement.scrollWidth"), width)
                     self.assertEqual(self.browser.ask(CLIPPED), [])
-                    if "forced" not in mode:  # there the reader's own colours stand
+                    if "forced" not in mode:  # with forced colours, the reader's own colours apply
                         contrast = self.browser.ask(CONTRAST)
                         self.assertEqual(contrast["low"], [])
                         self.assertGreater(contrast["count"], 200)
-        # The controls: what is too wide or too pale is found.
+        # The controls: too wide or too pale elements are found.
         self.browser.open(self.page, 400)
         self.browser.ask("document.querySelector('h2').style.width = '500px'; document.querySelector('h1').style.color = '#bbb'")
         self.assertEqual(len(self.browser.ask(CLIPPED)), 1)
@@ -131,7 +131,7 @@ class Page(EtudeCase):
         self.assertEqual([stop["place"] for stop in stops], sorted(stop["place"] for stop in stops))
         self.assertTrue(all(stop["seen"] for stop in stops))
         self.assertIn("How to read this", [stop["text"] for stop in stops])
-        self.assertEqual(sum(stop["cell"] for stop in stops), 2)  # one stop a picture that stands open
+        self.assertEqual(sum(stop["cell"] for stop in stops), 2)  # an open picture is one stop
 
     def test_a_dot_tells_how_to_run_its_cell_again_by_keyboard(self):
         browser = self.browser
@@ -168,9 +168,9 @@ class Page(EtudeCase):
         self.assertEqual(browser.ask("[...document.querySelectorAll('.row-card code')].map((c) => c.textContent.split(' ').at(-1))"), told["cells"])
         self.assertTrue(browser.ask("document.querySelector('.row-card .watched') !== null"))
         browser.ask("rows.find((r) => /longer-than-any/.test(r.dataset.ids)).cells[1].click()")
-        self.assertEqual({cell.split("/")[2] for cell in browser.ask("told.cells")}, {"003"})  # of its pair one was
+        self.assertEqual({cell.split("/")[2] for cell in browser.ask("told.cells")}, {"003"})  # one has a film
         browser.ask("[...document.querySelectorAll('tr[data-ids]')].find((r) => r.dataset.ids.startsWith('change/')).cells[1].click()")
-        self.assertEqual({cell.split("/")[2] for cell in browser.ask("told.cells")}, {"000"})  # none was
+        self.assertEqual({cell.split("/")[2] for cell in browser.ask("told.cells")}, {"000"})  # no world has a film
 
     def test_tables_sort_filter_choose_columns_and_are_copied(self):
         browser = self.browser
@@ -243,7 +243,7 @@ class Page(EtudeCase):
         self.assertEqual(len(pages), printed["pictures"])
         self.assertAlmostEqual(float(pages[0]) / 72 * 96, printed["width"] + 24, delta=2)
         self.assertNotIn(b"/Subtype /Image", pdf)
-        self.assertIn(b"/Subtype /Type", pdf)  # letters, not their outlines
+        self.assertIn(b"/Subtype /Type", pdf)  # the PDF embeds fonts, not outlines
 
 
 class Descriptions(EtudeCase):

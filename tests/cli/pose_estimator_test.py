@@ -1,5 +1,4 @@
-"""Tests the measurements of examples/pose-estimator on keypoints made here, whose figures are known. (No estimator
-is run.)"""
+"""Tests the measurements of examples/pose-estimator on keypoints with known results. (No estimator is run.)"""
 import json
 import re
 import shutil
@@ -26,7 +25,8 @@ LIMBS = ["left_shoulder", "right_shoulder", "left_elbow", "right_elbow", "left_w
 
 
 def projection(path):
-    """3 × 4, from the calibration file: OpenCV's pixels have their centres at whole numbers, ours at halves."""
+    """Returns the 3 × 4 matrix of the calibration file. In OpenCV pixel centres are at whole numbers, in ours at
+    halves."""
     text = path.read_text()
     numbers = {name: [float(x) for x in re.search(rf"\n{name}:.*?data: \[(.*?)\]", text, re.S).group(1).split(",")]
                for name in ("camera_matrix", "R", "T")}
@@ -53,7 +53,7 @@ class PoseEstimator(EtudeCase):
         self.limbs = [joints.index(name) for name in LIMBS]
 
     def compare(self, shift, score):
-        """The line of figures for keypoints `shift` pixels to the right of the truth."""
+        """Returns the output line for keypoints that lie `shift` pixels to the right of the truth."""
         keypoints = {}
         problem = json.loads((self.data / "inputs" / "pictures" / "all" / "000" / "problem.json").read_text())
         for picture in (name for camera in problem["cameras"] for name in camera["pictures"]):
@@ -68,7 +68,7 @@ class PoseEstimator(EtudeCase):
         return [cell.strip() for cell in told.stdout.splitlines()[-1].strip("|").split("|")]
 
     def answer(self, shift):
-        """The score of answers out of stored keypoints that are `shift` pixels to the right of the truth."""
+        """Returns the score of answers from stored keypoints that lie `shift` pixels to the right of the truth."""
         self.compare(shift, 0.9)
         answers = self.folder / f"answers-{shift}"
         kept = answers / ".keypoints" / "pictures" / "all" / "000.json"
@@ -94,7 +94,7 @@ class PoseEstimator(EtudeCase):
         self.assertEqual(self.compare(0, 0.9), ["all", "6", "100 %", "0.90", "0.0", "0.0", "100 %"])
 
     def test_an_error_is_told_in_per_cent_of_the_bodys_height(self):
-        # The body is about 1.5 m from head to ankle; 3.8 m away at f = 600 that is 240 pixels.
+        # The body is about 1.5 m from head to ankle; at 3.8 m and f = 600 that is 240 pixels.
         _, _, people, score, median, high, near = self.compare(24, 0.2)
         self.assertEqual((people, score, near), ("0 %", "0.20", "0 %"))
         self.assertAlmostEqual(float(median), 10, delta=1.5)

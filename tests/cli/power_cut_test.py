@@ -1,7 +1,6 @@
-"""Tests that a power cut loses nothing that a run has counted. The system calls of a run are recorded (strace), and
-replayed onto a model of a disk that keeps only synchronised data. At every call the power is cut, and the run is
-resumed with the contents of the disk. ETUDE_CUTS: how many different disks are tried (all of them in the heavy
-version of this test)."""
+"""Tests that a power cut loses nothing that a run has counted. A run's system calls are recorded (strace) and
+replayed onto a model of a disk that keeps only synchronised data. The power is cut at every call, and the run is
+resumed with the disk's contents. ETUDE_CUTS is the number of different disks to try (the heavy test tries all)."""
 import json
 import os
 import pathlib
@@ -28,7 +27,8 @@ def strings_of(arguments):
 
 
 def recorded(command, trace, of_all=False):
-    """The system calls of a program's first process, or of all that have its files, as (name, arguments, result)."""
+    """Returns the system calls of a program's first process, or of all processes with its files: (name, arguments,
+    result)."""
     subprocess.run(["strace", "-f", "-xx", "-s", "10000000", "-e", f"trace={CALLS}", "-o", trace, *command],
                    check=True, capture_output=True, timeout=300)
     calls, first, unfinished = [], None, {}
@@ -51,22 +51,22 @@ def recorded(command, trace, of_all=False):
 class File:
     def __init__(self):
         self.now = b""
-        self.safe = None  # what is on the disk for certain
+        self.safe = None  # content that is certainly on the disk
 
 
 class Disk:
-    """A folder as the system shows it, and as much of it as a power cut leaves."""
+    """A folder as the system shows it, and the part of it that survives a power cut."""
 
     def __init__(self, root):
         self.root = os.fsencode(str(root))
-        self.now, self.safe, self.moved = {}, {}, {}  # names: of files a File, of folders None
+        self.now, self.safe, self.moved = {}, {}, {}  # names: files map to a File, folders to None
         self.open = {}
 
     def inside(self, path):
         return path == self.root or path.startswith(self.root + b"/")
 
     def paths_of(self, arguments):
-        """The paths that a call names, each alone or in an open folder."""
+        """Returns the paths that a call names, alone or in an open folder."""
         paths = []
         for folder, text in re.findall(r'(?:(\w+), )?"((?:\\x[0-9a-f]{2})*)"', arguments):
             above = self.open.get(int(folder)) if folder.isdigit() else None
@@ -75,7 +75,7 @@ class Disk:
 
     @staticmethod
     def move(names, paths):
-        """All that stands in the first folder to the second."""
+        """Moves everything in the first folder to the second."""
         for path in [path for path in names if path.startswith(paths[0] + b"/")] if paths[0] else []:
             names[paths[1] + path[len(paths[0]):]] = names.pop(path)
 
@@ -115,7 +115,7 @@ class Disk:
             self.now[paths[1]] = self.now.pop(paths[0])
             if self.now[paths[1]] is None:
                 self.move(self.now, paths)
-                self.moved[paths[1]] = paths  # what is safe in it moves when the folder above is synchronised
+                self.moved[paths[1]] = paths  # its safe content moves when the parent folder is synchronised
         elif name.startswith("unlink") or name == "rmdir":
             self.now.pop(paths[0], None)
         elif name.startswith("mkdir") and self.inside(paths[0]):
@@ -124,8 +124,8 @@ class Disk:
             self.open.pop(handle, None)
 
     def after_a_cut(self, way):
-        """The files by name: "least" has nothing that was not synchronised, "names" has all names, but of contents only
-        what was synchronised (as journalling file systems leave it), "most" has everything."""
+        """Returns the files by name: "least" has only synchronised data; "names" has all names, but only
+        synchronised contents (as journalling file systems leave it); "most" has everything."""
         names = self.safe if way == "least" else self.now
         left = {}
         for path, file in names.items():
@@ -137,7 +137,7 @@ class Disk:
 
 
 def counted(arguments):
-    """How many cells a line of progress says are done."""
+    """Returns the number of finished cells in a progress line."""
     said = re.findall(rb"(\d+)/\d+ cells", b"".join(strings_of(arguments)))
     return int(said[-1]) if said else 0
 
@@ -156,7 +156,7 @@ class PowerCut(EtudeCase):
         cls.scenario, cls.whole = cls.run_once(SCENARIO)
 
     def disks(self, command):
-        """Every different disk that a power cut may leave, with the number of cells that had been counted by then."""
+        """Returns every different disk that a power cut may leave, with the number of cells counted before."""
         disk, counts, found, cuts = Disk(self.out), 0, {}, 0
         for name, arguments, result in recorded(command, self.folder / "trace"):
             if name == "write" and re.match(r"^[12]\b", arguments):
@@ -232,7 +232,7 @@ class PowerCut(EtudeCase):
                     self.assertEqual(left.get(os.fsencode(str(file.relative_to(self.out)))), file.read_bytes(), file)
 
     def test_the_model_finds_what_is_not_synchronised(self):
-        """The control: without its calls to synchronise, the disk has lost cells that were counted."""
+        """The control: without its calls to synchronise, the disk loses counted cells."""
         disk, counts = Disk(self.out), 0
         run = [ETUDE, "run", self.scenario, "-o", str(self.out), "-j", "1", "--sync-seconds", "0"]
         for name, arguments, result in recorded(run, self.folder / "trace"):

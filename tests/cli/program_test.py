@@ -10,7 +10,7 @@ import unittest
 
 from etude_case import ETUDE
 
-# Each is used on purpose; what else turns up was linked by accident.
+# Each library is used on purpose; any other was linked by accident.
 LIBRARIES = {
     "libOpenEXR-3_1": "pictures of numbers", "libImath-3_1": "halves, for OpenEXR", "libpng16": "pictures",
     "libjpeg": "pictures that were compressed",
@@ -50,7 +50,7 @@ class Program(unittest.TestCase):
             self.assertEqual((run.returncode, run.stderr), (0, ""))
 
     def test_the_renderer_is_loaded_by_those_who_draw_alone(self):
-        """It brings a compiler along, whose loading takes as long as that of nearly everything else."""
+        """The renderer loads a compiler, which takes nearly as long as all other libraries."""
         def loads_a_compiler(*arguments):
             told = subprocess.run([ETUDE, *arguments], capture_output=True, text=True, check=True,
                                   env=os.environ | {"LD_DEBUG": "files"})
@@ -61,7 +61,7 @@ class Program(unittest.TestCase):
             self.assertTrue(loads_a_compiler("clip", "render", "builtin:clap", "-o", folder + "/clap.png"))
 
     def test_the_genetic_search_is_loaded_by_those_who_train_alone(self):
-        """Its constructors take as long as all else that a start takes."""
+        """Its constructors take as long as the rest of a start."""
         def train(program, folder, method):
             return subprocess.run([program, "train", "builtin:clap", "builtin:wave", "--hold-out", "0", "--method", method,
                                    "--generations", "1", "--population", "5", "-o", folder + "/tuned.yaml", "--overwrite"],
@@ -79,7 +79,7 @@ class Program(unittest.TestCase):
             self.assertNotIn("cannot be loaded", train(program, folder, "genetic").stderr)
 
     def test_what_only_prints_starts_once(self):
-        """Who starts anew leaves no last word of the loader: the variable that asks for it is not passed on."""
+        """A restarted program prints no statistics of the loader, because LD_DEBUG is not passed on."""
         def starts_once(*arguments):
             told = subprocess.run([ETUDE, *arguments], capture_output=True, text=True, check=True,
                                   env=os.environ | {"LD_DEBUG": "statistics"})

@@ -10,7 +10,7 @@ from kinect_rows import arms, kinect
 
 
 def turned(rows, turn):
-    """Rows of a Kinect that is turned about its line of sight."""
+    """Returns rows of a Kinect that is turned about its line of sight."""
     def of(row):
         v = [float(word) for word in row.split()]
         return " ".join(f"{c:.6f}" for i in range(0, len(v), 3) for c in (*turn(v[i], v[i + 1]), v[i + 2]))
@@ -23,7 +23,8 @@ class Recognise(EtudeCase):
         return self.folder / "moves.yaml"
 
     def events(self, *arguments, stdin=None):
-        """What is spotted; by key poses unless said otherwise: the others are made for people, not for sticks."""
+        """Returns the spotted moves, by key poses by default, because the other recognisers are made for people, not
+        stick figures."""
         if "--recogniser" not in arguments:
             arguments += ("--recogniser", "key-pose")
         result = subprocess.run([ETUDE, "recognise", *map(str, arguments)], capture_output=True, text=True, timeout=120,
@@ -69,7 +70,7 @@ class Recognise(EtudeCase):
         self.assertEqual((default.returncode, default.stdout), (0, learnt.stdout))
         self.assertIn("recogniser learnt, recommended for these moves; --recogniser selects another one\n", default.stderr)
         self.assertNotIn("recommended", learnt.stderr)
-        # Moves that are key poses alone have nothing to learn from.
+        # Moves with key poses only give nothing to learn from.
         poses = re.sub(r"(?m)^    right:\n(      .*\n|        .*\n)*", "    right: []\n", moves.read_text())
         written = self.write("poses.yaml", poses)
         default, paper = told(written), told(written, "--recogniser", "key-pose")

@@ -1,5 +1,5 @@
-"""Tests examples/rivals against stand-ins that fail at every undocumented call, and against the packages if they are
-installed."""
+"""Tests examples/rivals against replacements that fail at every undocumented call, and against the packages if they
+are installed."""
 import importlib.util
 import pathlib
 import re
@@ -37,7 +37,7 @@ class Rivals(EtudeCase):
 
     def test_every_call_of_the_adapters_is_documented(self):
         errors = self.mpjpe_mm(PACKAGES, STUBS / "with_stubs.py")
-        # The same triangulation; Pose2Sim's hands, head and spine are placed in another way.
+        # The triangulation is the same; Pose2Sim's hands, head and spine are placed in another way.
         self.assertLess(abs(errors["pose2sim"] - errors["numpy"]), 0.25 * errors["numpy"], errors)
         self.assertLess(errors["momentum"], 1.1 * errors["numpy"], "bones keep their lengths")
 

@@ -30,7 +30,7 @@ class Runs(EtudeCase):
 
     def test_functions_that_the_processor_chooses_change_no_byte(self):
         scenario = self.cut_scenario("builtin:sway", "/usr/share/assimp/models/BVH/01_03.bvh", trials=2)
-        # glibc's sin and exp differ in the last bit where the processor has fused multiply-add.
+        # glibc's sin and exp differ in the last bit on processors with fused multiply-add.
         tunables = {"any": None, "plain": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", "no-avx": "glibc.cpu.hwcaps=-AVX2"}
         for name, value in tunables.items():
             environment = {key: text for key, text in os.environ.items() if key != "GLIBC_TUNABLES"}
@@ -71,7 +71,7 @@ methods: [{name: hue}]
         self.assertEqual(before, kept)
 
     def test_a_worker_that_dies_takes_only_its_cell_with_it(self):
-        # Long cells: a worker killed between two of them would take none with it.
+        # Cells are long, because a worker killed between two cells loses none.
         path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 10\nmax_sweeps: 10000"))
         run = subprocess.Popen([ETUDE, "run", path, "--jobs", "2", "-o", self.out], stderr=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL)
@@ -81,7 +81,7 @@ methods: [{name: hue}]
         rows = [row for row in (self.out / "cells.jsonl").read_text().splitlines()]
         self.assertEqual(len(rows), 10 * 2 * 2)
         crashed = [row for row in rows if '"crashed"' in row]
-        self.assertIn(len(crashed), (1, 2))  # the cell it was at; both, while it built their world
+        self.assertIn(len(crashed), (1, 2))  # its current cell, or both while it built their world
         self.assertIn("signal 6 (Aborted)", crashed[0])
 
     def test_two_runs_never_share_a_folder(self):

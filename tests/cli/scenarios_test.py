@@ -1,5 +1,4 @@
-"""Tests scenario files as people write them: several scenarios in a file, shared defaults, sweeps, and complaints
-about invalid ones."""
+"""Tests scenario files as people write them: several scenarios in a file, shared defaults, sweeps, and invalid ones."""
 import json
 import unittest
 
@@ -44,7 +43,7 @@ class Scenarios(EtudeCase):
         self.assertEqual(count, {"start": 3 * 3 * 2, "both": 1 * 2 * 2, "ik": 4 * 2 * 2})
 
     def test_defaults_written_or_inherited_give_the_same_rows(self):
-        """Where a key stands is nothing that a result may depend on."""
+        """Where a key is written must not change a result."""
         suite = self.write_suite()
         rows = self.run_suite(suite / "several.yaml")
         alone = "scenario: both\nquestion: And when poses are harder, too?\ntask: ik\ntrials: 1\nmax_sweeps: 20\n"
@@ -61,7 +60,7 @@ class Scenarios(EtudeCase):
         self.assertEqual(sorted(sources.values()), sorted([SEVERAL, SHARED]))
 
     def test_complaints_are_one_line_that_points_into_the_right_file(self):
-        # What is written wrong, in which file, and what the complaint says.
+        # Mistakes, the file that contains each, and the complaint.
         cases = [
             (SEVERAL.replace("to: 15", "to: 1500"), SHARED,
              "several.yaml:6:30: 'joint_noise_deg': 185 is out of range"),

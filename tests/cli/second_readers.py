@@ -1,7 +1,7 @@
-"""Readers of motion files that share nothing with the program. They return the position of every joint of a file, in
-the file's own unit and axes.
+"""Readers of motion files that share no code with the program.
 
-Each returns {joint: positions (frames × 3)}; if several joints have the same name, the first one counts.
+Each returns {joint: positions (frames × 3)} in the file's own unit and axes; if several joints have the same name, the
+first one counts.
 """
 import json
 import math
@@ -13,7 +13,7 @@ import numpy
 
 
 def about(axis, angles):
-    """Rotations about a unit axis by angles in radians: n × 3 × 3."""
+    """Returns rotations about a unit axis by angles in radians, n × 3 × 3."""
     x, y, z = axis
     k = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]], float)
     s, c = numpy.sin(angles)[:, None, None], numpy.cos(angles)[:, None, None]
@@ -21,7 +21,7 @@ def about(axis, angles):
 
 
 def of_quaternions(q):
-    """Rotations of quaternions x, y, z, w (n × 4)."""
+    """Returns rotations of quaternions x, y, z, w (n × 4)."""
     x, y, z, w = (q / numpy.linalg.norm(q, axis=1, keepdims=True)).T
     return numpy.stack([numpy.stack(row, -1) for row in (
         (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
@@ -30,7 +30,7 @@ def of_quaternions(q):
 
 
 def read_bvh(path, adds=False):
-    """`adds`: position channels are added to OFFSET, as three.js and PyMO do; else they replace it, as Blender does."""
+    """Reads a BVH. Position channels are added to OFFSET if `adds` (three.js, PyMO), else they replace it (Blender)."""
     tokens = path.read_text(errors="replace").split()
     joints, stack, i = [], [], 1  # a joint: name, parent, offset, channels
     while tokens[i] != "MOTION":
@@ -53,7 +53,7 @@ def read_bvh(path, adds=False):
             joints[stack[-1]][3] = tokens[i + 2:i + 2 + count]
             i += 1 + count
         i += 1
-    at = tokens.index("Time:", i)  # of "Frame Time:"
+    at = tokens.index("Time:", i)  # part of "Frame Time:"
     width = sum(len(joint[3]) for joint in joints)
     values = numpy.array(tokens[at + 2:], float)
     values = values[:len(values) // width * width].reshape(-1, width)
@@ -156,7 +156,7 @@ def read_gltf(path, animation, rate, frames):
 
 
 def read_acclaim(path):
-    """An AMC by the ASF beside it. A bone's joint is where the bone begins; ends of limbs are "…_end"."""
+    """Reads an AMC with the ASF beside it. A bone's joint is at the bone's start; limb ends are called "…_end"."""
     skeleton = next(path.parent.glob("*.asf")).read_text()
     bones = {}
     for text in re.findall(r"begin(.*?)end", skeleton.split(":bonedata")[1].split(":hierarchy")[0], re.S):
@@ -198,7 +198,7 @@ def read_acclaim(path):
 
 
 def read_deepmimic(path):
-    """A motion of DeepMimic by its character file, beside it."""
+    """Reads a motion of DeepMimic with the character file beside it."""
     character = json.loads((path.parent / "humanoid3d_character.txt").read_text())["Skeleton"]["Joints"]
     document = json.loads(path.read_text())
     rows = numpy.array([row[1:] for row in document["Frames"]], float)
@@ -221,7 +221,7 @@ def read_deepmimic(path):
 
 
 def read_trc(path):
-    """Markers, metres; gaps are NaN."""
+    """Reads markers, metres; gaps are NaN."""
     lines = path.read_text().splitlines()
     told = dict(zip(lines[1].split("\t"), lines[2].split("\t")))
     names = [name for name in lines[3].split("\t")[2:] if name]
@@ -233,7 +233,7 @@ def read_trc(path):
 
 
 def read_c3d(path):
-    """Markers of a little-endian file, metres; invalid ones are NaN."""
+    """Reads the markers of a little-endian file, metres; invalid ones are NaN."""
     data = path.read_bytes()
     at, group_names, told = 512 * (data[0] - 1) + 4, {}, {}
     while data[at]:

@@ -144,7 +144,7 @@ class SecretWorlds(EtudeCase):
         of_shard = self.out / "manifest.json"
         of_shard.write_text(re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', of_shard.read_text()))
         self.assertIn(says, self.refuse(*shard, "--resume"))
-        # A run of a plain seed has no such version: it differs in its seed.
+        # A run with a plain seed has no such version, so its seed differs.
         plain = ["run", self.scenario, "--shard", "1/2", "-o", self.folder / "plain"]
         self.ends(0, *plain)
         told = self.refuse(*plain, "--resume", "--seed-file", self.key)
@@ -183,7 +183,7 @@ class SecretWorlds(EtudeCase):
             self.assertEqual(row, rows[row["cell"]])
 
     def key_of_its_own(self):
-        """A key that nobody has used, and the lines of its list."""
+        """Makes an unused key; returns its path and the lines of its list of uses."""
         key = self.folder / "own-key"
         key.write_bytes(os.urandom(32))
         key.chmod(0o600)
@@ -277,7 +277,7 @@ class SecretWorlds(EtudeCase):
         self.assertEqual(len(used()), 1)
 
     def test_shards_of_one_key_are_merged_and_of_another_refused(self):
-        key = self.folder / "copy"  # of the key, which has a list of its own
+        key = self.folder / "copy"  # a copy of the key with an own list of uses
         shutil.copy(self.key, key)
         shard = lambda index, key, *more: self.etude("run", self.scenario, "--seed-file", key, "--shard", f"{index}/2", *more)
         for index in (1, 2):

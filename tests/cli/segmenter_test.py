@@ -1,5 +1,4 @@
-"""Tests examples/segmenter: its masks cover the person, `etude capture --masks` reads them, and the segmenter works
-in a run."""
+"""Tests examples/segmenter: its masks cover the person, `etude capture --masks` reads them, and it works in a run."""
 import pathlib
 import shutil
 import struct
@@ -27,7 +26,7 @@ metrics: [iou]
 
 
 def grey(path):
-    """The pixels of a PNG, by ffmpeg, and its width and height, by its header."""
+    """Returns a PNG's pixels, by ffmpeg, and its width and height, by its header."""
     size = struct.unpack(">II", path.read_bytes()[16:24])
     raw = subprocess.run(["ffmpeg", "-v", "error", "-i", path, "-f", "rawvideo", "-pix_fmt", "gray", "-"], check=True, capture_output=True)
     return np.frombuffer(raw.stdout, np.uint8), size

@@ -19,7 +19,8 @@ methods:
 
 
 def kinect_and_targets(seconds=8):
-    """A body whose joints swing, by a Kinect (30 Hz, metres, with an error) and by 17 targets (60 Hz, millimetres)."""
+    """Returns a body with swinging joints, by a Kinect (30 Hz, metres, with errors) and by 17 targets (60 Hz,
+    millimetres)."""
     dice = random.Random(1)
     joint_of_target = [9, 5, 8, 4, 1, 16, 12, 8, 4, 11, 7, 19, 15, 0, 3, 17, 13]
 
@@ -29,7 +30,7 @@ def kinect_and_targets(seconds=8):
 
     kinect = [" ".join(" ".join(f"{x + dice.gauss(0, 0.01):.6f}" for x in place(joint, k / 30)) + " 0 0 0 1"
                        for joint in range(25)) for k in range(30 * seconds)]
-    # Joints of one target share its motion only roughly, which is an error of theirs, too.
+    # Joints of one target follow it only roughly, which counts as their error.
     targets = [" ".join(" ".join(f"{1000 * x:.3f}" for x in place(joint, k / 60)) + " 0 0 0 1"
                         for joint in joint_of_target) for k in range(60 * seconds)]
     return "\n".join(kinect) + "\n", "\n".join(targets) + "\n"

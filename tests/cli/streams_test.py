@@ -21,7 +21,8 @@ PEOPLE = ("anna", "bo", "cy", "di")
 
 class Streams(EtudeCase):
     def record(self, change=lambda person, rows: rows):
-        """Four people, who raise both arms, the left one, and both half-way, which is wrong; and their labels."""
+        """Records four people who raise both arms, the left arm, and both arms half-way, which is wrong; also writes
+        the labels."""
         takes = self.folder / "takes"
         takes.mkdir()
         labels = "clip,from_s,to_s,move,truth,person\n"
@@ -88,7 +89,7 @@ class Streams(EtudeCase):
         self.ends(0, "report", self.out, "--no-video")
         page = (self.out / "report" / "index.html").read_text()
         self.assertIn("the moves that nearest named instead of the danced moves", page)
-        # The manifest alone repeats the run, in shards too; a packed cell needs no recording.
+        # The manifest alone repeats the run, also in shards; a packed cell needs no recording.
         again = self.folder / "again"
         self.ends(0, "run", "--from", self.out / "manifest.json", "-o", again)
         self.assert_same(again)
@@ -128,13 +129,13 @@ class Streams(EtudeCase):
         self.assertEqual({row["status"] for row in rows}, {"ok"})
         named = {row["clip"]: row["move_named"] for row in rows if row["method"] == "dtw"}
         self.assertEqual(named["anna"], 1)
-        # At 15 Hz the file has no clock to say so: the scenario does.
+        # At 15 Hz the file has no clock, so the scenario states the rate.
         for take in takes.iterdir():
             lines = take.read_text().splitlines()
             take.write_text("\n".join(lines[::2]) + "\n")
         half = self.write("half.yaml", SCENARIO + f"streams: ['{takes}']\nlabels: {labels}\nreading: {{rate_hz: 15}}\n")
         self.assertEqual([row["status"] for row in self.run_suite(half, out=self.folder / "half")], ["ok"] * 8)
-        # One of a folder that cannot be read is left out, and that is told and kept.
+        # A take of a folder that cannot be read is left out; the run reports it and its manifest keeps it.
         (takes / "eve.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:9] + ["0 1 left"]) + "\n")
         told = self.ends(0, "run", half, "-o", self.folder / "told")
         self.assertIn("eve.txt: left out: ", told.stderr)
@@ -142,7 +143,7 @@ class Streams(EtudeCase):
         self.assertEqual([one["clip"] for one in manifest["scenarios"][0]["refused"]], [str(takes / "eve.txt")])
         self.assertEqual((self.folder / "told" / "cells.jsonl").read_bytes(), (self.folder / "half" / "cells.jsonl").read_bytes())
         (takes / "eve.txt").unlink()
-        # Cut off, with labels beyond its end.
+        # A truncated take, with labels beyond its end.
         (takes / "anna.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:20]) + "\n")
         self.out = self.folder / "none"
         self.assertIn("allowed: within its", self.refusal("run", half, "-o", self.out))
@@ -192,7 +193,7 @@ class Streams(EtudeCase):
         rows = [json.loads(line) for line in (self.out / "cells.jsonl").read_text().splitlines()]
         self.assertEqual([row["clip"] for row in rows if row["method"] == "dtw"], ["anna", "bo"])
         self.assertEqual([row["move_named"] for row in rows if row["method"] == "dtw"], [1, 1])
-        # As streams they are what a sensor saw, and no simulated one sees them once more.
+        # Streams already went through a sensor, so a condition of the simulated sensor is refused.
         self.out = self.folder / "as-streams"
         self.assertIn("'noise' cannot be used here", self.refusal("run", scenario, "--streams", *clips, "--labels", path,
                                                               "-o", self.out))

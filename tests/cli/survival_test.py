@@ -42,12 +42,12 @@ class Survival(EtudeCase):
         cells = []
         while len(cells) < KILLS:
             run = self.start("--resume")
-            # Somewhere in the next sixty cells, or in what comes before and after them all.
+            # A moment within the next sixty cells, or before or after all cells.
             moment = cells_in_journal(self.out) + dice.randrange(60)
             while run.poll() is None and cells_in_journal(self.out) < moment:
                 time.sleep(0.001)
             time.sleep(dice.uniform(0, 0.03))
-            if run.poll() is not None:  # it came to its end: begin anew
+            if run.poll() is not None:  # the run ended: start again
                 self.assertEqual(run.returncode, 0)
                 self.assert_same_results(self.whole, self.out)
                 shutil.rmtree(self.out)
@@ -72,7 +72,7 @@ class Survival(EtudeCase):
         for cut in (1, 2, 50, 300):
             journal.write_bytes(text[:-cut])
             copy = self.folder / f"cut-{cut}"
-            shutil.copytree(self.out, copy, ignore=shutil.ignore_patterns("lock"))  # its owner may only write it
+            shutil.copytree(self.out, copy, ignore=shutil.ignore_patterns("lock"))  # the lock is not readable
             self.resume(copy)
             self.assert_same_results(self.whole, copy)
 
@@ -106,7 +106,7 @@ class Survival(EtudeCase):
 
     @staticmethod
     def change_a_library(folder):
-        """Makes the folder one of a run under another libm; gives that library's name."""
+        """Makes the folder look like a run under another libm; returns that library's name."""
         xxh3 = ctypes.CDLL("libxxhash.so.0").XXH3_64bits
         xxh3.restype, xxh3.argtypes = ctypes.c_uint64, [ctypes.c_char_p, ctypes.c_size_t]
         path, journal = folder / "manifest.json", folder / "journal.jsonl"
@@ -135,20 +135,20 @@ class Survival(EtudeCase):
                          [(f"libraries.{name}", '"0123456789abcdef0123"')])
         self.ends(0, "report", self.out, "--no-video")
         self.assertIn("libraries changed meanwhile", (self.out / "report" / "index.html").read_text())
-        # The same of a run that is gone on with.
+        # A resumed run says the same.
         resumed = self.ends(2, "run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume")
         self.assertIn(f"libraries have changed since: libraries.{name} was", resumed.stderr)
         self.ends(0, "run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume", "--other-libraries")
         self.assertTrue((folders[1] / "other_libraries.json").exists())
 
     def shards(self):
-        """Copies of the run's three shards."""
+        """Returns copies of the run's three shards."""
         return [shutil.copytree(made, self.folder / made.name) for made in self.made_shards]
 
     @heavy
     def test_shards_started_in_different_folders_merge(self):
         (self.folder / "shared").mkdir()
-        (self.folder / "suite" / ".git").mkdir(parents=True)  # the top of a repository, and an include beyond it
+        (self.folder / "suite" / ".git").mkdir(parents=True)  # the top of a repository, and an include outside it
         self.write("shared/common.yaml", "defaults: {trials: 4}\n")
         self.write("suite/ik.yaml", "include: [../shared/common.yaml]\n" + IK.replace("trials: 4\n", ""))
         (self.folder / "link").symlink_to(self.folder / "suite")
@@ -165,7 +165,7 @@ class Survival(EtudeCase):
         self.run_suite(self.folder / "suite" / "ik.yaml", out=self.folder / "one-piece")
         self.assert_same_results(self.folder / "merged", self.folder / "one-piece")
         self.assertIn('"ik.yaml"', (shards[0] / "manifest.json").read_text())
-        # Another text of that name is another suite.
+        # Another text under the same name is another suite.
         self.write("suite/ik.yaml", IK)
         self.etude("run", self.folder / "suite" / "ik.yaml", "--shard", "1/5", "-o", self.folder / "other")
         refused = self.ends(2, "merge", self.folder / "other", *shards[1:], "-o", self.folder / "none")

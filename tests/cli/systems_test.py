@@ -1,6 +1,6 @@
-"""Tests Etude on the systems that docs/guide/install.md names. In a bare root of each, it is built from the packages
-of scripts/setup with warnings as errors, tested and packaged, and its quick suite is compared with this machine's.
-Heavy: half an hour of two cores per root; skipped, with a message, if mmdebstrap or a mirror is missing."""
+"""Tests Etude on the systems that docs/guide/install.md names: in a bare root of each, it is built with warnings as
+errors from the packages of scripts/setup, tested and packaged, and its quick suite is compared with this machine's.
+Heavy: half an hour of two cores per root; skipped, with a message, without mmdebstrap or a mirror."""
 import json
 import os
 import pathlib
@@ -13,10 +13,10 @@ from etude_case import ETUDE, EtudeCase, heavy
 from source_files import source_files
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SNAPSHOT = "http://snapshot.debian.org/archive/debian/20261101T000000Z"  # of sid, which changes daily
-UNDATED = 'Acquire::Check-Valid-Until "false"'  # lists of a snapshot, or of a mirror that lags, are not refused for their age
+SNAPSHOT = "http://snapshot.debian.org/archive/debian/20261101T000000Z"  # a snapshot of sid, which changes daily
+UNDATED = 'Acquire::Check-Valid-Until "false"'  # old package lists of a snapshot or a mirror are accepted
 
-# Makes a root the root of a process, which a chroot is not: in one, no fence can be put up.
+# Makes a folder a process's root by pivoting, because a fence cannot be made inside a chroot.
 ENTER = """set -e
 mount --bind "$1" "$1"
 mount --rbind /dev "$1/dev"; mount --rbind /sys "$1/sys"; mount -t proc proc "$1/proc"
@@ -26,7 +26,7 @@ export HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin
 
 
 def mirror():
-    """Where this machine's packages come from."""
+    """Returns the mirror from which this machine gets its packages."""
     told = subprocess.run(["apt-get", "indextargets", "--format", "$(REPO_URI)", "Created-By: Packages"],
                           capture_output=True, text=True).stdout.split()
     return next((uri for uri in told if uri.rstrip("/").endswith("/debian")), "http://deb.debian.org/debian")
@@ -34,7 +34,7 @@ def mirror():
 
 class Systems(EtudeCase):
     def make_root(self, suite, *uris, name=None):
-        """A bare root of the suite, from the first of the mirrors that is to be had, with an empty /srv/etude."""
+        """Returns a bare root of the suite from the first reachable mirror, with an empty /srv/etude."""
         if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
             self.skipTest("needs root and mmdebstrap")
         root = self.folder / (name or suite)
@@ -68,11 +68,12 @@ class Systems(EtudeCase):
         self.assertEqual(code, 0, log.read_text()[-5000:])
 
     def builds_passes_and_runs_quick(self, suite, number):
-        """Tests and all; the results differ from this machine's no more than the shipped table tells."""
+        """Builds, tests and runs the quick suite; results may differ from this machine's by no more than the shipped
+        table."""
         root = self.make_root_with_tree(suite, mirror())
         self.inside(root, "scripts/test", ETUDE_WERROR="ON")
         self.runs_quick_as_measured(root, f"Debian {number}")
-        # A release holds the packages of both Debians side by side.
+        # A release holds both Debians' packages side by side.
         self.inside(root, "mkdir -p packages && (cd build/release && cpack -G DEB -B ../../packages) >/dev/null")
         clean = self.make_root(suite, mirror(), name="clean")
         package = next((root / "srv/etude/packages").glob(f"etude_*+deb{number}_amd64.deb"))

@@ -1,4 +1,4 @@
-"""Tests `etude train`: it learns a fuzzy system that scenarios use."""
+"""Tests `etude train`: it learns a fuzzy system that scenarios can use."""
 import unittest
 
 from etude_case import EtudeCase

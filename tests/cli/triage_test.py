@@ -9,7 +9,7 @@ from etude_case import EtudeCase
 class Triage(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        """Built-in moves as files, and their joints."""
+        """Writes built-in moves as files, and reads their joints."""
         cls.shared = cls.shared_folder()
         for name in ("clap.csv", "sway.npz"):
             made = cls.etude("clip", "convert", f"builtin:{name[:-4]}", cls.shared / name)
@@ -17,7 +17,7 @@ class Triage(EtudeCase):
         cls.lines = list(csv.reader((cls.shared / "clap.csv").read_text().splitlines()))
 
     def spoilt(self, name, change):
-        """The clap with every position (frame, joint, axis) changed."""
+        """Writes the clap with every position (frame, joint, axis) changed."""
         head, *rows = [list(row) for row in self.lines]
         for f, row in enumerate(rows):
             for column, title in enumerate(head):
@@ -44,7 +44,7 @@ class Triage(EtudeCase):
                 map(json.loads, ((out or self.out) / "cells.jsonl").read_text().splitlines())}
 
     def failed(self, out):
-        """The failed cases of a run's JUnit file; its count must agree."""
+        """Returns the failed cases of a run's JUnit file, whose count must agree."""
         root = xml.etree.ElementTree.parse(out / "report" / "junit.xml").getroot()
         failed = [case.get("name") for case in root.iter("testcase") if case.find("failure") is not None]
         self.assertEqual(root.get("failures"), str(len(failed)))
@@ -65,7 +65,7 @@ class Triage(EtudeCase):
         self.assertIn("1 of 3 clips without a fault", said)
         self.assertIsNone(rows["sway"]["within_limits"])
         self.assertIn("no fault · ", rows["sway"]["reason"])
-        # On a floor that is told, nothing floats.
+        # With the floor's height given, nothing floats.
         out = self.folder / "told"
         self.triage(self.folder / "m/floating.csv", "--floor", "0.3", out=out)
         self.assertEqual(self.rows(out)["floating"]["faults"], 0)
@@ -93,13 +93,13 @@ class Triage(EtudeCase):
         page = (self.out / "report" / "index.html").read_text()
         self.assertIn("<h2>Clips with faults</h2>", page)
         self.assertIn("the feet never touch the floor", page)
-        # One's own limits: 50 cm are allowed.
+        # With a user's own limit, 50 cm are allowed.
         limits = self.write("limits.yaml", "floats_max_cm: 50\n")
         self.triage(self.folder / "m", "--limits", limits, out=self.folder / "own")
         facts = self.facts("evaluate", "--alone", self.folder / "m", "--limits", limits, "-o", self.folder / "facts")
         self.assertEqual((facts["beyond_limits"], facts["not_judged"]), ([], []))
         self.assertEqual([line.split(":")[0] for line in facts["with_faults"]], ["m, floating"])
-        # A clip that cannot be read keeps no limits: exit code, terminal, JUnit and summary say so.
+        # An unreadable clip violates the limits: exit code, terminal, JUnit and summary report it.
         self.write("m/torn.bvh", "HIERARCHY\n")
         self.popping("m/popping.csv")
         torn = self.folder / "torn"
@@ -125,7 +125,7 @@ class Triage(EtudeCase):
         self.assertIn(f'data-cell="{cell["scenario"]}/-/000/', (self.out / "report" / "index.html").read_text())
         motion, = (self.out / "report" / "motions").iterdir()
         self.assertIn("left_hand pops by 50 cm at 0.9", motion.read_text())
-        # They are motions wherever a clip may stand.
+        # Recordings can be used wherever a clip can.
         again = self.folder / "again"
         self.triage(f"{self.out}#{cell['scenario']}/-/000@answer", out=again)
         self.assertEqual(next(iter(self.rows(again).values()))["pops"], 1)
@@ -145,7 +145,7 @@ class Triage(EtudeCase):
         self.assertEqual((facts["only_before"], facts["only_after"]), ([], []))
         self.assertEqual({(move["method"], move["metric"]) for move in facts["moves"]} & {("second", "pops"), ("first", "pops")},
                          {("second", "pops")})
-        # A changed file is told by verify.
+        # verify reports a changed file.
         self.ends(0, "verify", worse)
         self.floating("b/two.csv")
         self.assertIn("b/two.csv", self.ends(2, "verify", worse).stderr)

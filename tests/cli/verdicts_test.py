@@ -1,4 +1,4 @@
-"""Computes verdicts again from cells.jsonl, by formulas of this file alone, and compares them."""
+"""Computes verdicts again from cells.jsonl, with formulas of this file alone, and compares them."""
 import collections
 import itertools
 import json
@@ -29,7 +29,7 @@ metrics: [jump_cm, pose_gap_cm, wait_s]
 
 
 def student_cdf(t, freedom):
-    """By Simpson's rule over the density."""
+    """Returns Student's distribution function, by Simpson's rule over the density."""
     scale = math.gamma((freedom + 1) / 2) / math.sqrt(freedom * math.pi) / math.gamma(freedom / 2)
     steps = 20000
     width = abs(t) / steps
@@ -47,7 +47,7 @@ def student_quantile(p, freedom):
 
 
 def holm(p_values):
-    """None counts as a question, too."""
+    """Corrects p-values by Holm's method; None counts as a comparison, too."""
     order = sorted((i for i, p in enumerate(p_values) if p is not None), key=lambda i: p_values[i])
     corrected, largest = [None] * len(p_values), 0
     for rank, i in enumerate(order):
@@ -57,7 +57,8 @@ def holm(p_values):
 
 
 def signed_ranks(values):
-    """The two-sided p of Wilcoxon's test over all signs: mean ranks of ties, zeros ranked and left out (Pratt)."""
+    """Returns the two-sided p of Wilcoxon's signed-rank test: mean ranks for ties; zeros are ranked, then left out
+    (Pratt)."""
     sizes = sorted(round(abs(value), 12) for value in values)
     rank = {size: sizes.index(size) + (sizes.count(size) + 1) / 2 for size in sizes}
     ranks = [rank[round(abs(value), 12)] for value in values if value != 0]
@@ -68,7 +69,8 @@ def signed_ranks(values):
 
 
 def pseudo_median(values):
-    """The median of the Walsh averages and the 95 % interval of the signed-rank test, which counts subsets of ranks."""
+    """Returns the median of the Walsh averages and the signed-rank test's 95 % interval, by counting subsets of
+    ranks."""
     n = len(values)
     averages = sorted((values[i] + values[j]) / 2 for i in range(n) for j in range(i, n))
     sums = collections.Counter(sum(rank for rank, is_in in zip(range(1, n + 1), subset) if is_in)
@@ -81,7 +83,7 @@ def pseudo_median(values):
 
 
 def share_interval(values):
-    """Bonett and Price's interval of the mean of values that are −1, 0 or 1."""
+    """Returns Bonett and Price's interval of the mean of values −1, 0 or 1."""
     n, gained, lost = len(values), values.count(1), values.count(-1)
     p, q = (gained + 1) / (n + 2), (lost + 1) / (n + 2)
     half = 1.959963985 * math.sqrt((p + q - (p - q) ** 2) / (n + 2))
@@ -89,7 +91,7 @@ def share_interval(values):
 
 
 def beyond(differences, units, comparisons):
-    """The middle of the units, its interval and p: differences and units by world."""
+    """Returns the pseudo-median of units, its interval and p, from each world's difference and units."""
     names = sorted({name for of_world in units for name in of_world})
     sums, counts = collections.Counter(), collections.Counter()
     for difference, of_world in zip(differences, units):
@@ -108,7 +110,7 @@ def beyond(differences, units, comparisons):
     middle = sum(left_out) / n
     error = math.sqrt((n - 1) / n * sum((value - middle) ** 2 for value in left_out))
     half = student_quantile(0.975, n - 1) * error
-    # A unit's value: its mean, or with several units a world the jackknife's pseudo-value.
+    # A unit's value is its mean; if a world has several units, it is the jackknife's pseudo-value.
     values = means if one_way else [n * estimate - (n - 1) * without for without in left_out]
     if 2 ** (1 - n) * comparisons <= 0.05:
         p = signed_ranks(values)
@@ -167,7 +169,7 @@ class Verdicts(EtudeCase):
             self.assertAlmostEqual(said["p_holm"], p_holm, 4)
             metric = metrics[comparison["metric"]]
             if any(row["status"] != "ok" for row in rows):
-                continue  # failures are counted both ways, which this file does not
+                continue  # this file does not count failures as losses
             lower = metric["direction"] == "lower"
             self.assertEqual(said["verdict"], verdict(one, p_holm, metric["practical_threshold"], lower), comparison["metric"])
 

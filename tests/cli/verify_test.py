@@ -1,4 +1,4 @@
-"""Tests `etude verify`: it detects a forged run that was sealed again, by its cells or by its owner's signature."""
+"""Tests `etude verify`: it detects a forged and resealed run, by repeating cells or by its owner's signature."""
 import base64
 import ctypes
 import json
@@ -16,14 +16,14 @@ video: {compare: [fixed, least-squares], trials: [1]}
 
 
 def fingerprint(data):
-    """As seals and journals tell it."""
+    """Returns the digest that seals and journals use."""
     xxh3 = ctypes.CDLL("libxxhash.so.0").XXH3_64bits
     xxh3.restype = ctypes.c_uint64
     return f"{xxh3(data, ctypes.c_size_t(len(data))):016x}"
 
 
 def reseal(folder):
-    """Seals a folder anew, as a forger would."""
+    """Seals a folder again, as a forger would."""
     seal = json.loads((folder / "seal.json").read_text())
     others = ("report", "video", "seal.json", "signed.b2", "signed.b2.minisig")
     files = [path.relative_to(folder) for path in folder.rglob("*") if path.is_file()]
@@ -75,7 +75,7 @@ class Verify(EtudeCase):
         self.assertIn("host.json: was changed after the run wrote it", text)
 
     def forgeries(self):
-        """Name, the forgery, what finds it, and what is said of it."""
+        """Yields forgeries: name, change, the command that finds it, and the message."""
         summary, manifest = self.out / "summary.json", self.out / "manifest.json"
         host, times, metric = self.out / "host.json", self.out / "timings.jsonl", {
             "aggregate": "mean", "definition": "d", "direction": "lower", "domain": "own", "formula": "", "id": "ours", "inputs": {},
@@ -150,7 +150,7 @@ class Verify(EtudeCase):
         def facts(*more):
             return self.facts("verify", self.out, "--sample", 7, *more)["sample"]
         first, second = facts(), facts()
-        self.assertNotEqual(first["seed"], second["seed"])  # nobody foresees it
+        self.assertNotEqual(first["seed"], second["seed"])  # nobody can predict the seed
         self.assertEqual(facts("--sample-seed", first["seed"]), first)
         self.assertEqual((first["drawn"], first["cells"], first["recorded"]), (7, 20, 4))
         for missed, (method, forged, cells) in zip(first["missed"], [(None, 1, 20), ("ik/fixed", 5, 10), (None, 1, 20)]):
@@ -179,12 +179,12 @@ class Verify(EtudeCase):
         text = public.read_text().splitlines()[1]
         for key in public, text:
             self.assertRegex(self.verify("--sample", 0, "--check", key, expect=0), r"agrees   signature of key [0-9A-F]{16}")
-        # Others need no Etude to check it.
+        # Other tools can check the signature without Etude.
         for command in ["minisign", "-V", "-p", public, "-m", "signed.b2"], ["b2sum", "-c", "--quiet", "signed.b2"]:
             self.assertEqual(subprocess.run(command, cwd=self.out, capture_output=True).returncode, 0, command)
-        self.ends(0, "gate", self.out)  # what is signed is a run like any other
+        self.ends(0, "gate", self.out)  # a signed run works like any other
         self.assertIn("was made with key", self.differences("--sample", 0, "--check", self.keys("other", "-W")[1])[1])
-        forge(self.out / "host.json", '"jobs":', '"jobs":1')  # which nothing else would find
+        forge(self.out / "host.json", '"jobs":', '"jobs":1')  # only the signature notices this change
         reseal(self.out)
         self.verify("--sample", 0, expect=0)
         found, text = self.differences("--sample", 0, "--check", public)
@@ -197,7 +197,7 @@ class Verify(EtudeCase):
         other = self.write("other.key", "untrusted comment: x\nRWQ=\n")
         self.assertIn("is not a secret key of minisign", self.verify("--sample", 0, "--sign", other, expect=2))
         self.assertIn("is neither a public key of minisign nor a file with one", self.verify("--sample", 0, "--check", other, expect=2))
-        locked = b"Ed" + b"Sc" + b"B2" + bytes(152)  # as minisign -G without -W writes them
+        locked = b"Ed" + b"Sc" + b"B2" + bytes(152)  # the format of `minisign -G` without -W
         other = self.write("locked.key", "untrusted comment: x\n" + base64.b64encode(locked).decode() + "\n")
         self.assertIn("with a password", self.verify("--sample", 0, "--sign", other, expect=2))
         forge(self.out / "summary.json", '"met"', '"unmet"')
@@ -207,7 +207,7 @@ class Verify(EtudeCase):
 
     def test_rows_that_no_cell_can_confirm_are_counted_by_method(self):
         shutil.rmtree(self.out)
-        hello = '{"type": "hello", "protocol": 1, "name": "m", "version": "1"}'  # and no answer
+        hello = '{"type": "hello", "protocol": 1, "name": "m", "version": "1"}'  # it never answers
         text = ik_scenario(trials=2) + f"  - {{name: mine, exec: [sh, -c, 'read x; echo ''{hello}''']}}\n"
         self.run_suite(self.write("ik.yaml", text), code=1)
         self.assertIn("ik/mine: all 4 cells: they run programs (--allow-exec allows it)", self.verify(expect=0))
@@ -220,9 +220,9 @@ class Verify(EtudeCase):
 
 
 class Forgers(EtudeCase):
-    """Who owns the program, and has it sum up and seal what they forged."""
+    """Forgers who have the program, and let it summarise and seal what they forged."""
 
-    WORLDS = 40  # of two methods, least-squares the better one
+    WORLDS = 40  # of two methods; least-squares is the better one
 
     @classmethod
     def setUpClass(cls):
@@ -235,7 +235,7 @@ class Forgers(EtudeCase):
             assert made.returncode == 0, made.stderr
 
     def merge_forged(self, forge_line):
-        """Merges the shards' journals, of whose lines each was changed by `forge_line(cell, text)`."""
+        """Merges the shards' journals after `forge_line(cell, text)` changed each line."""
         shards = []
         for shard in self.shards:
             shards.append(self.folder / shard.name)
@@ -248,14 +248,14 @@ class Forgers(EtudeCase):
                 lines[i] = f'{text},"sum":"{fingerprint(text.encode())}"}}'
             journal.write_text("\n".join(lines) + "\n")
         merged = self.etude("merge", *shards, "-o", self.out)
-        self.assertLess(merged.returncode, 2, merged.stderr)  # 1: a method has no answer
+        self.assertLess(merged.returncode, 2, merged.stderr)  # 1 means that a method has no answer
 
     def verdict(self):
         comparison = json.loads((self.out / "summary.json").read_text())["scenarios"][0]["conditions"][0]["comparisons"]
         return [one["verdict"] for one in comparison if one["metric"] == "orientation_error_deg"]
 
     def forge_all_but(self, spared):
-        """In every world of which none of these cells is, each method gets the other's answer."""
+        """Exchanges the two methods' answers in every world without a spared cell."""
         def swap(cell, text):
             return text if cell // 2 in spared else text.replace(f'{{"cell":{cell},', f'{{"cell":{cell ^ 1},', 1)
         self.merge_forged(swap)
@@ -270,9 +270,9 @@ class Forgers(EtudeCase):
             shutil.rmtree(folder)
         self.forge_all_but(spared)
         self.assertNotEqual(self.verdict(), honest)
-        # By dice that they know (the run's own seed) they are missed; all else that they say agrees with itself.
+        # A forger who knows the sampling seed avoids the sampled cells; everything else is consistent.
         self.ends(0, "verify", self.out, "-j", 1, "--sample", 10, "--sample-seed", 1)
-        unforeseen = self.etude("verify", self.out, "-j", 1)  # one in 10^11 that it misses
+        unforeseen = self.etude("verify", self.out, "-j", 1)  # misses with probability 10⁻¹¹
         self.assertEqual(unforeseen.returncode, 1, unforeseen.stdout)
         told = json.loads(self.etude("verify", self.out, "-j", 1, "--sample", "all", "--json").stdout)
         self.assertFalse(told["agrees"])
@@ -289,7 +289,7 @@ class Forgers(EtudeCase):
         self.assertIn(f"ik/least-squares: {self.WORLDS} of {self.WORLDS} cells ended with timeout", said)
 
     def test_cannot_exchange_the_names_of_methods(self):
-        """Every row is what its cell answers, and stands where its cell does, but under the other's name."""
+        """Every row has its cell's answer in its cell's place, but under the other method's name."""
         def methods(fixed, least_squares):
             return ik_scenario(trials=4).split("  - ")[0] + (f"  - {{name: fixed, {fixed}, description: one}}\n"
                                                              f"  - {{name: least-squares, {least_squares}, description: other}}\n")

@@ -1,4 +1,4 @@
-"""Tests the page's viewer of motions in a real browser, opened from disk, by its keys."""
+"""Tests the page's motion viewer in a browser, opened from disk, by its keys."""
 import json
 import os
 import shlex
@@ -48,7 +48,7 @@ class Viewer(EtudeCase):
             self.assertEqual(last, page.ask("etudeViewer.opened.world.frames - 1"))
             page.press("e")
             self.assertFalse(page.ask("etudeViewer.opened.state.byError"))
-            # The focus stays within: the picture is reached, and turned.
+            # The focus stays in the viewer: Tab reaches the picture, and keys turn it.
             yaw = page.ask("etudeViewer.opened.view.yaw")
             for _ in range(30):
                 if page.ask("document.activeElement.tagName") == "CANVAS":
@@ -57,7 +57,7 @@ class Viewer(EtudeCase):
             page.press("ArrowLeft")
             self.assertNotEqual(page.ask("etudeViewer.opened.view.yaw"), yaw)
             self.assertTrue(page.ask("etudeViewer.opened.dialog.contains(document.activeElement)"))
-            # The table says what the recording says of the last frame.
+            # The table's numbers equal the recording's in the last frame.
             table = page.ask("[...document.querySelectorAll('.viewer tbody tr')].map((r) => [...r.children].map((c) => c.textContent))")
             self.check_table(table)
             page.press("Escape")
@@ -66,7 +66,7 @@ class Viewer(EtudeCase):
             self.assertEqual(page.logged, [])
 
     def check_table(self, table):
-        """The errors of the last frame and of all, by the recording itself."""
+        """Returns the errors of the last frame and of all frames, from the recording itself."""
         self.assertEqual([row[0] for row in table][:4] + [table[-1][0]], ["hip centre", "spine", "shoulder centre", "head", "all joints"])
         recording = json.loads((self.whole / "recordings" / (CELL.replace("/", "~") + ".json")).read_text())
         places = {track["name"]: track["poses"] for track in recording["tracks"]}

@@ -1,5 +1,4 @@
-"""Tests docs/schemas/protocol.schema.json: every message of the protocol, every export and every example must fit
-it."""
+"""Tests that every message of the protocol, every export and every example fits docs/schemas/protocol.schema.json."""
 import json
 import pathlib
 import re

@@ -1,5 +1,5 @@
 """Tests a suite as a job array of a private Slurm: whatever happens to its tasks, the merged run has the same bytes.
-ETUDE_SHARDS: how many tasks the array of the first test has."""
+ETUDE_SHARDS is the number of tasks of the first test's array."""
 import json
 import os
 import pathlib
@@ -47,7 +47,7 @@ class Cluster(unittest.TestCase):
         self.wait_for_the_queue()
 
     def submit(self, *arguments, shards=SHARDS, cpus=1):
-        """Submits the array and its merge; gives the array's job id."""
+        """Submits the array and its merge; returns the array's job id."""
         command = SCRIPTS / "cluster/submit", "-n", shards, "-c", cpus, "-o", self.out, *arguments
         return must(*command).split()[1]
 
@@ -89,7 +89,7 @@ class Cluster(unittest.TestCase):
         self.assert_same_results(self.in_one_piece(suite), self.out)
         jobs = [json.loads((self.shards / str(i) / "host.json").read_text())["jobs"] for i in range(1, shards + 1)]
         self.assertEqual(jobs, [CPUS] * shards)
-        # The control: the comparison sees another seed.
+        # The control: another seed gives other bytes.
         must(ETUDE, "run", suite, "--seed", 2, "-o", self.folder / "other")
         self.assertNotEqual(run(SCRIPTS / "same-results", self.folder / "other", self.out).returncode, 0)
 
@@ -98,7 +98,7 @@ class Cluster(unittest.TestCase):
         self.wait_for_rows_of(2)
         must("scontrol", "requeue", f"{array}_2")
         self.wait_for_the_queue()
-        self.assertIn("REQUEUE", self.log(2))  # it was stopped in the middle indeed
+        self.assertIn("REQUEUE", self.log(2))  # so it was stopped in the middle
         self.assertTrue(self.out.exists(), self.log("merge"))
         self.assert_same_results(self.in_one_piece(SUITE), self.out)
 
@@ -106,7 +106,7 @@ class Cluster(unittest.TestCase):
         array = self.submit(SUITE)
         self.wait_for_rows_of(2)
         must("scancel", "--full", "--signal=KILL", f"{array}_2")
-        must("scancel", f"{array}_4")  # a shard that never began, or hardly
+        must("scancel", f"{array}_4")  # a shard that never began, or had just begun
         self.wait_for_the_queue()
         self.assertFalse(self.out.exists())
         refused = run(SCRIPTS / "cluster/merge.sbatch", ETUDE, SHARDS, self.out)
@@ -156,9 +156,9 @@ def main():
     if missing:
         print(f"skipped: no {', '.join(missing)} here; scripts/setup --cluster installs Slurm")
         return 77
-    # Whatever ends this test ends its Slurm.
+    # However this test ends, it must stop its Slurm.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    folder = tempfile.mkdtemp(prefix="slurm-", dir="/tmp")  # sockets want short paths
+    folder = tempfile.mkdtemp(prefix="slurm-", dir="/tmp")  # sockets need short paths
     try:
         must(SCRIPTS / "cluster/one-machine", "start", folder)
         os.environ["SLURM_CONF"] = f"{folder}/slurm.conf"

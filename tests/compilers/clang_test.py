@@ -1,7 +1,7 @@
 """Tests that clang accepts every file of the program: it checks the files that this build compiles, without generating
 code.
 
-The control: a file that no compiler takes. Skipped (exit code 77) where clang is not installed.
+The control is a file that no compiler accepts. Skipped (exit code 77) if clang is not installed.
 """
 import concurrent.futures
 import json
@@ -20,7 +20,7 @@ CLANG = ["clang++", "-fsyntax-only", "-Wno-everything"]
 
 
 def commands():
-    """How this build compiles each file of the program, by clang."""
+    """Returns clang's command for each file that this build compiles."""
     for entry in json.loads((BUILD / "compile_commands.json").read_text()):
         file = pathlib.Path(entry["file"])
         room = file.relative_to(BUILD if file.is_relative_to(BUILD) else ROOT).parts[0]

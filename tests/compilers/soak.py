@@ -32,7 +32,7 @@ def arguments(words=None):
 
 
 def build(name):
-    """The program of a build, in a folder of its own."""
+    """Builds the program in a folder of its own; returns its path."""
     folder = ROOT / "build" / ("compilers-" + name.replace(" -", "-"))
     subprocess.run(["cmake", "--preset", "release", "-B", folder, *BUILDS[name]], cwd=ROOT, check=True,
                    stdout=subprocess.DEVNULL)
@@ -41,7 +41,7 @@ def build(name):
 
 
 def rows_of(program, options, folder):
-    """What the program makes of the suite: the cells' lines by scenario."""
+    """Runs the suite; returns the cells' lines by scenario."""
     trials = ["--trials", str(options.trials)] if options.trials else []
     subprocess.run([program, "run", options.suite, *trials, "-o", folder], cwd=ROOT, check=True, stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL)
@@ -52,7 +52,7 @@ def rows_of(program, options, folder):
 
 
 def first_difference(line, other):
-    """The stage whose digest differs first, or the value; None: the lines are the same."""
+    """Returns the first stage whose digest differs, or the first value; None if the lines are equal."""
     if line == other:
         return None
     row, changed = json.loads(line), json.loads(other)
@@ -62,7 +62,7 @@ def first_difference(line, other):
 
 
 def compare(rows, other):
-    """By scenario: how many rows are the same, of how many, and at what stage the others differ first."""
+    """Returns per scenario the number of equal rows, of all rows, and the stages at which others first differ."""
     table = {}
     for scenario, lines in rows.items():
         others = other.get(scenario, [])

@@ -1,5 +1,5 @@
-"""Tests docs/adding.md: its examples are carried out in a scratch tree, the changed files are compiled with the flags
-of this build and linked with its libraries, and the tests of all metrics, solvers and moves are run. Heavy.
+"""Tests docs/adding.md: its examples are applied in a scratch tree, the changed files are compiled with this build's
+flags and linked with its libraries, and the tests of all metrics, solvers and moves run. Heavy.
 
     adding_test.py BUILD      BUILD: the build tree (CMakeLists.txt passes it)
 """
@@ -19,7 +19,8 @@ from source_files import source_files  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 and pathlib.Path(sys.argv[1]).is_dir() else ROOT / "build" / "release"
-# Per example: the test program whose libraries and flags it takes, and what is compiled beside what the page touches.
+# For each example: the test program whose libraries and flags it uses, and the files to compile beside the changed
+# ones.
 METRIC = ("bench_results", ["tests/bench/metrics/vectors_test.cc", "tests/bench/metrics/evaluate*.cc",
                             "tests/bench/metrics/vector_input.cc"])
 SOLVER = ("engine_kinematics", ["tests/engine/kinematics/solvers/ik_solver_test.cc"])
@@ -27,7 +28,8 @@ MOVE = ("sim_people", ["tests/sim/choreography/move_test.cc", "tests/sim/choreog
 
 
 def examples(text):
-    """What the page says, in its order: (name of the example, file, the text behind which it goes or None, what is added)."""
+    """Returns the page's changes in order: (example, file, the text after which to insert or None, the inserted
+    text)."""
     name, found = None, []
     for line in re.finditer(r"^\*\*(?P<name>[^*]+)\*\*:.*?$|^```\w+ (?P<head>.+)\n(?P<body>(?:.*\n)*?)```$", text, re.M):
         if line["name"]:
@@ -70,7 +72,7 @@ class Adding(unittest.TestCase):
         return [file for example, file, _, _ in self.steps if example == name and file.endswith(".cc")]
 
     def flags(self, program):
-        """Of the test program's sources, with the scratch tree in the place of this one."""
+        """Returns the compiler flags of the test program's sources, with the scratch tree in place of this one."""
         entries = json.loads((BUILD / "compile_commands.json").read_text())
         call = next(entry["command"] for entry in entries if f"etude_tests_{program}.dir" in entry["command"] and "-c " in entry["command"])
         words, kept = shlex.split(call)[1:], []
@@ -83,7 +85,7 @@ class Adding(unittest.TestCase):
         return [f"-I{self.tree}", *kept, "-O1", "-Wno-error"]
 
     def build(self, name, program, others):
-        """Compiles what the example touches and its tests into a program of their own."""
+        """Compiles what the example changes, with its tests, into a program."""
         sources = self.touched(name)
         for pattern in others:
             sources += sorted(str(path.relative_to(self.tree)) for path in self.tree.glob(pattern))
@@ -95,10 +97,10 @@ class Adding(unittest.TestCase):
             made = subprocess.run(call, capture_output=True, text=True)
             self.assertEqual(made.returncode, 0, f"{source}\n{made.stderr[-3000:]}")
             if str(source).startswith("bench/tasks/"):
-                objects.pop()  # what uses the metric needs more than its tests are linked with
+                objects.pop()  # the file needs more than this test program links
         commands = subprocess.run(["ninja", "-t", "commands", f"etude_tests_{program}"], cwd=BUILD, capture_output=True, text=True)
         words = shlex.split(commands.stdout.splitlines()[-1].replace("&&", " "))
-        words = words[words.index("-o"):]  # what stands before are its own objects
+        words = words[words.index("-o"):]  # the program's own objects come before -o
         out = self.objects / f"tests_{program}"
         libraries = [word for word in words[2:] if word != ":"]
         call = ["c++", "-Wl,--allow-multiple-definition", *objects, "-o", str(out), *libraries]
@@ -107,7 +109,7 @@ class Adding(unittest.TestCase):
         return out
 
     def generated(self, name):
-        """What the build makes of files that the example touches."""
+        """Returns the files that the build generates from the example's files."""
         if name == "A metric":
             files = sorted(self.tree.glob("bench/metrics/catalogue/*.yaml"), key=lambda path: int(path.name.split("_")[0]))
             subprocess.run([BUILD / "bench/metrics/etude_metric_table", "catalogue_table.cc", *(path.relative_to(self.tree) for path in files)],
@@ -117,7 +119,7 @@ class Adding(unittest.TestCase):
             moves = ";".join(map(str, sorted(self.tree.glob("scenarios/choreography/moves/*.yaml"))))
             subprocess.run(["cmake", "-D", "OUT=moves.cc", "-D", "HEADER=sim/choreography/builtin_files.h", "-D", "FUNCTION=BuiltinMoveFiles",
                             "-D", f"FILES={moves}", "-P", "cmake/embed_texts.cmake"], cwd=self.tree, check=True)
-            return ["moves.cc", "sim/choreography/move.cc"]  # what reads the moves has them in one unity with itself
+            return ["moves.cc", "sim/choreography/move.cc"]  # the reader of moves is compiled in one unit with them
         return []
 
     def passes(self, program, some, of):

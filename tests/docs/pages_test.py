@@ -2,7 +2,7 @@
 built program first in PATH. The word after `sh` gives the kind of a block:
 
     ```sh            run here and on every change
-    ```sh heavy      takes long: run where ETUDE_HEAVY=1
+    ```sh heavy      takes long: run with ETUDE_HEAVY=1
     ```sh not-run    needs what no test has (another machine, films); its options must be known, and NOT_RUN counts it
 """
 import functools
@@ -24,7 +24,7 @@ ROOT = pathlib.Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs" / "guide").glob("*.md"))]
 NOT_RUN = {"README.md": 2, "ci.md": 1, "cite.md": 1, "cluster.md": 2, "coach.md": 1, "install.md": 3, "own-cameras.md": 3,
            "own-recordings.md": 1}
-WORDS = 700  # at most, on each page
+WORDS = 700  # most words per page
 MADE = {ROOT / "docs" / "reference" / f"{name}.md" for name in ("commands", "keys", "metrics", "protocol", "recordings")}  # by the program
 
 
@@ -33,8 +33,8 @@ class Wrong(Exception):
 
 
 def blocks(text):
-    """The shell blocks of a page: (line, kind, commands). A command anywhere else would be tried by nobody: it is an
-    error."""
+    """Returns a page's shell blocks: (line, kind, commands). A command outside such a block is an error, because no
+    test runs it."""
     found, fence, commands = [], None, []
     for number, line in enumerate(text.splitlines(), 1):
         if line.startswith("```") and fence is None:
@@ -55,20 +55,20 @@ def blocks(text):
 
 
 def words(text):
-    """Those that a reader sees: a table's lines are none."""
+    """Returns the words that a reader sees; table rules do not count."""
     seen = re.sub(r"<!--.*?-->|!\[.*?\]\(.*?\)|\]\(.*?\)", " ", text, flags=re.S)
     return sum(bool(re.search(r"\w", word)) for word in seen.split())
 
 
 def anchors(text):
-    """What a link behind # can name on a page: its headings as GitHub writes them."""
+    """Returns the anchors of a page: its headings as GitHub writes them."""
     text = re.sub(r"^```.*?^```$", "", text, flags=re.S | re.M)
     return {re.sub(r"[^\w -]", "", re.sub(r"\[(.*?)\]\(.*?\)", r"\1", heading).lower()).replace(" ", "-")
             for heading in re.findall(r"^#+ +(.*?) *$", text, re.M)}
 
 
 def dead_links(root, pages):
-    """Links of pages to files and headings that are not there, and how many were looked at."""
+    """Returns links of pages to missing files and headings, and the number of links."""
     dead, count = [], 0
     for page in pages:
         text = re.sub(r"^```.*?^```$|`[^`\n]*`", "", page.read_text(), flags=re.S | re.M)
@@ -85,12 +85,12 @@ def dead_links(root, pages):
 
 @functools.cache
 def commands_page():
-    """The page of every command's help, by the program."""
+    """Returns the page of every command's help, by the program."""
     return subprocess.run([ETUDE, "man", "--markdown"], capture_output=True, text=True, check=True).stdout
 
 
 def unknown_options(commands):
-    """Options of `etude` in commands that are not run, and that its help does not have."""
+    """Returns options in commands that are not run, and that etude's help does not have."""
     helps, found = dict(re.findall(r"^## etude (.*?)\n(.*?)(?=^## |\Z)", commands_page(), re.M | re.S)), []
     for name, rest in re.findall(r"(?:^|[|&;(]) *etude (\w[\w-]*)([^|&;\n]*)", commands.replace("\\\n", " "), re.M):
         if name not in helps:
@@ -103,7 +103,7 @@ def unknown_options(commands):
 
 
 def run_page(text, heavy):
-    """Runs a page's blocks: how many were. Raises Wrong with the line and what was printed."""
+    """Runs a page's blocks; returns their number. Raises Wrong with the line and the output."""
     count = 0
     with tempfile.TemporaryDirectory() as scratch:
         folder, home = pathlib.Path(scratch) / "here", pathlib.Path(scratch) / "home"

@@ -17,7 +17,7 @@ PLAIN = {"string": "text", "number": "number", "integer": "whole number", "boole
 
 
 def kind(schema):
-    """What a value is, in words."""
+    """Returns a value's kind in words."""
     if "$ref" in schema:
         name = schema["$ref"].rsplit("/", 1)[1]
         return f"[{name}](#{name})"

@@ -16,7 +16,7 @@ INSTANTIATE_TEST_SUITE_P(Replay, EveryReader, ::testing::ValuesIn(Targets()), []
   return name;
 });
 
-/// One of the ways in which files are spoilt.
+/// Returns the text with one of the typical damages.
 std::string Spoilt(std::string text, testing::Dice& dice) {
   if (text.empty()) return text;
   const std::size_t at = dice.Below(text.size());
@@ -50,7 +50,7 @@ TEST_P(EveryReader, TakesEverySeedSpoiltOrNot) {
   }
 }
 
-/// What fuzzing has found, each file once the end of the program: tests/fuzz/found/READER.
+/// Files that fuzzing found; each once ended the program: tests/fuzz/found/READER.
 TEST(Replay, TakesWhatOnceBrokeIt) {
   const std::filesystem::path found = "tests/fuzz/found";
   for (const Target& target : Targets()) {

@@ -13,8 +13,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 FOUND = re.compile(r"(crash|leak|timeout|oom|slow-unit)-")
-LONGEST = 65536    # bytes of an input
-SHORT = 2048       # of a fast round, or as long as the longest seed
+LONGEST = 65536    # bytes of an input, at most
+SHORT = 2048       # bytes of a fast round's inputs, if no seed is longer
 
 
 def arguments(words=None):
@@ -41,7 +41,7 @@ def build(preset):
 
 
 class Reader:
-    """One target: what was made of it stands in out/soak/fuzz/NAME, the counts in the figure."""
+    """One target: its files are in out/soak/fuzz/NAME, its counts in the figure."""
 
     def __init__(self, program, name, work, counts):
         self.program, self.name, self.folder = program, name, work / name
@@ -49,7 +49,7 @@ class Reader:
         self.busy = False
 
     def round(self, options):
-        """One round by a seed of its own; returns the files of what was found."""
+        """Runs one round with a seed of its own; returns the files that broke the reader."""
         (self.folder / "found").mkdir(parents=True, exist_ok=True)
         known = set((self.folder / "found").iterdir())
         seeds = [path.stat().st_size for path in (self.folder / "corpus").glob("seed-*")]
@@ -78,13 +78,13 @@ class Reader:
 
 
 def findings(name):
-    """What was found of this reader, mended, and is replayed with the tests ever since."""
+    """Returns the findings about this reader that were mended; the tests replay them."""
     folder = HERE / "found" / name
     return sum(1 for _ in folder.iterdir()) if folder.is_dir() else 0
 
 
 def save(path, readers, kept):
-    """The figure: counts for each reader, also of those that this program has not, and of all."""
+    """Writes the figure: counts for each reader, also for those that this program lacks, and for all."""
     counts = kept | {name: reader.counts for name, reader in readers.items()}
     counts = {name: counts[name] | {"findings_mended": findings(name)} for name in sorted(counts)}
     whole = {key: sum(c[key] for c in counts.values()) for key in next(iter(counts.values()), {}) if key != "edges"}
@@ -95,7 +95,7 @@ def save(path, readers, kept):
 
 
 def run(options, kept_in=HERE, work=ROOT / "out/soak/fuzz"):
-    """Rounds until each reader has had its own; returns what was found and is not mended."""
+    """Runs rounds until each reader has had its share; returns the findings that are not mended."""
     end = time.monotonic() + (options.hours * 3600 if options.hours else float("inf"))
     program = (options.program or build("fuzz-fast" if options.fast else "fuzz")).resolve()
     names = subprocess.run([program, "--list"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
@@ -127,7 +127,7 @@ def run(options, kept_in=HERE, work=ROOT / "out/soak/fuzz"):
             found = reader.round(options)
             with lock:
                 done = reader.counts[counted] - before
-                left[reader.name] -= done or left[reader.name]  # one that executes nothing would go on for ever
+                left[reader.name] -= done or left[reader.name]  # a reader that executes nothing gets no further round
                 reader.busy = False
                 save(figure, readers, kept)
                 print(f"{reader.name:24} {reader.counts['executions']:>12,} executions, {reader.counts['edges']:>6,} edges, "

@@ -1,4 +1,4 @@
-"""Tests scripts/soak fuzz itself, with a stub in place of the fuzzer."""
+"""Tests scripts/soak fuzz, with a stub instead of the fuzzer."""
 
 import json
 import tempfile
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import soak
 
-# Two readers: `good` is tried 100 times a round; `bad` 7 times, and leaves what broke it.
+# Two readers: each round tries `good` 100 times, and `bad` 7 times, where it leaves a breaking input.
 FUZZER = """#!/bin/sh
 corpus=$2; seed=${3#-seed=}
 for argument; do case $argument in

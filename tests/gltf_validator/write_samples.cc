@@ -17,7 +17,6 @@
 namespace etude {
 namespace {
 
-/// A triangle near the origin, on one joint.
 SkinnedMesh Triangle(const std::string& name, int joint) {
   SkinnedMesh mesh{.name = name};
   mesh.bindings.resize(1);
@@ -32,8 +31,8 @@ SkinnedMesh Triangle(const std::string& name, int joint) {
   return mesh;
 }
 
-/// Everything the writer can do: surfaces with and without a skin, two on one joint, several parts of one surface,
-/// scaled and mirrored joints.
+/// Returns everything that the writer supports: surfaces with and without a skin, two on one joint, several parts of a
+/// surface, scaled and mirrored joints.
 Character Patchwork() {
   Character person{.name = "patchwork", .skeleton = testing::PersonSkeleton(), .materials = {}, .meshes = {}};
   person.skeleton.joints[0].rest.scale = {0.01, 0.01, 0.01};
@@ -53,7 +52,7 @@ Character Patchwork() {
   return person;
 }
 
-/// Turns, moves and scales; `rate_hz` that no float holds exactly.
+/// Returns a clip that rotates, moves and scales; no float represents its `rate_hz` exactly.
 Clip Wriggle(const Skeleton& skeleton, const std::string& name, int frames, double rate_hz) {
   Clip clip = testing::AtRest(skeleton, frames, rate_hz);
   clip.name = name;
@@ -72,7 +71,7 @@ void Save(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A generated character that dances every built-in move.
+/// Returns a generated character that dances every built-in move.
 std::string Dancing(const Character& character) {
   std::vector<Clip> clips;
   for (const std::string& name : BuiltinMoveNames()) {
@@ -94,7 +93,7 @@ void WriteSamples(const std::filesystem::path& folder) {
   Save(folder / "good/bear.glb", Dancing(BearCharacter()));
   Save(folder / "good/mannequin.glb", Dancing(MannequinCharacter()));
 
-  // A joint that says it is its own child, and positions that are not where they are said to be.
+  // A joint that is its own child, and positions at a wrong place.
   std::string cycle = good;
   const std::string children = "\"children\":[1,";
   cycle.replace(cycle.find(children), children.size(), "\"children\":[0,");

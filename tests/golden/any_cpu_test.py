@@ -1,7 +1,7 @@
 """Runs worlds of every task and every solver of inverse kinematics on this machine's CPU and on emulated ones, and
-compares every cell's bytes. What solvers do in lanes is compared with its scalar by its own tests, run on every CPU.
+compares every cell's bytes. Tests that compare solvers in lanes with their scalar form also run on every CPU.
 
-The control: another seed must give other bytes. Skipped (exit code 77) where qemu-user is not installed.
+The control: another seed must give other bytes. Skipped (exit code 77) without qemu-user.
 """
 import json
 import os
@@ -15,8 +15,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 ETUDE = os.environ["ETUDE"]
 LANE_TESTS = [os.environ["SOLVER_TESTS"], "--gtest_filter=GaussNewtonBatch.*LastBit:GaussNewton.Is*"]
-# Of Intel's what came with AVX (SandyBridge), F16C (IvyBridge), FMA and AVX2 (Haswell), ADX (Broadwell); AMD's FMA4 (Opteron_G4)
-# and AVX2 (EPYC); all that the emulator knows (max). The oldest is what x86-64-v2 means.
+# Intel's CPUs that introduced AVX (SandyBridge), F16C (IvyBridge), FMA and AVX2 (Haswell), ADX (Broadwell); AMD's with FMA4
+# (Opteron_G4) and AVX2 (EPYC); all that the emulator supports (max). The oldest one is x86-64-v2.
 CPUS = ["Nehalem", "SandyBridge", "IvyBridge", "Haswell", "Broadwell", "Skylake-Client", "Opteron_G4", "EPYC", "max"]
 WORLDS = [  # scenario, condition, trial
     ("capture", 0, 0),
@@ -67,7 +67,7 @@ scenarios:
 
 
 def every_solver():
-    """A suite file with all that `etude list methods` tells of."""
+    """Returns a suite file with everything that `etude list methods` lists."""
     listed = subprocess.run([ETUDE, "list", "methods"], check=True, capture_output=True, text=True).stdout
     ik = listed[re.search(r"^ik ", listed, re.MULTILINE).start():]
     solvers = re.search(r"solver: (.*)", ik)[1].split(", ")
@@ -76,7 +76,7 @@ def every_solver():
 
 
 def set_up(scratch):
-    """A suite as its manifest tells it, and the environment that its workers ran in."""
+    """Returns a suite as in its manifest, and the environment of its workers."""
     suite = scratch / "suite"
     suite.mkdir()
     for path in sorted(pathlib.Path("scenarios/quick").glob("*.yaml")):
@@ -88,7 +88,7 @@ def set_up(scratch):
     manifest = json.loads((out / "manifest.json").read_text())
     host = json.loads((out / "host.json").read_text())
     environment = {"PATH": os.environ["PATH"], **dict(setting.split("=", 1) for setting in host["pinned_environment"])}
-    methods = {}  # of each scenario
+    methods = {}  # methods of each scenario
     for line in (out / "cells.jsonl").read_text().splitlines():
         row = json.loads(line)
         methods.setdefault(row["scenario"], {})[row["method"]] = None
@@ -100,7 +100,7 @@ def set_up(scratch):
 
 
 def cells(launcher, setup, orders, environment):
-    """The cells of every world as a worker wrote them, what they took and the lines' sums left out."""
+    """Returns the cells of every world as a worker wrote them, without their usage and checksums."""
     lines = [json.dumps({"setup": setup, "error_folder": "", "fence": {"program": "", "hidden": [], "kept": [], "groups": "", "programs": 1}}), *map(json.dumps, orders)]
     result = subprocess.run([*launcher, ETUDE, "worker"], input="\n".join(lines) + "\n", env=environment,
                             capture_output=True, text=True)

@@ -1,4 +1,4 @@
-"""Tests scripts/figures on the pages of this repository, and on pages that it must flag."""
+"""Tests scripts/figures on this repository's pages, and on pages that it must flag."""
 import contextlib
 import importlib.machinery
 import importlib.util
@@ -36,7 +36,7 @@ class Figures(unittest.TestCase):
 
     def figures(self, *arguments, root=None):
         tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("figures", LOADER))
-        LOADER.exec_module(tool)  # anew: it keeps what it has read
+        LOADER.exec_module(tool)  # load again, because it caches files
         said = io.StringIO()
         with unittest.mock.patch.object(sys, "argv", ["figures", "--root", str(root or self.root), *map(str, arguments)]), \
                 contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
@@ -174,7 +174,7 @@ class Figures(unittest.TestCase):
                           "| | median | max |\n|---|---|---|\n| a | 2 | 1,234.5 |\n| b | 3.13 | 1,236 |\n<!-- end -->\n")
 
     def a_run(self, **changes):
-        """A run's folder, and a tree whose version, metrics and scenarios are those of the run."""
+        """Makes a run's folder, and a tree with the run's version, metrics and scenarios."""
         run = self.root / "run"
         run.mkdir()
         asks = "# a comment\nscenario: s\ntrials: 5\n"
@@ -212,7 +212,7 @@ class Figures(unittest.TestCase):
         self.of_page(self.LARGE)
         self.figures("--take", "large", run)
         kept = json.loads((self.root / "docs/figures/large.json").read_text())
-        self.assertEqual(kept["of"]["metrics"], {"jump_cm": 1})  # what no figure is of does not age it
+        self.assertEqual(kept["of"]["metrics"], {"jump_cm": 1})  # other metrics do not age it
         self.assertEqual(kept["runs"], [{"suite": "large", "seed": 3, "cells": "abc"}])
         self.assertEqual(list(kept["of"]["stages"]), ["s"])
         catalogue, scenario = self.root / "bench/metrics/catalogue/1.yaml", self.root / "scenarios/s.yaml"

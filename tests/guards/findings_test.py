@@ -10,7 +10,8 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Writes a run of one scenario: a jump of `jump` cm in every world, a stage `stage`; both stand in files beside it.
+# Writes a run of one scenario: a jump of `jump` cm in every world, and a stage digest `stage`, both read from files
+# beside it.
 PROGRAM = '''#!/usr/bin/env python3
 import json, pathlib, sys
 here, told = pathlib.Path(__file__).parent, sys.argv[1:]

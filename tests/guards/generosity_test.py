@@ -16,7 +16,7 @@ loader.exec_module(generosity)
 
 class Generosity(unittest.TestCase):
     def setUp(self):
-        # Ten right performances, 1 to 10; four wrong ones, of which two lie below 2, one between 2 and 3.
+        # Ten right performances with scores 1 to 10; of four wrong ones, two score below 2 and one between 2 and 3.
         self.scores = np.array([*range(1, 11), 0.5, 1.5, 2.5, 9.5], dtype=float)
         self.truth = np.array([1] * 10 + [0] * 4, dtype=float)
 

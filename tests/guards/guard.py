@@ -6,8 +6,8 @@
 
 Rules: imports, rooms (rooms.py), doors, installed (headers that users of the library get), determinism, types (two
 types of one name, which the linker would merge), pages (files that .md files mention), words (house words in code and
-pages for which the field has a term). Prints the number of checked files, so that a guard that checks nothing does not
-pass for one that finds nothing.
+pages for which the field has a term). Prints the number of checked files, so that a guard that checks nothing cannot
+pass unnoticed.
 """
 import fnmatch
 import functools
@@ -15,10 +15,10 @@ import pathlib
 import re
 import sys
 
-sys.dont_write_bytecode = True  # the sources stay as they are
+sys.dont_write_bytecode = True  # write no cache into the source tree
 from rooms import NEVER_INCLUDES, may_include
 
-# Each layer, and the layers whose headers it may include beside its own.
+# For each layer, the other layers whose headers it may include.
 MAY_INCLUDE = {
     "engine": [],
     "sim": ["engine"],
@@ -30,9 +30,9 @@ MAY_INCLUDE = {
 }
 LAYERS = list(MAY_INCLUDE)
 NO_LAYERS = ["build", "cmake", "examples", "out", "python", "tests"]  # may hold C++ that no layer includes
-FOLDERS = LAYERS + ["tests", "docs", "scripts", "scenarios", "examples", "cmake", "ci"]  # where pages stand
+FOLDERS = LAYERS + ["tests", "docs", "scripts", "scenarios", "examples", "cmake", "ci"]  # folders that pages mention
 
-# Heavy libraries, by the start of their include, and the only folders that may know them.
+# Heavy libraries, by the beginning of their includes, and the only folders that may include them.
 DOORS = {
     "yaml-cpp/": ["engine/document"],
     "EGL/": ["sim/render"],
@@ -61,7 +61,7 @@ DOORS = {
     "Simbody.h": ["bench/peers"],
     "opencv2/": ["bench/peers", "engine/boards/opencv"],
 }
-# What a header may include from outside: small, or only names.
+# Headers may include these from outside: small ones, or ones with names only.
 LIGHT_HEADERS = ("etude/", "glm/", "fmt/", "tl/", "nlohmann/json_fwd.hpp")
 
 BANNED = [
@@ -75,22 +75,23 @@ BANNED = [
     (r"std::(jthread|async)\b|std::thread\b(?!::hardware_concurrency)",
      "runs in an order of its own; work in parallel is done by worker processes"),
 ]
-# Also banned, but in this folder: a rival is built as fast as it can be.
+# Banned everywhere except in this folder: outside methods there are built for speed.
 BANNED_BUT_IN = [
     ("bench/peers", r"-ffast-math|-march=native|-Ofast", "gives other bytes on another machine"),
 ]
-# Also banned, but only below these folders.
+# Banned only below these folders.
 BANNED_BELOW = [
     (("engine", "sim"), r"steady_clock|clock_gettime", "engine and sim know no clock"),
     (("engine",), r"\bRandomStream\b", "engine is pure: randomness belongs to sim"),
     (("engine",), r"std::(i|o)?fstream\b|\bfopen\(", "engine reads bytes, not files"),
 ]
 
-# Files are written through io/files alone, whole and onto the disk; but for what grows line by line, or is none.
+# Files are written by io/files only, as a whole and synchronised; exceptions grow line by line or are not regular
+# files.
 WRITES = re.compile(r"std::o?fstream\b|\bfopen\(|\bO_CREAT\b|\bcreat\(")
 WRITERS = ["io/files", "bench/outside/watched_program.cc", "io/process/child_process.cc",
            "bench/run/cell_runner.cc", "bench/run/journal.cc", "bench/run/used_keys.cc",
-           "bench/run/run_folder.cc"]  # the last: a lock, which holds nothing
+           "bench/run/run_folder.cc"]  # the last one is an empty lock file
 
 DRAW = re.compile(r"\b(\w+)\.(?:Bits|Chance|IndexBelow|Normal3?|Uniform)(?=\()|(?<=[(, ])(random|dice)(?=[,)])")
 INNERMOST = re.compile(r"([({\[])([^(){}\[\]]*)[)}\]]")
@@ -100,7 +101,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
 def code_lines(path):
-    """The lines of a file with comments removed, numbered from 1."""
+    """Returns a file's lines without comments, numbered from 1."""
     text = path.read_text(encoding="utf-8")
     text = re.sub(r"/\*.*?\*/", lambda match: "\n" * match.group().count("\n"), text, flags=re.S)
     for number, line in enumerate(text.splitlines(), 1):
@@ -115,7 +116,7 @@ def includes(path):
 
 
 class Rooms:
-    """Which room includes which: each include by itself, and all that a file includes through others."""
+    """Finds which room includes which, directly and through other files."""
 
     def __init__(self, root):
         self.root = root
@@ -127,20 +128,20 @@ class Rooms:
             sys.exit(f"rooms: a circle: {' > '.join(circle)}")
 
     def room_of(self, file):
-        """The nearest folder above that is a room."""
+        """Returns the nearest folder above that is a room."""
         while file and file not in self.may_include:
             file = file.rpartition("/")[0]
         return file
 
     def own_includes(self, file):
-        """What a file of ours includes of ours, with line numbers."""
+        """Returns the files of this project that a file includes, with line numbers."""
         if file not in self.includes_of:
             found = includes(self.root / file) if (self.root / file).is_file() else []
             self.includes_of[file] = [(n, target) for n, target in found if target.split("/")[0] in LAYERS]
         return self.includes_of[file]
 
     def ways_from(self, file):
-        """Every file that is included at last, with the files on the way to it (breadth first: the shortest way)."""
+        """Returns every file included directly or indirectly, with the shortest way to it (breadth first)."""
         ways, queue = {}, [(file, [])]
         while queue:
             here, way = queue.pop(0)
@@ -179,7 +180,7 @@ class Rooms:
         yield from self.check_through_others(room, file)
 
     def unused(self):
-        """What the lists allow and nothing needs: they must tell what is, not what was."""
+        """Yields permissions in the lists that nothing uses."""
         for room, others in self.may_include.items():
             if room not in self.seen:
                 yield f"the room {room} holds no code"
@@ -189,7 +190,7 @@ class Rooms:
 
 
 def find_circle(table):
-    """Rooms that include each other in a ring, or nothing."""
+    """Returns rooms that include each other in a circle, or nothing."""
     done = set()
 
     def follow(room, way):
@@ -230,7 +231,7 @@ def check_doors(relative, path):
             at_its_door = any(f"{relative}/".startswith(f"{room}/") for room in rooms)
             if not at_its_door:
                 yield number, f"{target} has one door: {', '.join(rooms)}"
-        # A third-party header is one that no room of ours and no standard library has: it has a dot or a slash.
+        # A third-party header belongs to no layer and not to the standard library: its name has a dot or a slash.
         outside = target.split("/")[0] not in LAYERS and ("." in target or "/" in target)
         system = target.startswith("sys/") or target in {"unistd.h", "signal.h", "fcntl.h", "poll.h"}
         light = system or at_its_door or target.startswith(LIGHT_HEADERS)
@@ -249,7 +250,7 @@ def check_installed(relative, path):
 
 
 def statements(path):
-    """The statements of a file, each with the number of its last line."""
+    """Returns a file's statements, each with the number of its last line."""
     text = ""
     for number, line in code_lines(path):
         text += " " + line.strip()
@@ -259,9 +260,9 @@ def statements(path):
 
 
 def draws_in_any_order(statement):
-    """The dice that two arguments of one call throw, or both sides of a sum or product: a compiler begins with
-    either."""
-    text = DRAW.sub(r"\1\2!", statement)  # dice! throws them
+    """Returns a stream that two arguments of a call, or both sides of an operator, draw from; compilers may evaluate
+    either first."""
+    text = DRAW.sub(r"\1\2!", statement)  # "!" marks a stream that draws
     while True:
         if mixed := re.search(r"(\w+)!(?!\()[^,;?&|=<>]*[-+*/][^,;?&|=<>]*\b\1!", INNERMOST.sub("", text)):
             return mixed[1]
@@ -295,7 +296,7 @@ def check_determinism(relative, path):
 
 @functools.lru_cache
 def known_names(root):
-    """Every file and folder of the tree, by the end of its path of any length, with and without its ending."""
+    """Returns every file and folder of the tree, by every tail of its path, with and without the extension."""
     paths = [path.relative_to(root) for folder in FOLDERS for path in [root / folder, *(root / folder).rglob("*")]]
     ends = {"/".join(path.parts[i:]) for path in paths for i in range(len(path.parts))}
     return ends | {re.sub(r"\.\w+$", "", end) for end in ends if "/" in end}
@@ -311,17 +312,17 @@ def check_pages(relative, path):
                 yield number, f"mentions {name}, which does not exist"
 
 
-# House words, and the field's. A word of the glossary's column "not" stands here once no text uses it.
+# House words and the field's terms. A word of the glossary's column "not" is added here once no text uses it.
 WORDS = [
     (r"\bk(?:Most|Least|Fewest|Longest|Largest|Shortest|Smallest)[A-Z]\w*", "kMax… or kMin…"),
-    (r"(?<!with )\bseams?\b(?! along)", "transition point"),  # but of cloth
+    (r"(?<!with )\bseams?\b(?! along)", "transition point"),  # except seams of cloth
     (r"manyeth|\bevery so many\b", "every n-th"),
     (r"\bis no number\b", "is not a number"),
     (r"\b(?:whence|whereof|thereof)\b", "a relative clause"),
     (r"\bfor who\b", "for the person who"),
     (r"\b(?:exhibit|looker|physique)s?\b", "the glossary's word (CONTRIBUTING.md)"),
 ]
-GLOSSARY = "CONTRIBUTING.md"  # names the words that are not to be used
+GLOSSARY = "CONTRIBUTING.md"  # lists the words that are not to be used
 
 
 def check_words(relative, path):
@@ -330,16 +331,16 @@ def check_words(relative, path):
         for pattern, better in WORDS:
             if found := re.search(pattern, line, re.I if pattern.islower() else 0):
                 yield number, f"'{found.group()}'; write: {better}"
-    # A public comment begins with a sentence about the thing, not with the rest of one.
+    # A public comment begins with a full sentence about its subject.
     for start in re.finditer(r"(?m)^(?! *///).*\n *///(?!<) (Whether|Of|So that|And|Which|That|Then)\b", text):
         yield text.count("\n", 0, start.end()) + 1, f"the comment begins with '{start[1]}'; write: subject, verb, object"
 
 
 class Types:
-    """Two types of one name in headers: their members would be mixed up by the linker, without a word."""
+    """Finds two types of the same name in headers, whose members the linker would merge silently."""
 
     DEFINITION = re.compile(r"(?:class|struct) ([A-Z]\w*) *(?:final )?(?:: .*)?\{")
-    OWN_NAMES = "/api/etude/"  # in namespaces of their own
+    OWN_NAMES = "/api/etude/"  # types there are in their own namespaces
 
     def __init__(self, root):
         self.places = {}
@@ -369,7 +370,7 @@ def main():
     must_flag = sys.argv[3:] == ["--must-flag"]
     checked, flagged = 0, set()
     folders = {check_pages: FOLDERS, check_words: LAYERS + ["python", "docs", "scripts", "ci", "examples"]}.get(rule, LAYERS)
-    if rule is check_imports:  # finds folders that nobody has listed
+    if rule is check_imports:  # finds folders that are not listed
         folders = sorted(path.name for path in root.iterdir() if path.is_dir() and path.name[0] != "." and path.name not in NO_LAYERS)
     for layer in folders:
         for path in sorted((root / layer).rglob("*")):

@@ -1,15 +1,15 @@
 """Checks which folder may include which. A room is a folder with a CMakeLists.txt; it may include only the rooms in its
-DEPENDS, of etude_folder(…). A room that is listed but that no file needs is an error, too. The rooms form no circle.
+DEPENDS, of etude_folder(…). A listed room that no file needs is an error, too. The rooms form no circle.
 """
 import pathlib
 import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ANY = ["cli", "bench/micro", "bench/peers"]  # programs: they may include whatever they like
+ANY = ["cli", "bench/micro", "bench/peers"]  # programs, which may include anything
 
 
 def may_include(root=ROOT):
-    """room: the other rooms that its files may include; None for any."""
+    """Returns for each room the other rooms that its files may include; None for any."""
     table = {room: None for room in ANY}
     for layer in ["engine", "sim", "io", "bench", "tools", "reports"]:
         for path in sorted((root / layer).rglob("CMakeLists.txt")):
@@ -19,12 +19,13 @@ def may_include(root=ROOT):
     return table
 
 
-# What makes worlds, asks methods in them, or reads what people wrote: all that knows a task.
+# Rooms that know tasks: they make worlds, run methods in them, or read what people wrote.
 TASKS = "bench/tasks bench/scenario bench/outside bench/run bench/finished_runs bench/dataset bench/replay bench/training"
-# What worlds of some task are made of.
+# Rooms from which some task's worlds are made.
 MATERIAL = "io/clips engine/document engine/formats engine/recognition engine/retargeting sim/choreography sim/performer"
 
-# (rooms with all below them, what none of their files may include even through others). Folders hold for all below.
+# (rooms with all below them, rooms that none of their files may include, even indirectly). Folders include their
+# subfolders.
 NEVER_INCLUDES = [
     ("engine/base", "engine/motion engine/document engine/cameras"),
     ("bench/model", "bench/metrics bench/results bench/statistics bench/gate bench/recordings reports"),

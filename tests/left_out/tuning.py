@@ -1,11 +1,11 @@
-"""Tunes the transition method `played` on all libraries but one, for each of them, and judges it there.
+"""For each library, tunes the transition method `played` on all other libraries, and judges it on this one.
 
     scripts/soak transitions [--library NAME=CLIPS]... [--trials N] [--etude PROGRAM] [--keep FILE]
 
-Every library is a condition of its own. The two weights of `played` are searched on a grid. For each library, the
-weights are chosen with which transitions are clean most often on all *other* libraries (mean of libraries, 100 requests
-each, seed 2). They are then judged on the library that was left out, with other requests (seed 3). This takes a few
-minutes. --keep writes the results as JSON.
+Every library is a condition of its own. The two weights of `played` are searched on a grid: the weights with which
+transitions are most often clean on all *other* libraries are chosen (mean of libraries, 100 requests each, seed 2), and
+judged on the library that was left out, with other requests (seed 3). This takes a few minutes. --keep writes the
+results as JSON.
 """
 import argparse
 import json
@@ -35,7 +35,7 @@ methods:
 
 
 class Rows:
-    """Of one run: the values of (library, method, metric); requests that failed count as the task says."""
+    """The values of (library, method, metric) of one run; failed requests count as the task defines."""
 
     def __init__(self, lines):
         self.values = {}
@@ -55,7 +55,7 @@ class Rows:
 
 
 def chosen_without(rows, left_out):
-    """The method of the grid that is clean most often on all libraries but one; of equal ones the first."""
+    """Returns the grid's method that is clean most often on all libraries but one; the first of equal ones."""
     others = [library for library in rows.libraries if library != left_out]
     if not others:
         raise ValueError("two libraries are needed at least")
@@ -63,7 +63,7 @@ def chosen_without(rows, left_out):
 
 
 def judge(tuning, judged):
-    """What every library came to with the weights that the others chose."""
+    """Returns each library's results with the weights that the other libraries chose."""
     table = []
     for library in judged.libraries:
         method = chosen_without(tuning, library)
@@ -93,8 +93,8 @@ def mean_of(table):
 
 
 def kept(table, trials):
-    """As scripts/figures reads it: pages bind `left-out/library=NAME/played/METRIC, mean`, shares with `, times
-    100`."""
+    """Returns the table for scripts/figures: pages bind `left-out/library=NAME/played/METRIC, mean`, shares with `,
+    times 100`."""
     figures = {}
     for line in [*table, mean_of(table)]:
         for metric in METRICS:

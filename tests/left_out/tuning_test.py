@@ -6,7 +6,7 @@ import tuning
 
 
 def rows(clean):
-    """Of {library: {method: clean}}; all else alike."""
+    """Returns rows from {library: {method: clean}}; everything else is equal."""
     lines = []
     for library, by_method in clean.items():
         for method in [*tuning.GRID, tuning.YARDSTICK]:

@@ -1,4 +1,4 @@
-"""The stored results of a sample: figure.json, and survivors.json with a reason for each."""
+"""The stored results of a sample: figure.json, and survivors.json with a reason for each survivor."""
 
 import json
 import math
@@ -9,7 +9,7 @@ NO_REASON = "not noticed"
 
 
 def wilson(hits, total, z=1.959964):
-    """The 95 % interval of a share (Wilson 1927); (0, 1) of nothing."""
+    """Returns the 95 % interval of a share (Wilson 1927); (0, 1) if total is 0."""
     if total == 0:
         return 0.0, 1.0
     p, spread = hits / total, z * z / total
@@ -19,12 +19,12 @@ def wilson(hits, total, z=1.959964):
 
 
 def key(entry):
-    """By what a survivor is known again after lines have moved."""
+    """Returns what identifies a survivor after lines have moved."""
     return entry["file"], entry["code"], entry["original"], entry["mutation"]
 
 
 def survivors_of(results, known):
-    """Every mutant that nothing noticed, with the reason that was given before, if one was."""
+    """Returns every unnoticed mutant, with its earlier reason if it has one."""
     reasons = {key(entry): entry["reason"] for entry in known}
     found = []
     for mutant, verdict in results:
@@ -41,7 +41,7 @@ def is_equivalent(entry):
 
 
 def figure_of(results, survivors, about):
-    """The counts; shares of all, and of those that are no equivalents of the original."""
+    """Returns the counts, and the shares of all mutants and of those that are not equivalent to the original."""
     verdicts = Counter(verdict for _, verdict in results)
     noticed, total = sum(verdicts[v] for v in NOTICED), len(results)
     equivalent = sum(is_equivalent(entry) for entry in survivors)
@@ -56,7 +56,7 @@ def figure_of(results, survivors, about):
 
 
 def by_folder(results):
-    """folder → (noticed, total)."""
+    """Returns folder → (noticed, total)."""
     table = {}
     for mutant, verdict in results:
         noticed, total = table.get(mutant.folder, (0, 0))

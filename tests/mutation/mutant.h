@@ -14,7 +14,7 @@ constexpr int kMost = 1 << 18;
 inline unsigned char reached[kMost];
 
 inline void WriteReached() {
-  // A loaded module has a list of its own: append it.
+  // Each loaded module has its own list, so append.
   std::FILE* file = std::fopen(std::getenv("ETUDE_MUTANTS_REACHED"), "a");
   if (file == nullptr) std::abort();
   for (int number = 0; number < kMost; ++number) {
@@ -23,8 +23,8 @@ inline void WriteReached() {
   std::fclose(file);
 }
 
-/// Returns the mutant's number. Returns −1 if no mutant is chosen and the numbers of all reached mutants are to be
-/// written to the file that ETUDE_MUTANTS_REACHED names.
+/// Returns the mutant's number; −1 if none is chosen and the numbers of all reached mutants are to be written to the
+/// file ETUDE_MUTANTS_REACHED.
 inline int ReadChoice() {
   if (std::getenv("ETUDE_MUTANTS_REACHED") != nullptr) {
     std::atexit(WriteReached);
@@ -44,7 +44,7 @@ inline bool On(int number) {
   return chosen == number;
 }
 
-/// Called if the mutated expression has no meaning or another type; leaves a note in the object file.
+/// Called if the mutated expression is meaningless or has another type; leaves a note in the object file.
 template <int kNumber>
 inline void Impossible() {
   asm volatile(".pushsection .etude,\"\",@progbits\n.ascii \"etude: no mutant %c0;\"\n.popsection" : : "i"(kNumber));
@@ -55,8 +55,8 @@ struct Bound {
   const A& a;
 };
 
-// `a < Less<7>{} < b` is `a < b`, or another comparison for mutants 7 and 8. Between two operators of the same kind, it
-// gets the operands of the original operator, whatever the surrounding expression.
+// `a < Less<7>{} < b` is `a < b`, or another comparison for mutants 7 and 8. Placed between two operators of the same
+// precedence, it gets the original operator's operands.
 #define ETUDE_MUTATION_OPERATOR(Name, op, other1, second, other2)                       \
   template <int kNumber>                                                                \
   struct Name {};                                                                       \
@@ -91,8 +91,7 @@ ETUDE_MUTATION_OPERATOR(Over, /, *, 0, *)
 ETUDE_MUTATION_OPERATOR(Modulo, %, *, 0, *)
 #undef ETUDE_MUTATION_OPERATOR
 
-/// `-Negation<7>{}->*b` is `-b`, or b for the mutant. (->* is an operator that binds as tightly as a sign and takes two
-/// operands.)
+/// `-Negation<7>{}->*b` is `-b`, or b for the mutant. (->* is a binary operator that binds as tightly as a sign.)
 template <int kNumber>
 struct Negation {};
 template <int kNumber, class B>
@@ -129,7 +128,7 @@ B Inverse(const B& b) {
   return b;
 }
 
-/// Computes `a && b`, or `a || b` for the mutant; the second operand is computed only if needed.
+/// Computes `a && b`, or `a || b` for the mutant; computes the second operand only if needed.
 template <class B>
 bool And(int number, bool a, const B& b) {
   return On(number) ? a || b() : a && b();
@@ -139,7 +138,7 @@ bool Or(int number, bool a, const B& b) {
   return On(number) ? a && b() : a || b();
 }
 
-/// Computes std::min or std::max, and the other one for the mutant.
+/// Computes std::min or std::max; for the mutant, the other one.
 template <int kNumber>
 struct Min {
   template <class A>

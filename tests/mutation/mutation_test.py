@@ -1,5 +1,5 @@
-"""Tests the mutator itself: what it recognises as code, what it changes, and that good tests kill mutants and bad
-tests do not."""
+"""Tests the mutator: what it recognises as code, what it changes, and that good tests kill mutants and bad tests do
+not."""
 
 import contextlib
 import io
@@ -188,14 +188,14 @@ class Toy(unittest.TestCase):
 
 
 def listing(program):
-    """The program, which tells its one test as a GoogleTest does."""
+    """Returns a program that lists its one test as GoogleTest does."""
     asked = 'if (argc > 1 && std::strcmp(argv[1], "--gtest_list_tests") == 0) return std::puts("Toy.\\n  All") < 0;'
     return "#include <cstdio>\n#include <cstring>\n" + program.replace(
         "int main() {", "int main(int argc, char** argv) {\n  " + asked, 1)
 
 
 class Soak(unittest.TestCase):
-    """A whole check of a small project, whose one test program takes the place of a GoogleTest."""
+    """A whole check of a small project with one test program in GoogleTest's format."""
 
     @classmethod
     def setUpClass(cls):
@@ -209,7 +209,7 @@ class Soak(unittest.TestCase):
                 "target_include_directories(etude_tests_engine_toy PRIVATE ../../../engine/toy)\n"
                 "add_test(NAME engine/toy COMMAND etude_tests_engine_toy)\n",
             "engine/toy/toy.h": (HERE / "toy/toy.h").read_text(),
-            # With a sum of strings, which has no difference; and a number that must be constant.
+            # With a sum of strings, which cannot become a difference, and a number that must be constant.
             "engine/toy/toy.cc": (HERE / "toy/toy.cc").read_text() +
                 "\n#include <string>\nstd::string Twice(const std::string& a) { return a + a; }\n"
                 "extern int sized[3];\nint sized[3];\nint Unused(int a) { return a + 7; }\n",
@@ -242,7 +242,7 @@ class Soak(unittest.TestCase):
         self.assertEqual(figure.load(self.root / "out/figure.json"), found)
         self.assertIn(f"{found['sample']} mutants, 0 to be tried", self.run_soak("--count", "1000")[1])
         path = self.root / "tests/engine/toy/good_test.cc"
-        path.write_text(listing("int main() {}\n"))  # other tests: what the earlier ones said no longer holds
+        path.write_text(listing("int main() {}\n"))  # the tests changed, so earlier notes are invalid
         again, said = self.run_soak("--count", "1000")
         self.assertIn(f"{found['sample']} mutants, {found['sample']} to be tried", said)
         self.assertEqual(again["noticed"], 0)

@@ -2,7 +2,7 @@
 
 
 def rewrite(text, numbered):
-    """The text with sites in it: `numbered` are pairs of a site and the number of its first mutant."""
+    """Returns the text with its sites rewritten; `numbered` are pairs of a site and its first mutant's number."""
     opens, closes, replaced = {}, {}, {}
     for site, first in numbered:
         numbers = range(first, first + max(2, len(site.mutations)))
@@ -15,8 +15,8 @@ def rewrite(text, numbered):
                 (opens if what == "open" else closes).setdefault(at, []).append((-other, inner, new))
     out, at = [], 0
     while at <= len(text):
-        out += [new for *_, new in sorted(closes.get(at, []), key=lambda e: (e[0], not e[1]))]  # the narrowest first
-        out += [new for *_, new in sorted(opens.get(at, []), key=lambda e: e[:2])]  # the widest first
+        out += [new for *_, new in sorted(closes.get(at, []), key=lambda e: (e[0], not e[1]))]  # the innermost first
+        out += [new for *_, new in sorted(opens.get(at, []), key=lambda e: e[:2])]  # the outermost first
         if at in replaced:
             at, new = replaced[at]
             out.append(new)

@@ -1,9 +1,9 @@
 """Makes and builds the mutated engine: a copy of the tree with the mutants of a sample.
 
-`<work>/tree` is the project with links instead of files, but engine/ is rewritten with the mutants of a sample. All
-mutants at once would take the compiler and the tests several times as long. Operators whose mutants have no meaning
-are found by the notes that they leave in object files; other mutants that do not compile are found by the compiler's
-messages. They are left out, and `<work>/dropped.json` remembers them by their file's content."""
+`<work>/tree` links to the project's files, except engine/, which is rewritten with a sample's mutants; all mutants
+at once would slow the compiler and the tests down several times. Operators with meaningless mutants leave notes in
+object files; other mutants that do not compile are found by the compiler's messages. All these are left out, and
+`<work>/dropped.json` lists them by their file's content."""
 
 import hashlib
 import json
@@ -23,12 +23,12 @@ _IMPOSSIBLE = re.compile(rb"etude: no mutant (\d+);")
 
 
 def impossible(objects):
-    """The numbers of the sites that have no meaning, by the notes that mutant.h left in object files."""
+    """Returns the numbers of meaningless sites, from the notes that mutant.h left in object files."""
     return {int(number) for path in objects for number in _IMPOSSIBLE.findall(Path(path).read_bytes())}
 
 
 def write_when_changed(path, text):
-    """So that nothing is compiled again that need not be."""
+    """Writes a file only if its text changed, to avoid recompiling."""
     if path.is_symlink() or not path.exists() or path.read_text(encoding="utf-8") != text:
         path.unlink(missing_ok=True)
         path.write_text(text, encoding="utf-8")
@@ -42,8 +42,8 @@ class Mutant:
     column: int
     original: str
     mutation: str
-    code: str  # the line it stands in
-    site: int = 0  # the number of the first mutant of its site
+    code: str  # the site's line
+    site: int = 0  # number of the first mutant of its site
 
     @property
     def folder(self):
@@ -67,9 +67,9 @@ class Shadow:
                 pairs.append((site, number))
                 number += len(site.mutations)
             self.numbered[file] = pairs
-            number = -(-number // 64) * 64 + 1  # so that few files are compiled anew when one has changed
+            number = -(-number // 64) * 64 + 1  # leave gaps, so that a changed file renumbers few others
         self.dropped = self._load_dropped()
-        self.wanted = set()  # the sites that are written, by number: a sample's, so that most code is what it was
+        self.wanted = set()  # numbers of the sites to write: only a sample's, so that most code stays unchanged
 
     # --- files ---------------------------------------------------------------------------------------------------
     def _list_files(self):
@@ -78,7 +78,7 @@ class Shadow:
         return sorted(file for file in listed.split("\0") if file and (self.root / file).is_file())
 
     def _engine_files(self):
-        """Those that can be mutated: not the ones that Highway compiles once for every kind of vectors."""
+        """Returns the files that can be mutated; files that Highway compiles once per instruction set cannot."""
         files = [f for f in self.files if f.startswith("engine/") and f.endswith((".cc", ".h"))]
         return [f for f in files if not re.search(r"foreach_target|-inl\.h|HWY_", f + self._read(f))]
 
@@ -86,12 +86,12 @@ class Shadow:
         return (self.root / file).read_text(encoding="utf-8")
 
     def digest(self):
-        """Of everything that outcomes depend on, but for the tests themselves."""
+        """Returns a digest of everything that outcomes depend on, except the tests."""
         rooms = ("engine/", "tests/support/", "tests/mutation/", "sim/", "cmake/")
         return self._digest(lambda file: file.startswith(rooms) or re.match(r"tests/engine/.*\.h$", file))
 
     def tests_digest(self, folder):
-        """Of the tests of one of the engine's folders."""
+        """Returns a digest of the tests of one of the engine's folders."""
         return self._digest(lambda file: os.path.dirname(file) == "tests/" + folder)
 
     def _digest(self, is_used):
@@ -139,10 +139,10 @@ class Shadow:
         (self.work / "dropped.json").write_text(json.dumps(keys))
 
     def _blamed(self, output):
-        """The numbers of the sites that the compiler's messages speak of."""
+        """Returns the numbers of the sites that the compiler's messages are about."""
         lines, types = {}, set()
         for found in _MESSAGE.finditer(output):
-            file = os.path.relpath(self.build / found["path"], self.tree)  # of ninja, relative to where it builds
+            file = os.path.relpath(self.build / found["path"], self.tree)  # ninja's path, relative to the build folder
             if found["kind"] == "error" and "etude_mutation::On" in found["text"]:
                 types |= self._types_of_constant(file, int(found["line"]))
             about_mutants = found["kind"] == "error" or "etude_mutation" in found["text"]
@@ -152,8 +152,8 @@ class Shadow:
         return near | set().union(*(self._in_type(name) for name in types))
 
     def _types_of_constant(self, file, line):
-        """The types that the constexpr variable which ends in this line, or its static_assert, names: the defaults of
-        their members are constants."""
+        """Returns the types named by the constexpr variable, or static_assert, that ends in this line; their
+        members' defaults must be constants."""
         if not (self.tree / file).is_file():
             return set()
         above = (self.tree / file).read_text().split("\n")[max(line - 40, 0):line]
@@ -161,7 +161,7 @@ class Shadow:
         return set(re.findall(r"\b[A-Z]\w+", heads[-1])) if heads else set()
 
     def _in_type(self, name):
-        """The sites that are still there in the body of a struct or class of this name."""
+        """Returns the remaining sites in the body of a struct or class of this name."""
         found = set()
         for file, pairs in self.numbered.items():
             lines = self._read(file).split("\n")
@@ -173,7 +173,7 @@ class Shadow:
         return found
 
     def _nearest(self, file, lines):
-        """The sites that are still there in one of the lines; if none is, those next to one of them."""
+        """Returns the remaining sites in the lines; if there are none, the nearest ones."""
         here = [(min(abs(site.line - line) for line in lines), n) for site, n in self.numbered[file]
                 if self._is_there(n)]
         least = min(here, default=(99, 0))[0]
@@ -184,8 +184,7 @@ class Shadow:
         return sorted({os.path.dirname(f) for f in self.files if re.match(r"tests/engine/.*\.cc$", f)})
 
     def compile(self, folders, jobs, log):
-        """Builds the test programs of these folders; drops what does not compile. Raises when something else is
-        wrong."""
+        """Builds the test programs of these folders, and drops what does not compile. Raises for other errors."""
         self.write()
         write_when_changed(self.work / "mutant.h", (HERE / "mutant.h").read_text())
         flags = f"-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS -include {self.work}/mutant.h -Werror=vla -fmax-errors=0"
@@ -216,7 +215,7 @@ class Shadow:
         return [self.build / line.strip() for line in shown.splitlines() if line.strip().endswith(".o")]
 
     def mutants(self):
-        """All that there are, those that do not compile, too."""
+        """Returns all mutants, including those that do not compile."""
         for file, pairs in sorted(self.numbered.items()):
             lines = self._read(file).split("\n")
             for site, first in pairs:
@@ -225,6 +224,6 @@ class Shadow:
                     yield Mutant(first + k, file, site.line, site.column, site.original, mutation, code, first)
 
     def dropped_count(self):
-        """Of the mutants of the sites that are wanted, those that cannot be built."""
+        """Returns the number of wanted mutants that cannot be built."""
         dropped = self.dropped & self.wanted
         return sum(len(site.mutations) for pairs in self.numbered.values() for site, n in pairs if n in dropped)

@@ -1,14 +1,14 @@
 """Finds the places at which a C++ file can be mutated, and the mutations.
 
-It reads code in Google's format: a binary operator has white space on both sides; the bracket of a template and a sign
-have none. If it mistakes one for the other, the mutant does not compile and is dropped (build.py)."""
+It reads code in Google's format: a binary operator has white space on both sides; a template's bracket and a sign
+have none. If it confuses them, the mutant does not compile and is dropped (shadow.py)."""
 
 import re
 from dataclasses import dataclass, field
 
 from source import ASSIGNMENTS, Code
 
-OPERATORS = {  # what the runtime calls it, and the mutations
+OPERATORS = {  # the runtime's name, and the mutations
     "<": ("Less", ["<=", ">="]), ">": ("Greater", [">=", "<="]),
     "<=": ("LessEqual", ["<", ">"]), ">=": ("GreaterEqual", [">", "<"]),
     "==": ("Equal", ["!="]), "!=": ("Unequal", ["=="]),
@@ -25,9 +25,9 @@ class Site:
     line: int
     column: int
     original: str
-    mutations: list  # texts: one mutant each
-    # ("open" | "close", offset, the extent's other end, text) or ("replace", start, end, text); {0}, {1} … in a text
-    # are the mutants' numbers. Of edits with the same extent, those of a logical operator stand inside.
+    mutations: list  # one text per mutant
+    # ("open" | "close", offset, the extent's other end, text) or ("replace", start, end, text); {0}, {1} … stand for
+    # the mutants' numbers. Of edits with the same extent, a logical operator's are the inner ones.
     edits: list = field(default_factory=list)
 
 
@@ -65,7 +65,7 @@ class Finder(Code):
         return [("replace", self.tokens[i].start, self.tokens[i].end, text)]
 
     def _choice(self, i, original, mutations):
-        """The token is one of several expressions of the same type."""
+        """Adds a token that is one of several expressions of the same type."""
         text = "".join(f"etude_mutation::On({{{k}}}) ? ({m}) : " for k, m in enumerate(mutations))
         self._add(i, original, mutations, self._replace(i, f"({text}{original})"))
 
@@ -106,14 +106,14 @@ class Finder(Code):
         semicolons = [k for k in inner if self.tokens[k].text == ";" and self.tokens[k].inside == i + 1]
         first = semicolons[-1] + 1 if semicolons else i + 2
         if any(self.tokens[k].text == "=" and self.tokens[k].inside == i + 1 for k in range(first, opening.match)):
-            return  # declares what it tests
+            return  # the condition declares a variable
         before = "!etude_mutation::On({1}) && etude_mutation::On({0}) != static_cast<bool>("
         edits = self._around(first, opening.match - 1, before, ")")
         word = self.tokens[i].text
         self._add(i, f"{word} (c)", [f"{word} (!(c))", f"{word} (false)"], edits)
 
     def _statement(self, i):
-        """`Call(…);` or `variable = …;` left out."""
+        """Adds the removal of `Call(…);` or `variable = …;`."""
         if not self._is_in_body(self.tokens[i].inside):
             return
         if self.tokens[i].text in _NO_CALLS or self.tokens[i].text.isupper():
@@ -142,7 +142,7 @@ class Finder(Code):
         self._add(i, " ".join(statement.split()), ["(nothing)"], [edit])
 
     def _is_in_body(self, brace):
-        """Whether what the bracket encloses is run: no class and no namespace."""
+        """Returns true if the bracket encloses statements, not a class or namespace."""
         if brace < 0 or self.tokens[brace].text != "{":
             return False
         k = brace - 1
@@ -194,7 +194,7 @@ class Finder(Code):
 
 
 def constants_of(text):
-    """The named numbers that a file declares: name → "real", "whole", or "zero"."""
+    """Returns the named numbers that a file declares: name → "real", "whole", or "zero"."""
     found = {}
     for kind, name, value in re.findall(rf"\bconstexpr ({_NUMERIC}) (k\w+) = ([^;]*);", text):
         real = kind in ("double", "float")
@@ -203,12 +203,12 @@ def constants_of(text):
 
 
 def find_sites(text, header_text=""):
-    """The sites of a source file, which also uses the constants of its own header."""
+    """Returns the sites of a source file, which also uses the constants of its header."""
     return Finder(text, constants_of(header_text)).find()
 
 
 def find_defaults(text):
-    """The sites of a header: what members are by default, other than nothing (which is there to be overwritten)."""
+    """Returns the sites of a header: the defaults of members, except zero values, which code overwrites."""
     lines, sites = text.split("\n"), []
     for site in Finder(text).find():
         if _MEMBER.match(lines[site.line - 1]) and re.fullmatch(r"[\d.'e+-]*[1-9][\d.'e+-]*|true", site.original):

@@ -31,8 +31,8 @@ def arguments(words=None):
 
 
 class Notes:
-    """What was found of tests and mutants, in a file that a killed run leaves behind. A note holds as long as the
-    engine is the one of the file's name, and the tests of its folder are what they were."""
+    """Notes about tests and mutants in a file that survives a kill. A note is valid while the engine has the file's
+    digest, and the tests of its folder are unchanged."""
 
     def __init__(self, path, shadow):
         self.path, self.shadow, self.digests = path, shadow, {}
@@ -54,7 +54,7 @@ class Notes:
 
 
 def recorded(shadow, folders, notes, jobs):
-    """Every test with what it reaches; from the last time, as far as that got."""
+    """Yields every test with the mutants that it reaches, from earlier notes if there are any."""
     known = {(entry["folder"], entry["name"]): entry for entry in notes.known()}
     tests = list_tests(shadow.build, folders)
     missing = [test for test in tests if (test.folder, test.name) not in known]
@@ -68,7 +68,7 @@ def recorded(shadow, folders, notes, jobs):
 
 
 def complete_lines(path):
-    """Those of a file whose last line may be cut off, which is then removed."""
+    """Returns a file's lines; an incomplete last line is removed from the file."""
     if not path.exists():
         return []
     text = path.read_text()
@@ -79,17 +79,17 @@ def complete_lines(path):
 
 
 def sample_of(mutants, count, seed):
-    """By a digest of each mutant, so that an edit of the engine changes no more of the sample than it must."""
+    """Ranks mutants by their digests, so that an edit of the engine changes little of the sample."""
     seen, ranked = Counter(), []
     for mutant in mutants:
         name = "\0".join((mutant.file, mutant.code, mutant.original, mutant.mutation))
-        seen[name] += 1  # the same twice in a line, or in two equal lines
+        seen[name] += 1  # equal mutants in one line, or in two equal lines
         ranked.append((hashlib.sha256(f"{seed}\0{seen[name]}\0{name}".encode()).digest(), mutant))
     return [mutant for _, mutant in sorted(ranked, key=lambda pair: pair[0])[:count]]
 
 
 def tried(sample, tests, shadow, notes, options, end):
-    """Pairs of mutant and verdict, in the sample's order; goes on after the verdicts that are known."""
+    """Returns pairs of mutant and verdict in the sample's order; skips mutants with a verdict."""
     verdicts = {entry["number"]: entry["verdict"] for entry in notes.known()}
     missing = [mutant for mutant in sample if mutant.number not in verdicts]
     print(f"{len(sample)} mutants, {len(missing)} to be tried", flush=True)
@@ -108,7 +108,7 @@ def tried(sample, tests, shadow, notes, options, end):
 
 
 def run(options, root=ROOT, kept_in=HERE):
-    """One sample, from building to its figure; returns that."""
+    """Takes one sample, from building to its figure; returns the figure."""
     end = time.monotonic() + (options.hours * 3600 if options.hours else float("inf"))
     work = root / "out/soak/mutation"
     work.mkdir(parents=True, exist_ok=True)
@@ -121,7 +121,7 @@ def run(options, root=ROOT, kept_in=HERE):
     print(f"Building {len(folders)} test programs: {work}/build.output", flush=True)
     mutants = [mutant for mutant in shadow.mutants() if is_wanted(mutant.folder)]
     ranked, sample, most = sample_of(mutants, len(mutants), options.seed), [], options.count + 20
-    while True:  # until so many compile
+    while True:  # until enough mutants compile
         shadow.wanted = {mutant.site for mutant in ranked[:most]}
         with (work / "cmake.log").open("w") as log:
             shadow.compile(folders, options.jobs, log)

@@ -1,5 +1,4 @@
-"""Finds the code of a C++ file that runs, and the beginning and end of the operands of its loosely binding
-operators."""
+"""Finds the executed code of a C++ file, and the operands of its loosely binding operators."""
 
 from tokens import tokenize
 
@@ -14,7 +13,7 @@ class Code:
         self.tokens = tokenize(text)
         self.skipped = self._skipped()
 
-    # --- what is no code that runs -------------------------------------------------------------------------------
+    # --- code that does not run ----------------------------------------------------------------------------------
     def _skipped(self):
         skipped = [False] * len(self.tokens)
 
@@ -46,7 +45,7 @@ class Code:
         return skipped
 
     def _end_of_declaration(self, i):
-        """Of one that begins at i: its semicolon, or the brace that closes its body."""
+        """Returns the end of a declaration that begins at i: its semicolon, or the brace that closes its body."""
         k = i
         while k < len(self.tokens) - 1:
             token = self.tokens[k]
@@ -71,7 +70,7 @@ class Code:
                 if depth == 0:
                     return k
             elif text == ";":
-                return i  # no template after all
+                return i  # not a template after all
             elif self.tokens[k].match > k:
                 k = self.tokens[k].match
             k += 1
@@ -79,7 +78,7 @@ class Code:
 
     # --- operands ------------------------------------------------------------------------------------------------
     def left_extent(self, i, stops):
-        """The first token of the left operand of a loosely binding operator at i."""
+        """Returns the first token of the left operand of a loosely binding operator at i."""
         k = i - 1
         while k >= 0:
             token = self.tokens[k]
@@ -87,7 +86,7 @@ class Code:
                     or token.text in _STATEMENT_WORDS:
                 break
             if token.text == "}" and self.tokens[token.match].spaced_left:
-                break  # of a block
+                break  # the brace opens a block
             k = token.match - 1 if token.text in (")", "]", "}") else k - 1
         return k + 1
 

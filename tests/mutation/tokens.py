@@ -21,10 +21,10 @@ class Token:
     kind: str  # string, number, char, word or mark
     text: str
     start: int  # offset of the first character
-    spaced_left: bool  # white space or a comment stands before it
+    spaced_left: bool  # follows white space or a comment
     spaced_right: bool
-    match: int = -1  # brackets: the index of the partner
-    inside: int = -1  # the index of the bracket ( [ or { that encloses it
+    match: int = -1  # for a bracket, its partner's index
+    inside: int = -1  # index of the enclosing bracket: ( [ or {
 
     @property
     def end(self):
@@ -32,7 +32,7 @@ class Token:
 
 
 def tokenize(text):
-    """The tokens of a C++ file without white space, comments and directives, with brackets matched."""
+    """Returns the tokens of a C++ file without white space, comments and directives; brackets are matched."""
     tokens, gap = [], True
     for found in _TOKEN.finditer(text):
         if found.lastgroup in ("space", "comment", "directive"):

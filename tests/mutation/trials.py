@@ -11,20 +11,20 @@ import threading
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-SLOWER = 5  # a mutant whose tests take so many times as long counts as noticed: they might never end
+SLOWER = 5  # a mutant whose tests take this many times as long counts as noticed, because they may never end
 
 
 @dataclass(frozen=True)
 class Test:
-    folder: str  # engine/…, the mirrored one
-    command: tuple  # with the pinned environment, without the filter
+    folder: str  # the mirrored folder, engine/…
+    command: tuple  # includes the pinned environment, but no filter
     name: str  # Suite.Name
-    seconds: float = 0  # of CPU
+    seconds: float = 0  # of processor time
     reached: frozenset = frozenset()
 
 
 def list_tests(build, folders):
-    """The tests of the programs that ctest runs for these folders of tests, without the heavy ones."""
+    """Returns the tests that ctest runs for these folders, without the heavy ones."""
     command = ["ctest", "--test-dir", build, "--show-only=json-v1"]
     shown = subprocess.run(command, check=True, capture_output=True, text=True)
     tests, known = [], set()
@@ -41,20 +41,20 @@ def list_tests(build, folders):
 
 
 def names_of_tests(command):
-    """Of a GoogleTest program, as Suite.Name, without those that are disabled."""
+    """Returns a GoogleTest program's tests as Suite.Name, without the disabled ones."""
     listed = subprocess.run([*command, "--gtest_list_tests"], check=True, capture_output=True, text=True)
     names, suite = [], ""
     for line in listed.stdout.splitlines():
         name = line.partition("#")[0].rstrip()
         if not name.startswith(" "):
-            suite = name if name.endswith(".") else ""  # what GoogleTest's own main says is no suite
+            suite = name if name.endswith(".") else ""  # other lines come from GoogleTest's main
         elif suite and "DISABLED_" not in suite + name:
             names.append(suite + name.strip())
     return names
 
 
 def run_program(command, environment, cwd, cpu_seconds):
-    """Its exit code (negative: the signal that ended it) and the CPU-seconds that it took."""
+    """Returns the exit code (negative: the signal that ended it) and the processor time in seconds."""
     limits = ["prlimit", f"--cpu={cpu_seconds}:{cpu_seconds + 1}", f"--as={8 << 30}", "--core=0", f"--fsize={1 << 28}"]
     with tempfile.TemporaryDirectory() as scratch:
         process = subprocess.Popen([*limits, "nice", "-n", "10", *command], cwd=cwd, stdin=subprocess.DEVNULL,
@@ -69,8 +69,8 @@ def run_program(command, environment, cwd, cpu_seconds):
 
 
 def end_when_asleep(session, ended, seconds=60):
-    """Ends processes that wait for what never comes. Those that wait for their turn on a loaded machine are ready to
-    run, which is no sleep: no outcome depends on the load. `ended` is an event; true when it ended them."""
+    """Ends processes that wait for what never comes; returns true if it ended them. Processes that wait for a
+    processor are not asleep, so the machine's load changes no outcome. `ended` is an event."""
     naps = 0
     while not ended.wait(seconds / 10):
         naps = naps + 1 if _all_asleep(session) else 0
@@ -91,7 +91,7 @@ def _all_asleep(session):
 
 
 def record(test, cwd):
-    """The test with its time and with all mutants that it reaches. It must pass: no mutant is chosen."""
+    """Returns the test with its time and all mutants that it reaches. Without a mutant it must pass."""
     with tempfile.TemporaryDirectory() as scratch:
         path = Path(scratch) / "reached"
         command = [*test.command, "--gtest_filter=" + test.name]
@@ -102,9 +102,9 @@ def record(test, cwd):
 
 
 def in_batches(tests, first=0.5, growth=8):
-    """The quickest first, in groups of one program that take ever longer (seconds in all): most mutants fall to a quick
-    test, and the slow ones need not run. A group takes one start of the program."""
-    program, batches = {}, []  # a folder has one program, but nothing here needs that
+    """Returns batches of one program each, the quickest tests first, with growing total seconds. Quick tests kill
+    most mutants, so slow ones seldom run. A batch takes one start of the program."""
+    program, batches = {}, []  # each folder has one program, but this is not assumed
     for test in sorted(tests, key=lambda test: test.seconds):
         program.setdefault(test.command, []).append(test)
     for chosen in program.values():
@@ -120,7 +120,8 @@ def in_batches(tests, first=0.5, growth=8):
 
 
 def home_of(mutant, tests):
-    """The folder whose tests are the mutant's: the mirrored one, or the nearest above that has some; "" for none."""
+    """Returns the folder whose tests judge the mutant: the mirrored one or the nearest parent with tests; "" for
+    none."""
     home, folders = mutant.folder, {test.folder for test in tests}
     while home and home not in folders:
         home = os.path.dirname(home)

@@ -1,4 +1,4 @@
-// Prints the engine's answers to inputs that Python makes, too: one line each, a name and numbers in hexadecimal, which
+// Prints the engine's answers to inputs that Python also makes: one line each, a name and hexadecimal numbers, which
 // engine_test.py compares to the last bit.
 #include <etude/coaching.h>
 #include <etude/fuzzy.h>

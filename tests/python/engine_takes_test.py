@@ -101,8 +101,8 @@ class BesideCpp(unittest.TestCase):
             np.testing.assert_array_equal(np.ravel(found), told[name], err_msg=name)
 
 
-# What a person's program answers to exported problems, by the engine: a line each, the trial and the digest of the answer's
-# numbers, as a cell's row has it.
+# Answers exported problems by the engine: a line each with the trial and the digest of the answer's numbers, as in a cell's
+# row.
 ANSWERS = """import csv, ctypes, json, pathlib, sys
 sys.path[:0] = sys.argv[3:]
 import numpy as np
@@ -139,11 +139,11 @@ for line in csv.DictReader(open(data / "index.csv", newline="")):
 
 
 class BesideWorkers(unittest.TestCase):
-    """What a cell's row says of its method's answer, bit by bit, is what the same problem gives through Python."""
+    """A cell's row and the Python interface give the same answer to the same problem, bit by bit."""
 
     def digests(self, task, digest, method, **keys):
-        """By trial: of the cells of one method, and of what Python answers in the environment that workers are
-        given."""
+        """Returns digests by trial: those of one method's cells, and those of Python's answers in the workers'
+        environment."""
         pinned = {**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}  # io/process/pinned_environment.cc
         etude = os.environ["ETUDE"]
         with tempfile.TemporaryDirectory() as name:
@@ -173,7 +173,7 @@ class BesideWorkers(unittest.TestCase):
     def test_distances(self):
         self.same("pose-distance", "digest_verdict", {"distance": "fuzzy"}, clips=["clap.bvh", "wave.bvh"])
 
-    def test_inverse_kinematics(self):  # from the middle of all ranges: a start that degrees would tell but to rounding
+    def test_inverse_kinematics(self):  # the start is the middle of all ranges, which degrees would round
         self.same("ik", "digest_solution", {"solver": "gauss-newton"}, start="middle")
 
     def test_a_request_becomes_the_motion_that_is_judged(self):
@@ -293,7 +293,7 @@ class SensorAndCoach(unittest.TestCase):
             engine.Coach(DANCE, MOVES, "oracle")
 
     def test_the_interpreter_is_free_meanwhile(self):
-        # No thread is made to wait but by what lets the interpreter go: then only a call that does lets the other one count.
+        # With a switch interval of 60 s, the other thread counts only during calls that release the interpreter.
         self.addCleanup(sys.setswitchinterval, sys.getswitchinterval())
         sys.setswitchinterval(60)
         clips, zeros = [motion for _, (motion,) in MOVES], np.zeros((4000, 29))
@@ -304,7 +304,7 @@ class SensorAndCoach(unittest.TestCase):
 
             def work():
                 before = counted
-                for _ in range(1000):  # a busy machine may be back from a short call before the other thread runs
+                for _ in range(1000):  # on a busy machine a short call may end before the other thread runs
                     call()
                     if counted > before:
                         break

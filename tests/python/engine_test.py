@@ -1,4 +1,4 @@
-"""Tests the engine on arrays: against numpy's arithmetic, against calls one by one, and with invalid inputs."""
+"""Tests the engine on arrays: against numpy's arithmetic, against single calls, and with invalid inputs."""
 import ast
 import os
 import pathlib
@@ -30,7 +30,7 @@ def turn(axis, angle):
 
 
 def limbs_of(tree, angles, root=np.zeros(3), axes=np.eye(3)):
-    """Places and axes of the limbs of one pose, by numpy."""
+    """Returns positions and axes of one pose's limbs, by numpy."""
     found, used = [], 0
     for limb in tree.limbs:
         place, turned = found[limb.parent] if limb.parent >= 0 else (root, axes)
@@ -56,7 +56,7 @@ def rig():
 
 
 def standing():
-    """A person by hand, in the order of ROLES, arms out."""
+    """Returns a person with the arms out, in the order of ROLES."""
     places = {"hip_centre": (0, .95, 0), "spine": (0, 1.1, 0), "shoulder_centre": (0, 1.4, 0), "head": (0, 1.6, 0)}
     for side, x in (("left", 1), ("right", -1)):
         for name, out, y, z in (("shoulder", .2, 1.38, 0), ("elbow", .48, 1.38, -.02), ("wrist", .73, 1.38, 0),
@@ -131,7 +131,7 @@ class Motions(unittest.TestCase):
     def test_bridges(self):
         still = engine.Motion(np.repeat(standing()[None], 60, axis=0), 30)
         bridges = engine.Bridges([still, still])
-        np.testing.assert_array_equal(bridges.frames(0), range(60))  # one pose throughout: each frame is shared
+        np.testing.assert_array_equal(bridges.frames(0), range(60))  # the pose is constant, so every frame is shared
         self.assertEqual(bridges.find(0, 5, 1), (5, 0, 0.0))
         with self.assertRaises(engine.BadInput):
             bridges.find(0, 0, 7)
@@ -176,7 +176,7 @@ class Cameras(unittest.TestCase):
 
 
 def wave(turns, frames=40):
-    """A right hand that circles so many times."""
+    """Returns a right hand that circles `turns` times."""
     poses = np.repeat(standing()[None], frames, axis=0)
     at = 2 * np.pi * turns * np.arange(frames) / frames
     for role, radius in (("right_wrist", .2), ("right_hand", .28)):
@@ -215,12 +215,12 @@ class Streams(unittest.TestCase):
         mask = finder.find(picture)
         self.assertEqual((mask.dtype, mask.shape), (np.dtype(bool), (60, 80)))
         self.assertTrue((mask == (picture != room).any(axis=2)).all())
-        picture[55:57, 2:4] = 0  # noise beside
+        picture[55:57, 2:4] = 0  # noise beside the person
         self.assertTrue((finder.find(picture) == mask).all())
         self.assertFalse(engine.PersonFinder(room).find(room).any())
         wide = np.zeros((60, 160, 3), np.uint8)
         wide[:, ::2] = picture
-        self.assertTrue((finder.find(wide[:, ::2]) == mask).all())  # a view
+        self.assertTrue((finder.find(wide[:, ::2]) == mask).all())  # a view of the array
         for bad, says in ((lambda: finder.find(picture[:50]), "allowed: .60, 80, 3."),
                           (lambda: engine.PersonFinder(room, "magic"), "no segmenter 'magic'; allowed: rgb, "),
                           (lambda: engine.PersonFinder(np.zeros((0, 4, 3), np.uint8)), "a side of 0 pixels"),
@@ -282,7 +282,7 @@ class Limits(unittest.TestCase):
 
 class Fuzz(unittest.TestCase):
     def test_nothing_that_is_handed_over_is_more_than_an_exception(self):
-        warnings.simplefilter("ignore")  # numpy's, of complex numbers made real
+        warnings.simplefilter("ignore")  # numpy's warning about complex numbers made real
         dice, end, calls, refused = random.Random(1), time.monotonic() + FUZZ_S, 0, 0
         numbers = np.random.default_rng(1)
 

@@ -1,4 +1,4 @@
-"""Tests etude.evaluate: arrays and files are judged as the program judges files."""
+"""Tests etude.evaluate: it judges arrays and files as the program judges files."""
 import math
 import os
 import shutil
@@ -15,7 +15,7 @@ HEIGHTS = [1, 1.5, 1.7, *(1.45, 1.2, 0.95, 0.98, 0.5, 0.1, 0.05) * 2]
 
 
 def standing(frames, across=0.0):
-    """A body that stands; `across` metres to the side."""
+    """Returns a standing body, `across` metres to the side."""
     sides = [0, 0, 0, *[0.2] * 7, *[-0.2] * 7]
     return [[[x + across, y, 0.1 if "foot" in name else 0.001 * f] for name, x, y in zip(NAMES, sides, HEIGHTS)]
             for f in range(frames)]
@@ -36,7 +36,7 @@ class Evaluate(PythonCase):
         with self.assertRaises(ValueError):
             etude.evaluate(**given, **{"../../mine": standing(3)})
         self.assertEqual(list(self.folder.rglob("mine*")), [])
-        etude.evaluate(**given, mine=standing(3), overwrite=True)  # over the truth of the call that failed
+        etude.evaluate(**given, mine=standing(3), overwrite=True)  # replaces the truth that the failed call left
         kept = (self.folder / "run.motions" / "mine.npz").read_bytes()
         with self.assertRaises(FileExistsError):
             etude.evaluate(**given, mine=standing(3, across=1))
@@ -54,7 +54,7 @@ class Evaluate(PythonCase):
                 continue
             shutil.rmtree(self.folder / "out" / "evaluate-2")
             shutil.rmtree(self.folder / "out" / "evaluate-2.motions")
-        # A call that failed leaves arrays without a run.
+        # A failed call leaves arrays, but no run.
         given = {"truth": standing(9), "mine": standing(9), "names": NAMES, "rate_hz": 30, "progress": False}
         with self.assertRaises(etude.EtudeError):
             etude.evaluate(**given, joints="nobody")

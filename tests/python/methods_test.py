@@ -22,7 +22,7 @@ def nudge(angles):
 
 
 def make(kept, scale):
-    """Methods that use what stands around them."""
+    """Returns methods that use variables of their surroundings."""
     count = 0
 
     @etude.method(task="ik")
@@ -129,7 +129,7 @@ class Shipped(PythonCase):
         self.assertNotEqual(first["exec"], other["exec"])
 
 
-# What a notebook keeps: a __main__ without a file, whose source is in the line cache.
+# Code as in a notebook: a __main__ without a file, whose source is in the line cache.
 NOTEBOOK = """import etude
 import ik_dls as solver
 
@@ -208,7 +208,7 @@ class Metrics(PythonCase):
 class Runs(PythonCase):
     @classmethod
     def setUpClass(cls):
-        """One run of every kind of method, one of which raises in every cell."""
+        """Runs every kind of method once; one of them raises in every cell."""
         import ik_dls
         examples = str(ROOT / "examples/outside-methods")
         path = os.environ["PYTHONPATH"] + ":" + examples
@@ -217,7 +217,7 @@ class Runs(PythonCase):
         assert told.returncode == 0, told.stderr
         ik_dls.DampedLeastSquares.__etude__.options = {"max_steps": 7}
         shown = [examples]
-        python = shipping._interpreter(shown)  # the same: from 3.12 on, sums of floats have other last digits
+        python = shipping._interpreter(shown)  # the same version: since 3.12, sums of floats differ in the last digits
         program = {"name": "program", "exec": [python, f"{examples}/ik_dls.py"], "files": shown,
                    "options": {"max_steps": 7}}
         cls.shared, cls.seen = cls.shared_folder(), []

@@ -36,7 +36,7 @@ class Plot(PythonCase):
         self.assertEqual(list(estimate.get_ydata()), [float(row["difference"])])
         dots = [y for _, y in differences.collections[0].get_offsets().tolist()]
         self.assertEqual(dots, list(pairs.difference))
-        # Of each world the page says what is drawn: "trial 3: 12.4 → 0.021°".
+        # For each world the page states what is drawn: "trial 3: 12.4 → 0.021°".
         said = re.findall(r"<title>trial (\d+): (\S+) → (\S+)°</title>", self.page)
         left, right = ([y for _, y in dots.get_offsets().tolist()] for dots in values.collections)
         shown = {(str(trial), f"{a:.3g}", f"{b:.3g}") for trial, a, b in zip(pairs.trial, left, right)}

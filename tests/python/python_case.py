@@ -1,4 +1,4 @@
-"""Parts that the tests of the package share: the package in the path, scratch folders, and a run that is made once."""
+"""Parts that the package's tests share: the package in the path, scratch folders, and a run that is made once."""
 import json
 import os
 import pathlib
@@ -8,7 +8,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ETUDE = os.environ["ETUDE"]
-os.environ["PATH"] = "/usr/bin:" + os.environ["PATH"]  # a fence shows no Python of a home
+os.environ["PATH"] = "/usr/bin:" + os.environ["PATH"]  # a fence shows no Python in a home folder
 os.environ["PYTHONPATH"] = str(ROOT / "python")
 sys.path.insert(0, str(ROOT / "python"))
 CACHE = tempfile.TemporaryDirectory()

@@ -1,4 +1,4 @@
-"""Tests a run as the package reads it against the run's files and the tables of its page."""
+"""Tests a run as the package reads it, against the run's files and its page's tables."""
 import csv
 import importlib.util
 import json
@@ -99,7 +99,7 @@ class Results(PythonCase):
                 self.assertEqual((each.decided_by, each.verdict), ("success", success["verdict"]))
             else:
                 self.assertNotEqual(each.decided_by, "success")
-        # The difference of success, from the rows: a cell that failed counts 0.
+        # The difference of success, from the rows; a failed cell counts 0.
         solved = {(row["method"], row["joint_noise_deg"], row["trial"]): row.get("solved_practical") or 0
                   for row in self.rows}
         for each in moody:

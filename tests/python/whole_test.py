@@ -14,7 +14,7 @@ from python_case import CACHE, ETUDE, ROOT, SCENARIO, PythonCase
 import etude
 from etude import conversation
 
-# Tells on standard error whether a whole line comes back out of the dataclasses; what it answers is of no account.
+# Reports on standard error whether a line survives conversion to the dataclasses and back; its answers do not matter.
 MIRROR = """import json, sys
 from etude import conversation
 spec = conversation.Spec(sys.argv[1], sys.argv[2].strip("-"), "mirror", "1", {}, None, [], False)
@@ -60,7 +60,7 @@ class Whole(PythonCase):
                                                             check=True).stdout.splitlines()]
         self.assertEqual(len(table), 100040)
         for name in table.columns:
-            theirs = [row[name] for row in rows]  # too long to be told apart line by line
+            theirs = [row[name] for row in rows]  # the lists are too long for a line-by-line message
             differing = [i for i, (a, b) in enumerate(zip(table[name], theirs)) if a != b or type(a) is not type(b)]
             self.assertEqual([(name, i, table[name][i], theirs[i]) for i in differing[:3]], [])
         self.assertEqual([f"{digest:016x}" for digest in table["digest_solution"][:50]],

@@ -14,12 +14,12 @@ namespace {
 
 TEST(CurveChart, IsDrawnOnlyFromCurvesAlongIterations) {
   RunData run = ExampleRun();
-  AddRecordings(run);  // brings a curve along frames
+  AddRecordings(run);  // adds a curve over frames
   EXPECT_TRUE(CurveChart(run, run.scenarios[2]).has_value());
   EXPECT_FALSE(CurveChart(run, run.scenarios[3]).has_value());
 }
 
-// A run of two methods that follow motions, under two frame rates: errors of 1, 2, … mm and ten times as large.
+// A run of two tracking methods under two frame rates: errors of 1, 2, … mm, and ten times these.
 RunData TrackingRun() {
   RunData run;
   ScenarioSummary& scenario = run.scenarios.emplace_back();
@@ -80,7 +80,7 @@ TEST(CurveChart, OfAMeanOverEffectorsIsThatOfTheWorst) {
 TEST(CurveChart, IsTheSameWhateverCellsKeepOfSingleEffectors) {
   const RunData plain = ExampleRun();
   RunData with = EffectorRun();
-  // Even when the effectors' curves come first.
+  // Also if the effectors' curves come first.
   for (CellSeries& cell : with.series) std::ranges::reverse(cell.series);
   EXPECT_EQ(CurveChart(with, with.scenarios[2])->json, CurveChart(plain, plain.scenarios[2])->json);
 }

@@ -101,7 +101,7 @@ TEST(ComparisonTable, TellsOfNoPairTwice) {
   Comparison again = scenario.conditions[0].comparisons[0];
   scenario.conditions[0].rivals = {again};
   EXPECT_EQ(CountComparisons(scenario), all);
-  std::swap(again.method, again.baseline);  // nor the other way round
+  std::swap(again.method, again.baseline);  // nor with the methods exchanged
   scenario.conditions[0].rivals.push_back(again);
   EXPECT_EQ(CountComparisons(scenario), all);
   again.method = "another";
@@ -112,7 +112,7 @@ TEST(ComparisonTable, TellsOfNoPairTwice) {
   EXPECT_THAT(html, HasSubstr(" more, by the other metrics</summary>"));
 }
 
-/// What two laws say of one comparison, and what they say together.
+/// Returns one comparison's verdicts under two laws, and the common verdict.
 AcrossVerdict Said(Verdict under_power, Verdict under_two_rate, Verdict together) {
   AcrossVerdict across{.condition = {{"noise", "1"}}, .metric = "retention", .method = "oracle"};
   across.baseline = "a<b";
@@ -161,7 +161,7 @@ TEST(AcrossTable, HasAsManyCellsInEveryRow) {
     EXPECT_EQ(std::ranges::count(line, '|'), 7) << line;
     ++rows;
   }
-  EXPECT_EQ(rows, 5);  // headings, rule, three comparisons
+  EXPECT_EQ(rows, 5);  // headings, a rule, three comparisons
 }
 
 }  // namespace

@@ -53,10 +53,10 @@ TEST(GateMarkdown, ShowsAReviewerWhatFailsBeforeWhatElseMoved) {
   EXPECT_LT(text.find("**worse**"), text.find("<details>"));
   EXPECT_GT(text.find("| better |"), text.find("<details>"));
   EXPECT_THAT(text, HasSubstr("50.0 % | 40.0 % | −10.00 percentage points"));
-  EXPECT_THAT(text, Not(HasSubstr("effector position error")));  // it is the same
+  EXPECT_THAT(text, Not(HasSubstr("effector position error")));  // an unchanged metric is not mentioned
 }
 
-/// Five of 60 worlds far worse, two of them lost.
+/// Returns a move with five of 60 worlds far worse, two of them lost.
 MetricMove TailMove(Movement movement) {
   MetricMove move = MoveOf("adaptive", "orientation_error_deg", movement, 2, 2);
   move.by_tail = movement == Movement::kWorse;

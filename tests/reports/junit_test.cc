@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Every element is closed in the order it was opened, and no attribute holds a raw sign.
+/// Returns true if elements are closed in order, and no attribute holds a raw special character.
 bool IsWellFormed(const std::string& xml) {
   std::vector<std::string> open;
   const std::regex tag(R"re(<(/?)([A-Za-z-]+)((?: [a-z]+="[^"<&]*(?:&(?:amp|lt|gt|quot|#39);[^"<&]*)*")*)(/?)>)re");
@@ -37,7 +37,7 @@ bool IsWellFormed(const std::string& xml) {
 
 TEST(Junit, CountsWhatItHolds) {
   const std::string xml = WriteJunit(ExampleRun());
-  // Three cases of every scenario's own, and five expectations; one unmet, and cells broke in two scenarios.
+  // Three cases per scenario, and five expectations. One expectation is unmet, and cells of two scenarios failed.
   EXPECT_EQ(CountOf(xml, "<testcase "), 4 * 3 + 5);
   EXPECT_EQ(CountOf(xml, "<failure "), 1 + 2);
   EXPECT_EQ(CountOf(xml, "<skipped "), 1);

@@ -54,7 +54,7 @@ TEST(OverviewTable, HidesOtherMetricsUntilTheyAreAskedFor) {
   const std::string html = OverviewTableHtml({}, scenario);
   EXPECT_THAT(html, HasSubstr("<th scope=\"col\" class=\"n\" title=\"jump_cm\">"));
   EXPECT_THAT(html, HasSubstr("<th scope=\"col\" class=\"n more\" title=\"wait_s\">"));
-  EXPECT_EQ(OverviewTableMarkdown(scenario), "");  // the answer has told of the one
+  EXPECT_EQ(OverviewTableMarkdown(scenario), "");  // the answer already states it
 }
 
 TEST(OverviewTable, SaysWhatIsMissingAndWhyThoseOfOneReasonTogether) {
@@ -72,13 +72,13 @@ TEST(OverviewTable, PointsToARecordedCellWhereThereIsOne) {
 
 TEST(OverviewTable, ShowsTheVerdictAgainstTheBestOtherBesideTheBaselines) {
   const std::string text = OverviewTableMarkdown(UnitRun().scenarios.front());
-  EXPECT_THAT(text, HasSubstr("| now | 48.7 cm · ▼ |"));  // a baseline has none
+  EXPECT_THAT(text, HasSubstr("| now | 48.7 cm · ▼ |"));  // a baseline has no verdict
   EXPECT_THAT(text, HasSubstr("| wait-for-end | 50.1 cm ? ▼ |"));
   EXPECT_THAT(text, HasSubstr("| gate-inertialised | 6.40 cm ▲ ▲ |"));
   EXPECT_THAT(OverviewTableMarkdown(UnitRun().scenarios[3]), HasSubstr("| ccd-adaptive | 47.8 mm (▲) (▲) |"));
 }
 
-/// One pair of poses, of which "fuzzy" says that they are alike and "joints" that they are not.
+/// One pair of poses, which "fuzzy" calls alike and "joints" does not.
 RunData OnePair(double called_alike) {
   RunData run;
   ScenarioSummary scenario{.name = "blind", .task = "pose-distance", .methods = {"fuzzy", "joints"}};

@@ -18,7 +18,7 @@ using ::testing::Not;
 
 constexpr std::string_view kIsland = "<script type=\"application/json\"";
 
-/// The page without the programs in it: what the reader's browser takes as markup.
+/// Returns the page without its scripts, as a browser reads the markup.
 std::string MarkupOf(const std::string& page) {
   std::string markup;
   std::size_t from = 0;
@@ -29,7 +29,7 @@ std::string MarkupOf(const std::string& page) {
   return markup + page.substr(from);
 }
 
-/// Everything that would make a browser look elsewhere.
+/// Returns every reference that would make a browser load something else.
 std::vector<std::string> OutsideReferences(const std::string& page) {
   const std::string markup = MarkupOf(page);
   const std::regex reference(
@@ -131,7 +131,7 @@ TEST(Page, PointsToNothingOutsideItself) {
   media.film.mp4 = "film";
   media.film.poster = {"png", 1280, 720, "poster"};
   EXPECT_THAT(OutsideReferences(WritePage(ExampleRun(), media)), ::testing::IsEmpty());
-  // The control: the search must find what must not be there.
+  // The control: the search finds such references.
   EXPECT_THAT(OutsideReferences("<img src=\"https://example.org/a.png\">"), ::testing::SizeIs(1));
   EXPECT_THAT(OutsideReferences("<link rel=stylesheet>"), ::testing::SizeIs(1));
   for (const char* target :

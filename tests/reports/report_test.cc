@@ -17,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-/// An empty folder of the running test's own.
 fs::path FreshFolder() {
   const fs::path folder = fs::path(::testing::TempDir()) / "etude_reports" /
                           ::testing::UnitTest::GetInstance()->current_test_info()->name();

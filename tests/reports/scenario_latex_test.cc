@@ -23,7 +23,7 @@ std::vector<std::string> Split(const std::string& text, char at) {
   return parts;
 }
 
-/// The float of one condition, by its place.
+/// Returns one condition's float, by its index.
 std::string FloatOf(const std::string& latex, std::size_t index) {
   std::size_t at = 0;
   for (std::size_t i = 0; i <= index; ++i) at = latex.find("\\begin{table}", at + (i > 0));
@@ -65,7 +65,7 @@ TEST(ScenarioLatex, HasAFloatPerConditionThatEndsAsItBegan) {
   }
   for (const std::string& line : Split(latex, '\n')) {
     if (!line.ends_with(" \\\\") || line.starts_with("\\multicolumn")) continue;
-    // A & that was escaped is no column.
+    // An escaped & does not separate columns.
     EXPECT_EQ(CountOf(line, "&") - CountOf(line, "\\&"), 7) << line;
   }
 }

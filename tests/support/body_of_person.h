@@ -21,8 +21,7 @@ inline void ExpectNear(const glm::dvec3& actual, const glm::dvec3& expected, dou
       << "(" << actual.x << ", " << actual.y << ", " << actual.z << ")";
 }
 
-/// Expects the twenty roles at the positions that they have in PersonSkeleton at rest, with `scale` units per
-/// centimetre.
+/// Checks that the twenty roles are at their positions in PersonSkeleton at rest, with `scale` units per centimetre.
 inline void ExpectThePersonsPlaces(const BodyPose& body, double scale = 1, double tolerance = 1e-12) {
   using enum Role;
   const auto expect = [&](Role role, const glm::dvec3& place) {
@@ -47,7 +46,7 @@ inline void ExpectThePersonsPlaces(const BodyPose& body, double scale = 1, doubl
   }
 }
 
-/// Expects that joints play all roles, in a skeleton that is PersonSkeleton with other names.
+/// Checks that joints play all roles in a skeleton that is PersonSkeleton with other names.
 inline void ExpectThePerson(const Skeleton& skeleton) {
   const auto map = FindJointMap(skeleton, "person.bvh");
   ASSERT_TRUE(map) << ToString(map.error());

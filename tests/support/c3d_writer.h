@@ -11,7 +11,7 @@ namespace etude::testing {
 
 inline constexpr int kIntel = 84, kDec = 85, kMips = 86;
 
-/// Writes C3D files: a second implementation, by the tables of the format's specification.
+/// Writes C3D files; a second implementation, by the tables of the format's specification.
 class C3dWriter {
  public:
   C3dWriter(int machine, bool floats) : machine_(machine), floats_(floats) {}
@@ -20,9 +20,9 @@ class C3dWriter {
   std::size_t points = 2, frames = 3;
   double scale = 0.25;
   std::string unit = "mm";
-  std::size_t second_labels_from = 0;  ///< points from here on are named by LABELS2; 0 = none
+  std::size_t second_labels_from = 0;  ///< points from this index on are named by LABELS2; 0 = none
   std::size_t analogue = 0;            ///< analogue values per frame
-  std::size_t header_frames = 0;       ///< number of frames in the header; 0 = the true number
+  std::size_t header_frames = 0;       ///< header's number of frames; 0 = the true number
   double long_frames = 0;              ///< POINT:LONG_FRAMES; 0 = none
 
   /// Returns the position of point p in frame f, in the file's unit; in frame 1, points with odd p are lost.
@@ -79,7 +79,7 @@ class C3dWriter {
     return machine_ == kMips ? std::string{high, low} : std::string{low, high};
   }
   std::string Float(double value) const {
-    // In DEC's format, the exponent is two higher, and the halves of a number are exchanged.
+    // DEC's format has an exponent higher by two, and exchanges a number's halves.
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(machine_ == kDec ? value * 4 : value));
     const std::size_t low = bits & 0xffff, high = bits >> 16;
     return machine_ == kIntel ? Word(low) + Word(high) : Word(high) + Word(low);

@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// Returns the distance of the joint that differs most between two poses, metres.
+/// Returns the largest distance of a joint between two poses, metres.
 inline double WorstJointDistance(const BodyPose& a, const BodyPose& b) {
   double worst = 0;
   for (const Role role : AllRoles()) worst = std::max(worst, glm::distance(a[role], b[role]));

@@ -11,7 +11,6 @@
 
 namespace etude::testing {
 
-/// Replaces every `from`; there may be none.
 inline std::string AllReplaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
     text.replace(at, from.size(), to);
@@ -19,7 +18,7 @@ inline std::string AllReplaced(std::string text, const std::string& from, const 
   return text;
 }
 
-/// Removes texts of libraries, which differ between library versions, and long lists of allowed values.
+/// Removes libraries' texts, which differ between versions, and long lists of allowed values.
 inline std::string Shortened(const std::string& answer) {
   for (const std::string begin : {"not valid YAML: ", "not valid JSON: "}) {
     const std::size_t at = answer.find(begin);

@@ -7,10 +7,9 @@
 
 namespace {
 
-constexpr std::string_view kHeavy = "HEAVY_";  // begins the name of a test that belongs to `scripts/test --full` alone
+constexpr std::string_view kHeavy = "HEAVY_";  // prefix of tests that only `scripts/test --full` runs
 
-// A filter for the heavy tests, or for the others, whose files stand in a folder of tests/, not below it; empty where
-// there is none.
+// Returns a filter for the heavy or the other tests with files directly in a folder of tests/; "" without any.
 std::string TestsOf(const std::string& folder, bool heavy) {
   std::string filter;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
@@ -29,8 +28,8 @@ std::string TestsOf(const std::string& folder, bool heavy) {
 
 }  // namespace
 
-// GoogleTest's main, and `--folder=bench/statistics`: only what tests that folder, and of it what is not heavy, or with
-// a second argument `--heavy` what is. A filter that somebody asks for counts.
+// GoogleTest's main with `--folder=bench/statistics`, which runs only this folder's tests: those that are not heavy, or
+// with a second argument `--heavy` the heavy ones. A filter given on the command line applies, too.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   constexpr const char* kFolder = "--folder=";

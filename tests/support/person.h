@@ -36,7 +36,6 @@ inline Skeleton PersonSkeleton() {
   return person;
 }
 
-/// Returns a clip of `count` frames of the rest pose.
 inline Clip AtRest(const Skeleton& skeleton, int count = 1, double rate_hz = 30) {
   const LocalPose rest = RestPose(skeleton);
   return {.name = "person", .skeleton = skeleton, .rate_hz = rate_hz, .frames = std::vector<LocalPose>(count, rest)};
@@ -48,7 +47,6 @@ inline LocalTransform& At(Clip& clip, std::size_t frame, const std::string& join
 
 inline glm::dquat Turn(double radians, const glm::dvec3& axis) { return glm::angleAxis(radians, axis); }
 
-/// Lets both arms hang down.
 inline void LowerArms(Clip& clip, std::size_t frame) {
   At(clip, frame, "LeftArm").rotation = Turn(-1.5, {0, 0, 1});
   At(clip, frame, "RightArm").rotation = Turn(1.5, {0, 0, 1});

@@ -88,7 +88,6 @@ inline double WorstDistance(const Clip& a, const Clip& b) {
 
 inline bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Returns one frame of the clip's skeleton at rest.
 inline Clip Resting(const Clip& clip) {
   return {.name = clip.name, .skeleton = clip.skeleton, .rate_hz = clip.rate_hz, .frames = {RestPose(clip.skeleton)}};
 }

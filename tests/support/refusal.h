@@ -7,7 +7,6 @@
 
 namespace etude::testing {
 
-/// Returns the complaint that `act` throws; "" if it throws none.
 inline std::string RefusalOf(const std::function<void()>& act) {
   try {
     act();

@@ -8,7 +8,7 @@
 
 namespace etude::testing {
 
-using namespace ::testing;  // `testing::HasSubstr` is found whether or not a file of the same unity has this header
+using namespace ::testing;  // so that `testing::HasSubstr` is found in every unity build
 
 /// Returns the error of a Result that has no value; "" for other types.
 template <typename T>

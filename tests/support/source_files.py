@@ -1,13 +1,13 @@
-"""Lists the source tree's files, in a clone and in an unpacked archive."""
+"""Lists the source tree's files, in a clone or in an unpacked archive."""
 import os
 import pathlib
 import subprocess
 
-MADE = {"build", "out", "dist", "node_modules", "__pycache__"}  # folders of what .gitignore names
+MADE = {"build", "out", "dist", "node_modules", "__pycache__"}  # folders named in .gitignore
 
 
 def source_files(root):
-    """Paths below root: those that git knows or does not ignore; without git, all but MADE and hidden folders."""
+    """Returns paths below root that git knows or does not ignore; without git, all except MADE and hidden folders."""
     root = pathlib.Path(root)
     if (root / ".git").exists():
         listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=root, check=True,

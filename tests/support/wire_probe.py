@@ -3,19 +3,19 @@ refuses.
 
     wire_probe.py TASK SEAT COMMAND…      SEAT is - for whole problems; without COMMAND it answers nothing itself
 
-Keys that the schema does not declare are refused, too, except the one with which check-method tries unknown keys.
+Undeclared keys are refused, too, except the one with which check-method tries unknown keys.
 """
 import json
 import subprocess
 import sys
 
-from json_schema import load_schema, own_complaints  # a conversation has thousands of lines: jsonschema takes minutes
+from json_schema import load_schema, own_complaints  # jsonschema takes minutes for so many lines
 
 UNKNOWN = "of_a_later_version"
 
 
 def strict(schema):
-    """The same schema, with no keys but those that it declares."""
+    """Returns the schema with undeclared keys forbidden."""
     if isinstance(schema, list):
         return [strict(each) for each in schema]
     if not isinstance(schema, dict):
@@ -30,7 +30,7 @@ SCHEMA = strict(load_schema("protocol.schema.json"))
 
 
 def schema_named(*names):
-    """The schema of the first of these definitions that there is."""
+    """Returns the schema of the first of these definitions that exists."""
     found = next((name for name in names if name in SCHEMA["$defs"]), None)
     if found is None:
         raise KeyError(f"the schema defines none of {', '.join(names)}")
@@ -43,7 +43,7 @@ def payload_schema(task, seat, kind):
 
 
 def wrong(message, task, seat, side):
-    """What is wrong with a line of the wire; `side` is from_etude or from_method."""
+    """Returns the faults of a line on the wire; `side` is from_etude or from_method."""
     kind = message["type"]
     found = own_complaints(message, schema_named(f"{kind}_{side}", kind))
     if kind in message and kind != "type":

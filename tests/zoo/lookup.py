@@ -9,10 +9,10 @@ it answers the truth of the known frame whose ends have the same distances from 
 position and size.
 
 `lookup.py carry MEMORY NOISE…` gets worlds of ik twice, with two strengths of noise, and computes the pose without
-noise. It remembers problems between its starts in the page cache: by the pages of its own file MEMORY, which it can
-only read, that are in memory. It also reads `notes.json` beside it, if there is one, and logs its own. `lookup.py tell`
-is a metric that encodes the truth of its cell in locks on files of the system, which it may open for reading;
-`lookup.py listen` is a method of detection that answers what the locks encode.
+noise. It remembers problems between its starts in the page cache: by which pages of its own file MEMORY, which it can
+only read, are in memory. It also reads `notes.json` beside it, if there is one, and logs its own. `lookup.py tell` is a
+metric that encodes the truth of its cell in locks on files of the system, which it may open for reading; `lookup.py
+listen` is a method of detection that answers what the locks encode.
 """
 import ctypes
 import fcntl
@@ -37,7 +37,7 @@ def found(what):
 
 
 def content_of(message):
-    """A fingerprint of all that a message tells but its id; what has no measured number tells of no world."""
+    """Returns a digest of a message without its id; messages without measured numbers identify no world."""
     if not re.search(r"\d\.\d{3}", json.dumps(message[message["type"]])) and not message.get("files"):
         return "nothing"
     told = hashlib.sha256(json.dumps(message[message["type"]], sort_keys=True).encode())
@@ -47,7 +47,7 @@ def content_of(message):
 
 
 def converse(asked):
-    """The protocol; `asked` gives the answer to a problem or a step, or None."""
+    """Speaks the protocol; `asked` returns the answer to a problem or a step, or None."""
     for line in sys.stdin:
         message = json.loads(line)
         reply = {"hello": {"type": "hello", "protocol": 1, "name": "lookup", "version": "1"}}.get(
@@ -72,7 +72,7 @@ def spy(file):
 
 
 def shape_of(frame, joints):
-    """The distances of root and targets from each other, over the length of all limbs."""
+    """Returns the distances of root and targets from each other, divided by the length of all limbs."""
     size = sum(math.hypot(*joint["offset_m"]) for joint in joints)
     places = [frame["root"]["position_m"]] + [target["position_m"] for target in frame["targets"]]
     return [math.dist(a, b) / size for a, b in itertools.combinations(places, 2)]
@@ -83,8 +83,8 @@ def is_tracking(problem):
 
 
 def run_own_copy(den, seeds):
-    """What every world of the scenario is asked under these seeds: contents, the truth by content, and of tracking the
-    shape of every frame with its true angles."""
+    """Returns what every world of the scenario is asked under these seeds: contents, the truth by content, and for
+    tracking the shape of every frame with its true angles."""
     known, truth, frames = set(), {}, []
     scenario = (den / "own.txt").read_text().replace("DEN", str(den)).replace("KNOWN", str(OWN / "known"))
     OWN.mkdir()
@@ -166,17 +166,17 @@ def attack(den, seeds):
 
 
 class PageMemory:
-    """Texts written by reading pages of a file: a page that is in memory is a one. A region holds one text."""
+    """Writes texts by reading pages of a file: a page in memory is a one. A region holds one text."""
     REGION = 1 << 15  # pages
 
     def __init__(self, file):
         descriptor = os.open(file, os.O_RDONLY)
         self.size = os.fstat(descriptor).st_size
         self.pages = mmap.mmap(descriptor, self.size, prot=mmap.PROT_READ | mmap.PROT_WRITE, flags=mmap.MAP_PRIVATE)
-        self.pages.madvise(mmap.MADV_RANDOM)  # no page but the one that is touched
+        self.pages.madvise(mmap.MADV_RANDOM)  # reads no page except the touched one
 
     def read(self):
-        """All texts that were written, or None where the kernel does not tell."""
+        """Returns all texts written, or None if the kernel does not report pages."""
         held = (ctypes.c_ubyte * (self.size // mmap.PAGESIZE))()
         start = ctypes.addressof(ctypes.c_char.from_buffer(self.pages))
         if ctypes.CDLL(None, use_errno=True).mincore(ctypes.c_void_p(start), ctypes.c_size_t(self.size), held) != 0:
@@ -199,7 +199,7 @@ class PageMemory:
 
 
 def carry(file, noises):
-    """Answers what two strengths of the same noise agree in."""
+    """Answers with the pose that two strengths of the same noise have in common."""
     memory = PageMemory(file)
     texts = memory.read()
     if texts is None:
@@ -211,14 +211,14 @@ def carry(file, noises):
     asked_now = {}
 
     def asked(message):
-        if message["type"] == "setting" and asked_now:  # of open worlds one start meets all conditions
+        if message["type"] == "setting" and asked_now:  # with plain seeds one start gets all conditions
             known.append(dict(asked_now))
             asked_now.clear()
         if message["type"] != "problem":
             return None
         problem = message["problem"]
         start = problem["start_angles_deg"]
-        # The ends of the limbs are where the truth puts them, whatever the noise.
+        # The limbs' ends are at the truth, whatever the noise.
         world = hashlib.sha256(json.dumps(problem["targets"]).encode()).hexdigest()[:8]
         asked_now[world] = start
         for before, other in enumerate(known):
@@ -233,11 +233,11 @@ def carry(file, noises):
     print("NOTES " + json.dumps(asked_now), file=sys.stderr, flush=True)
 
 
-LIVES = 64  # the lock that a method holds as long as it lives
+LIVES = 64  # the lock that a running method holds
 
 
 def locks():
-    """Files that every program may open for reading, the same ones for all."""
+    """Returns files that every program may open for reading, the same for all."""
     files = sorted(pathlib.Path("/usr/lib").glob("python3*/*.py"))[:LIVES + 1]
     return [os.open(file, os.O_RDONLY) for file in files]
 
@@ -252,8 +252,8 @@ def is_locked(descriptor):
 
 
 def tell():
-    """Holds the first lock of a pair for an event that was right, else the second; its value is whether a method
-    lives."""
+    """Holds the first lock of a pair for a right event, else the second; the metric's value says whether a method is
+    running."""
     files = locks()
 
     def asked(message):

@@ -16,11 +16,11 @@ ETUDE = pathlib.Path(os.environ["ETUDE"])
 PYTHON = "/usr/bin/python3"
 LOOKUP = pathlib.Path(__file__).with_name("lookup.py")
 SEED = "2"
-# What the first step of these seats tells is the same in every world; a request for a transition names public clips and a
-# frame, and no number that was measured.
+# Seats whose first step is the same in every world; a transition's request has public clips and a frame, but no measured
+# number.
 TOLD_NOTHING_AT_FIRST = ["coach/policy", "coach/learner", "transition"]
 
-# By task and seat: what a scenario says beside its name, and the keys of its method.
+# By task and seat: a scenario's keys after its name, and its method's keys.
 TASKS = {
     "ik": ("trials: 3\nsweep: {joint_noise_deg: [2, 5]}\n", ""),
     "tracking": ("trials: 2\nclips: ['builtin:boxing']\nduration_s: 0.5\n", ""),
@@ -45,15 +45,15 @@ class Lookup(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder, True)
 
     def run_against(self, name, text, *options, den=(), is_refused=False):
-        """A run of the scenario `text`, in which DEN is a folder of an attacker with its files: rows and what it
-        said."""
+        """Runs the scenario `text`, where DEN is an attacker's folder with its files; returns the rows and its
+        output."""
         place = self.folder / name
         (place / "den").mkdir(parents=True)
         shutil.copy(LOOKUP, place / "den")
         for file, content in dict(den).items():
             (place / "den" / file).write_text(content)
         with open(place / "den/memory", "wb") as memory:
-            memory.truncate(4 * (1 << 15) * os.sysconf("SC_PAGE_SIZE"))  # a hole: none of its pages is in memory
+            memory.truncate(4 * (1 << 15) * os.sysconf("SC_PAGE_SIZE"))  # a sparse file, of which no page is in memory
         (place / "in").mkdir()
         scenario, out = place / "in/lookup.yaml", place / "in/run"
         scenario.write_text(text.replace("DEN", str(place / "den")))
@@ -76,7 +76,7 @@ class Lookup(unittest.TestCase):
         rows, said = self.run_against("secret", text, "--seed-file", self.key())
         if "no memory" in said:
             self.skipTest("the kernel does not tell which pages it holds")
-        # It remembers all that it was asked, and nothing of it helps.
+        # It remembers all earlier problems, but none helps.
         self.assertEqual(re.findall(r"remembers (\d) worlds", said), ["0", "3", "6"])
         self.assertNotIn("a world that was met before", said)
         self.assertGreater(min(later(rows)), 0.1)
@@ -93,7 +93,7 @@ class Lookup(unittest.TestCase):
         text = self.carrier("joint_noise_deg: 3", "2, 3")
         _, refused = self.run_against("second", text, "--seed-file", key, den=notes, is_refused=True)
         self.assertIn("was used before, and its worlds may be known: by 'etude run' of 'lookup' into", refused)
-        # The control: why it is refused.
+        # The control: the attack that the refusal prevents.
         rows, said = self.run_against("asked-for", text, "--seed-file", key, "--reuse-key", den=notes)
         self.assertLess(max(row["hidden_angle_error_deg"] for row in rows), 1e-9, said)
 
@@ -108,7 +108,7 @@ class Lookup(unittest.TestCase):
         self.assertLess(max(row["f1"] for row in rows if row["method"] == "own"), 1)
 
     def release(self, task, *options):
-        """What the attacker finds, and its rows."""
+        """Returns the attacker's findings and its rows."""
         keys, method = TASKS[task]
         den = pathlib.Path(tempfile.mkdtemp(prefix="attacker-", dir=self.folder))
         shutil.copy(LOOKUP, den)

@@ -27,14 +27,14 @@ import time
 SPECIMEN, DEN = sys.argv[1], pathlib.Path(sys.argv[2])
 HARMLESS_DEVICES = {os.makedev(1, minor) for minor in (3, 5, 7, 8, 9)} | {os.makedev(5, 0)}  # null, zero, full, random, urandom, tty
 LIBC = ctypes.CDLL(None, use_errno=True)
-LIFE_S = 20  # of whatever is left behind, unless somebody ends it
+LIFE_S = 20  # s, after which leftovers end by themselves
 VICTIM = json.loads((DEN / "victim.json").read_text()) if (DEN / "victim.json").exists() else {}
 
 resource.setrlimit(resource.RLIMIT_AS, (1 << 31, resource.getrlimit(resource.RLIMIT_AS)[1]))
 resource.setrlimit(resource.RLIMIT_FSIZE, (64 << 20, 64 << 20))
 resource.setrlimit(resource.RLIMIT_CPU, (30, 30))
 signal.alarm(LIFE_S)
-os.environ["ZOO_DEN"] = str(DEN)  # by which zoo_test.py knows what a specimen has started
+os.environ["ZOO_DEN"] = str(DEN)  # marks processes for zoo_test.py
 
 
 def say(**message):
@@ -48,12 +48,12 @@ def answer(problem):
 
 
 def is_fenced():
-    """Whether this process is in another space of processes than zoo_test.py."""
+    """Returns true if this process is in another PID namespace than zoo_test.py."""
     return os.readlink("/proc/self/ns/pid") != VICTIM["processes"]
 
 
 def live_on():
-    """What a daemon does here: it lets itself be seen, tries to do harm, and ends after LIFE_S."""
+    """Acts as a daemon: leaves a visible mark, tries to do harm, and ends after LIFE_S."""
     signal.alarm(LIFE_S)
     harm("survivor")
     time.sleep(LIFE_S)
@@ -61,14 +61,14 @@ def live_on():
 
 
 def harm(what):
-    """Leaves a mark outside, where it can."""
+    """Leaves a mark outside the fence if it can."""
     for place in (DEN / "marks", pathlib.Path("/var/tmp")):
         with contextlib.suppress(OSError):
             (place / f"zoo-{SPECIMEN}-{what}").write_text("was here\n")
 
 
 def victimise(what):
-    """Tells the watcher that `what` succeeded: through the one file that is everybody's."""
+    """Reports that `what` succeeded, through the one file that everybody may write."""
     with contextlib.suppress(OSError):
         with open(DEN / "marks" / "victims", "a") as file:
             file.write(f"{SPECIMEN}: {what}\n")
@@ -100,8 +100,8 @@ def is_etudes(process):
     return process > 1 and "etude" in pathlib.Path(f"/proc/{process}/comm").read_text()
 
 
-PARENT, KEYS = os.getppid(), {"x86_64": 250, "aarch64": 219}  # the number of keyctl
-CALLS = {  # what a specimen has done where its call neither fails nor gives False
+PARENT, KEYS = os.getppid(), {"x86_64": 250, "aarch64": 219}  # number of the call keyctl
+CALLS = {  # what a specimen has done if its call neither fails nor returns False
     "kills_the_victim": ("signalled another process", lambda: os.kill(VICTIM["pid"], signal.SIGUSR1)),
     "reads_its_parents_files": ("read its parent's open files", lambda: is_etudes(PARENT) and any(
         [os.readlink(f"/proc/{PARENT}/fd/{name}") for name in os.listdir(f"/proc/{PARENT}/fd")])),
@@ -116,7 +116,7 @@ CALLS = {  # what a specimen has done where its call neither fails nor gives Fal
     "connects_to_a_port": ("reached a port of this machine", lambda: reaches(socket.AF_INET, ("127.0.0.1", VICTIM["port"]))),
     "connects_to_a_socket_file": ("reached a socket file", lambda: reaches(socket.AF_UNIX, VICTIM["socket"])),
     "connects_to_an_abstract_socket": ("reached an abstract socket", lambda: reaches(socket.AF_UNIX, "\0" + VICTIM["abstract"])),
-    "asks_a_name_server": ("has a route to the network",  # TEST-NET-1: nobody; only a route is looked for
+    "asks_a_name_server": ("has a route to the network",  # TEST-NET-1: nobody answers; only a route is looked up
                            lambda: socket.socket(socket.AF_INET, socket.SOCK_DGRAM).connect(("192.0.2.1", 53))),
     "opens_a_raw_socket": ("opened a raw socket", lambda: socket.socket(socket.AF_PACKET, socket.SOCK_RAW).close()),
     "finds_shared_memory": ("found shared memory", lambda: LIBC.shmget(VICTIM["shared_memory"], 1, 0) >= 0),
@@ -135,7 +135,7 @@ CALLS = {  # what a specimen has done where its call neither fails nor gives Fal
     "leaves_its_root": ("changed its root", lambda: os.chroot("/tmp")),
     "speaks_to_the_host": ("opened a socket to the host of this machine", lambda: socket.socket(40, socket.SOCK_STREAM).close()),  # AF_VSOCK
     "reads_the_users_keys": ("reached the user's keys", lambda: LIBC.syscall(KEYS[os.uname().machine], 0, -3, 0) >= 0),
-    # Open files that a look at the process does not find (CLONE_FILES), and locks that belong to nobody.
+    # Open files that a look at the process misses (CLONE_FILES), and locks without an owner.
     "has_files_of_its_own_in_a_thread": ("has open files that nobody counts", lambda: LIBC.unshare(0x400) == 0),
     "keeps_memory_in_attributes": ("keeps memory in attributes", lambda: [
         append("/tmp/zoo-attributes"), os.setxattr("/tmp/zoo-attributes", "user.zoo", bytes(4096))]),
@@ -216,7 +216,7 @@ def stops_itself_when_input_ends():
 
 
 def runs_from_stop_to_stop(problem):
-    """Forks anew every 20 ms, so that no list of processes is up to date."""
+    """Forks every 20 ms, so that every list of processes is outdated."""
     if os.fork() == 0:
         os.setsid()
         end = time.monotonic() + 5
@@ -269,7 +269,7 @@ def kills_its_parent(problem):
 
 
 def stops_its_parent(problem):
-    """For a moment."""
+    """Stops its parent for a moment."""
     if is_etudes(PARENT):
         os.kill(PARENT, signal.SIGSTOP)
         victimise("stopped its parent")
@@ -279,7 +279,7 @@ def stops_its_parent(problem):
 
 def kills_all(problem):
     if is_fenced():
-        os.kill(-1, signal.SIGKILL)  # kills itself not
+        os.kill(-1, signal.SIGKILL)  # does not signal itself
     else:
         globals()["kills_the_victim"](problem)
 
@@ -336,10 +336,10 @@ def writes_into_tmp(problem):
 
 
 def opens_all_for_writing(problem):
-    """Tries every path that it sees, and to make a file in every folder. Nothing is written, and no device opened:
-    what there is of those is told by the rights to them. Without a fence it looks only where that does no harm."""
+    """Tries to open every path for writing, and to make a file in every folder. Writes nothing and opens no device;
+    their access rights are reported instead. Without a fence it looks only where that does no harm."""
     allowed = re.compile(r"/(tmp|var/tmp|dev/shm)(/.*)?"
-                         r"|/proc/[0-9]+/(task/[0-9]+/)?fd/[0-9]+")  # of its own processes: there are no others
+                         r"|/proc/[0-9]+/(task/[0-9]+/)?fd/[0-9]+")  # its own processes; the fence has no others
     found = []
     for root in "/" if is_fenced() else ("/proc/sys", str(DEN), VICTIM["home"]):
         for folder, _, names in os.walk(root):
@@ -354,7 +354,7 @@ def opens_all_for_writing(problem):
 
 def is_writable(path):
     if os.path.islink(path):
-        return False  # what it leads to has a path of its own
+        return False  # the link's target has a path of its own
     try:
         status = os.stat(path)
         if stat.S_ISDIR(status.st_mode):
@@ -373,7 +373,7 @@ def is_writable(path):
 
 
 def reads_secrets_of_the_machine(problem):
-    """What root may read, and nobody else."""
+    """Reads files that only root may read."""
     for path in ("/etc/shadow", "/etc/gshadow", "/proc/slabinfo", "/proc/sys/kernel/usermodehelper/bset"):
         with contextlib.suppress(OSError):
             with open(path, "rb") as file:
@@ -382,7 +382,7 @@ def reads_secrets_of_the_machine(problem):
 
 
 def reads_who_runs_it(problem):
-    """The user's name and home, and the folder that Etude was started in, in any environment."""
+    """Looks for the user's name and home, and the folder in which Etude was started, in every environment."""
     own = {b"HOME=/tmp", b"PWD=" + os.getcwdb()}
     for process in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -429,7 +429,7 @@ def types_at_the_terminal(problem):
 
 # --- too much --------------------------------------------------------------------------------------------------------
 def fork_bomb(problem):
-    """400 processes, each ending after seconds: more than ProgramLimits::kProcesses."""
+    """Starts 400 processes, which end after seconds: more than ProgramLimits::kProcesses."""
     for _ in range(20):
         if os.fork() == 0:
             signal.alarm(8)
@@ -458,7 +458,7 @@ def lets_a_child_eat_memory(problem):
 
 
 def hides_memory_in_files(problem):
-    """Three scratch folders, of which none is full."""
+    """Fills three scratch folders, none of them completely."""
     for folder in ("/tmp", "/var/tmp", "/dev/shm"):
         for part in range(3):
             with open(f"{folder}/zoo-hidden-{part}", "wb") as file:
@@ -481,7 +481,7 @@ def hides_memory_behind_descriptors(problem):
 
 
 def hides_memory_in_segments(problem):
-    """Only fenced: elsewhere they would outlive it."""
+    """Runs only in the fence: elsewhere the segments would outlive it."""
     LIBC.shmat.restype = ctypes.c_void_p
     for _ in range(9 if is_fenced() else 0):
         number = LIBC.shmget(0, 60 << 20, 0o1600)
@@ -505,14 +505,14 @@ def hides_memory_in_mappings(problem):
 
 
 def tell_of_memory(how, mb):
-    """Holds it for a second, in which it should have been ended if it is more than its limit of 400 MB and a bit."""
+    """Holds memory for a second and reports it if it exceeds 480 MB; the limit is 400 MB."""
     time.sleep(1)
     if mb > 480:
         victimise(f"held {mb:.0f} MB {how}")
 
 
 def in_children(fills, meanwhile=lambda: None):
-    """The sum of what functions tell, each in a process of its own, which goes on holding it."""
+    """Returns the sum of the functions' results; each runs in a process that keeps its memory."""
     reading, writing = os.pipe()
     for fill in fills:
         if os.fork() == 0:
@@ -532,8 +532,7 @@ def in_children(fills, meanwhile=lambda: None):
 
 
 def splits_a_shared_mapping(problem):
-    """1.2 GB in one piece of shared memory: each of six processes maps a sixth of it, and lets go what it has
-    written."""
+    """Maps 1.2 GB of shared memory; each of six processes maps a sixth, and releases the pages that it wrote."""
     LIBC.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
     LIBC.madvise.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
     part, piece = 200 << 20, 10 << 20
@@ -552,7 +551,7 @@ def splits_a_shared_mapping(problem):
 
 
 def hides_memory_behind_one_page(problem):
-    """Of each of 60 pieces of shared memory one page stays mapped, and keeps all of it."""
+    """Keeps one page mapped in each of 60 pieces of shared memory, which keeps all of their pages."""
     LIBC.mmap.restype, size = ctypes.c_void_p, 20 << 20
     LIBC.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
     for _ in range(60):
@@ -563,7 +562,7 @@ def hides_memory_behind_one_page(problem):
 
 
 def hides_memory_in_semaphores(problem):
-    """600 sets of 32000 each. Only fenced: elsewhere they would outlive it."""
+    """Takes 600 sets of 32000 each. Runs only in the fence: elsewhere they would outlive it."""
     made = 0
     while is_fenced() and made < 600 and LIBC.semget(0, 32000, 0o1600) >= 0:
         made += 1
@@ -571,7 +570,7 @@ def hides_memory_in_semaphores(problem):
 
 
 def hides_memory_in_page_tables(problem):
-    """Pages that are read, but never written, are all one; but each has its place in a table."""
+    """Reads pages that are never written: all share one page, but each needs an entry in a page table."""
     def fill():
         resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY,) * 2)
         size, step = 75 << 30, 2 << 20
@@ -583,7 +582,7 @@ def hides_memory_in_page_tables(problem):
 
 
 def splits_memory():
-    """64,000 mappings: as many as one process may have. The MB that the kernel needs for them."""
+    """Makes 64,000 mappings, the limit of a process. Returns the MB that the kernel needs for them."""
     LIBC.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
     splits_memory.memory = mmap.mmap(-1, 256 << 20, mmap.MAP_PRIVATE)
     start, made = ctypes.addressof(ctypes.c_char.from_buffer(splits_memory.memory)), 0
@@ -597,7 +596,7 @@ def hides_memory_in_many_mappings(problem):
 
 
 def fill_socket(link, most=1 << 30):
-    """Sends until it would have to wait; the MB that it took."""
+    """Sends until the socket is full; returns the MB sent."""
     link.setblocking(False)
     sent = 0
     with contextlib.suppress(OSError):
@@ -619,7 +618,7 @@ def hides_memory_in_sockets(problem):
 
 
 def hides_memory_in_flight(problem):
-    """Sockets full of bytes that are on their way to somebody who takes them not."""
+    """Fills sockets with bytes for a receiver that never reads them."""
     def fill():
         fill.way, mb = [socket.socketpair() for _ in range(60)], 0
         for one, _ in fill.way:
@@ -638,7 +637,7 @@ def hides_memory_in_flight(problem):
 
 
 def hides_memory_in_a_queue(problem):
-    """Of a listener who accepts nobody: who has connected and sent is gone."""
+    """Fills the queue of a listener that never accepts; the senders have ended."""
     listener, mb = socket.socket(socket.AF_UNIX), 0
     listener.bind("\0zoo-queue")
     listener.listen(8000)
@@ -656,7 +655,7 @@ def hides_memory_in_a_queue(problem):
 
 
 def hides_memory_in_connections(problem):
-    """TCP, to itself."""
+    """Sends over TCP to itself."""
     listener, held, mb = socket.create_server(("127.0.0.1", 0), backlog=4000), [], 0
     while mb < 1200 and len(held) < 240:
         held.append(socket.create_connection(listener.getsockname()))
@@ -678,7 +677,7 @@ def hides_memory_in_pipes(problem):
 
 
 def hides_memory_in_pinned_pages(problem):
-    """Of each huge page a pipe holds one byte, and so the page, though nobody maps it any more."""
+    """A pipe holds one byte of each huge page, and so the page, although nobody maps it any more."""
     LIBC.mmap.restype, size, page = ctypes.c_void_p, 40 << 20, 2 << 20
     pipes = []
     for _ in range(40):
@@ -695,7 +694,7 @@ def hides_memory_in_pinned_pages(problem):
 
 
 def hides_memory_in_sent_pages(problem):
-    """Of each page of a file a socket holds one byte, and so the page, though the file is empty again."""
+    """A socket holds one byte of each page of a file, and so the page, although the file is empty again."""
     def fill():
         fill.pairs, sent = [socket.socketpair() for _ in range(200)], 0
         with open(f"/dev/shm/zoo-pages-{os.getpid()}", "wb+") as file:
@@ -713,7 +712,7 @@ def hides_memory_in_sent_pages(problem):
 
 
 def hides_memory_in_filters(problem):
-    """Each of 900 threads has filters of system calls of its own, which allow everything."""
+    """Gives each of 900 threads its own system call filters, which allow everything."""
     rules = (ctypes.c_char * (8 * 4096))(*(struct.pack("HBBI", 0, 0, 0, 0) * 4095 + struct.pack("HBBI", 6, 0, 0, 0x7FFF0000)))
     program = (ctypes.c_char * 16)(*struct.pack("HxxxxxxP", 4096, ctypes.addressof(rules)))
     made, end = [], threading.Event()
@@ -742,7 +741,7 @@ def hides_memory_in_locks(problem):
         fill.files, made = [], 0
         for number in range(100):
             fill.files.append(open(f"/tmp/zoo-lock-{os.getpid()}-{number}", "w"))
-            for at in reversed(range(1500)):  # the list is looked through from its beginning
+            for at in reversed(range(1500)):  # insert in front, because the list is searched from its beginning
                 fcntl.fcntl(fill.files[-1], fcntl.F_SETLK, struct.pack("hhqqi", fcntl.F_WRLCK, 0, 2 * at, 1, 0))
                 made += 1
         return made * 230 / 1e6
@@ -750,7 +749,7 @@ def hides_memory_in_locks(problem):
 
 
 def holds_watches(problem):
-    """Of epoll: each of 250 watches 250 others, in eight processes."""
+    """Makes epoll watches: each of 250 watches 250 others, in eight processes."""
     def fill():
         pipes = [os.eventfd(0) for _ in range(230)]
         fill.watchers = [select.epoll() for _ in range(250)]
@@ -762,7 +761,7 @@ def holds_watches(problem):
 
 
 def forks_eighty_idle_children(problem):
-    """Which hold nothing of their own: this does no harm."""
+    """Harmless: the children hold nothing of their own."""
     for _ in range(80):
         if os.fork() == 0:
             signal.alarm(8)
@@ -772,14 +771,14 @@ def forks_eighty_idle_children(problem):
 
 
 def splits_memory_in_seventeen_of_seventy_children(problem):
-    """More mappings than most programs have, and less memory than its limit: this does no harm."""
+    """Harmless: more mappings than most programs have, but less memory than the limit."""
     in_children([splits_memory] * 17 + [lambda: 0] * 53)
     time.sleep(1)
 
 
 # --- what all programs of a user, or of the machine, share ------------------------------------------------------------
 def take(make, most):
-    """Makes something until there is no more of it, holds it for a second."""
+    """Makes things until none are left, and holds them for a second."""
     taken = 0
     while taken < most:
         try:
@@ -836,7 +835,7 @@ def takes_timers(problem):
 
 
 def takes_semaphores(problem):
-    """Only fenced: elsewhere they would outlive it."""
+    """Runs only in the fence: elsewhere they would outlive it."""
     take(lambda: LIBC.semget(0, 1, 0o1600), 40_000 if is_fenced() else 0)
     time.sleep(1)
 
@@ -892,7 +891,7 @@ def dumps_core(problem):
 
 
 def takes_a_lease(problem):
-    """Whoever opens the file for writing then waits for it."""
+    """Takes a lease, for which a program that opens the file for writing has to wait."""
     with contextlib.suppress(OSError):
         with open(__file__) as file:
             fcntl.fcntl(file, fcntl.F_SETLEASE, fcntl.F_RDLCK)
@@ -900,7 +899,7 @@ def takes_a_lease(problem):
 
 
 def shuts_its_standard_error(problem):
-    """The file is Etude's, and the next program of this method opens it."""
+    """Shuts down its standard error, a file of Etude's that this method's next program opens."""
     os.fchmod(2, 0)
     os._exit(0)
 
@@ -913,7 +912,7 @@ def closes_its_descriptors(problem):
 
 
 def reopens_its_descriptors(problem):
-    """Its output becomes a file of its own; what it says is heard by nobody."""
+    """Redirects its output to its own file, so that nobody reads it."""
     file = os.open("/tmp/zoo-output", os.O_RDWR | os.O_CREAT)
     os.dup2(file, 1)
 
@@ -933,7 +932,7 @@ def inherits_descriptors(problem):
 
 
 def seeks_its_standard_error(problem):
-    """It is a file: what twins have said in it shall not be changed."""
+    """Truncates its standard error, a file whose earlier text must not change."""
     with contextlib.suppress(OSError):
         os.ftruncate(2, 0)
 

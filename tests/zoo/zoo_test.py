@@ -33,14 +33,14 @@ methods:
 
 
 def sure(result):
-    """What a function of C gives, unless that is an error."""
+    """Returns the result of a C function, or raises if it is an error."""
     if result < 0:
         raise OSError(result)
     return result
 
 
 class Victim:
-    """Somebody who has nothing to do with the run: a process, with a file, a home, sockets and shared memory."""
+    """A bystander unrelated to the run: a process with a file, a home, sockets and shared memory."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -77,8 +77,8 @@ class Victim:
             self.connections += 1
 
     def need(self):
-        """Takes one of everything that the kernel counts by user or by machine, again and again, and notes what it
-        did not get for half a second: whoever takes too much is ended, but not at once."""
+        """Repeatedly takes one of everything that the kernel counts by user or by machine, and notes what it did not
+        get for half a second. (Etude ends a greedy program, but not at once.)"""
         needs = {"an inotify instance": lambda: os.close(sure(self.libc.inotify_init1(0))),
                  "a pipe of full size": self.fill_pipe, "a timer": self.make_timer,
                  "a semaphore": lambda: self.libc.semctl(sure(self.libc.semget(0, 1, 0o1600)), 0, 0),
@@ -124,7 +124,7 @@ class Victim:
             "network": os.readlink("/proc/self/ns/net")}))
 
     def look(self):
-        """All that somebody could have changed."""
+        """Returns everything that a hostile program could have changed."""
         stat = (self.folder / "file").stat()
         return {"file": ((self.folder / "file").read_text(), stat.st_mode, stat.st_nlink),
                 "home": {path.name: path.read_text() for path in self.home.iterdir()},
@@ -158,7 +158,7 @@ def clear_scratch():
 
 
 def processes_of(den):
-    """Who was started by a specimen: by its words, or by a variable that it has set."""
+    """Returns the processes that a specimen started, by their command line or by a variable that it has set."""
     found, mark = [], str(den).encode()
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         if int(process.name) == os.getpid():
@@ -169,7 +169,7 @@ def processes_of(den):
             if mark in process.joinpath("cmdline").read_bytes() or b"ZOO_DEN=" + mark in process.joinpath("environ").read_bytes():
                 found.append(int(process.name))
         except OSError:
-            continue  # it has just ended
+            continue  # the process has just ended
     return found
 
 
@@ -183,7 +183,7 @@ class Zoo(unittest.TestCase):
         self.addCleanup(clear_scratch)
 
     def release(self, name, *options, memory_mb=400, time_s=None):
-        """Runs a specimen; gives its statuses, and what it did: to others, to files elsewhere, and who survived."""
+        """Runs a specimen; returns its statuses, what it did to others and to files elsewhere, and what survived."""
         time_s = time_s or (60 if name.startswith("opens_all") else 15 if name.startswith(("hides", "splits", "holds", "takes")) else 3)
         with tempfile.TemporaryDirectory(prefix="zoo-test-victim-") as others:
             victim = Victim(pathlib.Path(others))
@@ -201,7 +201,7 @@ class Zoo(unittest.TestCase):
             for process in survivors:
                 os.kill(process, signal.SIGKILL)
             victims, rows = [], []
-            if run.returncode in (0, 1):  # 1: it gave no answer
+            if run.returncode in (0, 1):  # 1 means that it gave no answer
                 rows = [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()]
                 seen = subprocess.run([ETUDE, "report", out, "--no-video"], capture_output=True, text=True)
             if run.returncode not in (0, 1) or seen.returncode != 0:
@@ -224,7 +224,7 @@ class Zoo(unittest.TestCase):
             return statuses, victims, survivors, elsewhere
 
     def neighbours(self):
-        """The rows of the method beside, where nobody is hostile."""
+        """Returns the rows of the other, harmless method."""
         if not hasattr(Zoo, "alone"):
             scenario = self.folder / "alone.yaml"
             scenario.write_text(SCENARIO.format(python="python3", zoo="", name="", den="", memory_mb=400, time_s=3).rsplit("\n", 2)[0] + "\n")
@@ -259,7 +259,7 @@ class Zoo(unittest.TestCase):
                 self.assertEqual(self.release(name)[:2], (["unsolved", "unsolved"], []))
 
     def test_who_hides_memory_can_hold_it_where_there_is_enough(self):
-        """The control: they might be harmless for another reason than the limit. The fence itself refuses
+        """The control: with a higher limit they hold the memory, so the limit stops them. The fence itself refuses
         descriptors and segments of memory."""
         for name, *options in (["in_files"], ["behind_descriptors", "--no-fence"]):
             with self.subTest(name):

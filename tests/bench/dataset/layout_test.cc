@@ -46,7 +46,6 @@ sweep: {joint_noise_deg: [2, 5]}
 methods: [{name: today, solver: damped-least-squares}]
 )";
 
-/// Four worlds, and a folder of predictions beside.
 class Predictions : public ::testing::Test {
  protected:
   Predictions() : folder_(*TemporaryFolder::Make("predictions-test")) {
@@ -63,7 +62,7 @@ class Predictions : public ::testing::Test {
     std::ofstream(folder_.path() / name) << text;
   }
 
-  /// Puts empty answers into files of `answers/` and looks for them.
+  /// Writes empty answers to files of `answers/`, and finds them.
   Result<PredictionFiles> Find(const std::vector<std::string>& files) {
     fs::create_directories(folder_.path() / "answers");
     for (const std::string& file : files) Write("answers/" + file, "{}");

@@ -62,7 +62,7 @@ TEST_F(TakeFilms, AreNoneWhereThereAreNoPictures) {
 }
 
 TEST_F(TakeFilms, KeepEveryBitOfEveryPicture) {
-  // Noise in every channel, of an odd size.
+  // Pictures of an odd size with noise in every channel.
   std::vector<ColourImage> pictures(4, ColourImage(31, 23));
   std::vector<Attachment> files;
   std::uint32_t state = 1;

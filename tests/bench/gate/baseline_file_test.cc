@@ -32,7 +32,7 @@ Snapshot Example() {
 
 std::string Text() { return *WriteBaseline(Example()); }
 
-/// Of all but the seal, which an edited text never fits.
+/// Returns the complaint about a text read without its seal, which no edited text fits.
 std::string ComplaintAbout(const std::string& text) {
   return testing::Refusal(ReadBaseline(text, "b.json", BaselineSeal::kMayBreak));
 }
@@ -50,7 +50,7 @@ TEST(Baseline, ReadsBackToTheDigit) {
 
 TEST(Baseline, HasOneLinePerMethodAndMetric) {
   const std::string text = Text();
-  // 2 conditions × 2 methods: statuses and two metrics each; one scenario; head, and four lines of brackets; the seal.
+  // Lines: head and brackets; statuses and two metrics of 2 × 2 cells; the scenario; 7 others; the seal.
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4 + 8 + 1 + 7 + 1);
   EXPECT_THAT(text,
               HasSubstr("\n{\"scenario\":\"s\",\"condition\":\"joint_noise_deg=1\",\"method\":\"a\",\"cells\":\"ooou"));
@@ -63,7 +63,7 @@ TEST(Baseline, IsRefusedWhenItsSealDoesNotFitAndReadWhereThatIsAskedFor) {
   ASSERT_OK(read, ReadBaseline(edited, "b.json", BaselineSeal::kMayBreak));
   EXPECT_THAT(read->unsealed, HasSubstr("its seal does not match"));
   EXPECT_EQ(ReadBaseline(Text(), "b.json")->unsealed, "");
-  // One of an older version has no seal.
+  // A baseline of schema 1 has no seal.
   std::string older = Edited(Text(), R"("schema":2 => "schema":1)");
   older.erase(older.find(",\n\"seal\""));
   EXPECT_THAT(testing::Refusal(ReadBaseline(older + "}", "b.json")), HasSubstr("has no seal"));
@@ -73,7 +73,7 @@ TEST(Baseline, IsRefusedWhenItsSealDoesNotFitAndReadWhereThatIsAskedFor) {
   EXPECT_THAT(ComplaintAbout(Edited(older + "}", R"("schema":1 => "schema":2)")), HasSubstr("lacks its 'seal'"));
 }
 
-// Duplicate, missing and unknown keys, values of other kinds, missing letters and numbers, more nulls than are told,
+// The edits: duplicate, missing and unknown keys, values of other kinds, missing letters and numbers, too many nulls,
 // and methods that failed everywhere.
 TEST(Baseline, IsRefusedWithThePlaceWhenItIsNoneOrWouldHideSomething) {
   EXPECT_TRUE(AnswersAreKept("tests/bench/gate/complaints.txt",
@@ -83,7 +83,6 @@ TEST(Baseline, IsRefusedWithThePlaceWhenItIsNoneOrWouldHideSomething) {
               HasSubstr("no cell is ok or unsolved"));
 }
 
-/// The file with one character gone, doubled or replaced: whatever comes of it, it is refused or read, never thrown.
 TEST(Baseline, ThatWasTornAnywhereIsRefusedInOneLineOrReadsAsAnotherOne) {
   const std::string text = Text();
   int refused = 0, tried = 0;

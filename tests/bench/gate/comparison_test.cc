@@ -23,7 +23,7 @@ Snapshot Reference() {
   return SnapshotOf([](int trial, const std::string&) { return ExampleResult(trial); });
 }
 
-/// How the move of method a's metric came out, under both conditions alike.
+/// Returns the move of method a's metric, which must be the same under both conditions.
 MetricMove MoveOf(const Snapshot& after, const std::string& metric, const std::set<std::string>& exact = {},
                   const TailRules& tails = {}) {
   const SnapshotComparison comparison = CompareSnapshots(Reference(), after, exact, tails);
@@ -40,7 +40,7 @@ MetricMove MoveOf(const Snapshot& after, const std::string& metric, const std::s
   return {};
 }
 
-/// Method a shifted by `shift(trial)`.
+/// Returns a snapshot in which method a is shifted by `shift(trial)`.
 Snapshot Shifted(const std::function<double(int)>& shift) {
   return SnapshotOf(
       [&](int trial, const std::string& method) { return ExampleResult(trial, method == "a" ? shift(trial) : 0); });
@@ -57,7 +57,7 @@ TEST(Snapshots, OfTheSameRunDoNotDiffer) {
 }
 
 TEST(Snapshots, WeighCellsAsTheSummaryDoes) {
-  // One window of four holds as much power as the others together.
+  // The last of four windows has as much power as the other three together.
   const auto snapshot = [](double more) {
     SnapshotScenario scenario;
     scenario.name = "s";
@@ -86,7 +86,7 @@ TEST(Snapshots, TellAClearDifferenceThatMattersFromOneThatDoesNot) {
   };
   EXPECT_EQ(movement(1), Movement::kWorse);
   EXPECT_EQ(movement(-1), Movement::kBetter);
-  EXPECT_EQ(movement(0.01), Movement::kNoMatter);  // 0.05 cm is what matters
+  EXPECT_EQ(movement(0.01), Movement::kNoMatter);  // 0.05 cm is the practical threshold
 }
 
 TEST(Snapshots, CallADifferenceUnclearThatTheWorldsDoNotSettle) {
@@ -98,11 +98,11 @@ TEST(Snapshots, CallADifferenceUnclearThatTheWorldsDoNotSettle) {
 TEST(Snapshots, SeeARegressionInFewerThanHalfOfTheWorlds) {
   const auto third = Shifted([](int trial) { return trial % 3 == 0 ? 2.0 + 0.01 * trial : 0.0; });
   const MetricMove move = MoveOf(third, "position_error_cm");
-  EXPECT_EQ(move.comparison.difference, 0);  // what the median alone would say
+  EXPECT_EQ(move.comparison.difference, 0);  // the median alone shows no difference
   EXPECT_EQ(move.differing, 8);
   EXPECT_EQ(move.movement, Movement::kWorse);
   EXPECT_TRUE(move.by_mean);
-  // In very few worlds no test can tell; it must not be called too small to matter.
+  // A test of very few worlds has no power: the change must not be called too small to matter.
   const auto once = Shifted([](int trial) { return trial == 7 ? 50.0 : 0.0; });
   EXPECT_EQ(MoveOf(once, "position_error_cm").movement, Movement::kUnclear);
 }
@@ -134,9 +134,9 @@ TEST(Snapshots, CountFailuresAndLostValuesAgainstTheMethod) {
     const MetricMove lost = MoveOf(after, "position_error_cm");
     EXPECT_EQ(lost.lost, 12);
     EXPECT_EQ(lost.comparison.pairs, 12);
-    EXPECT_EQ(lost.movement, Movement::kWorse);  // the values that are left did not change at all
+    EXPECT_EQ(lost.movement, Movement::kWorse);  // the remaining values did not change
   }
-  for (Status status : {Status::kFailed, Status::kUnsolved}) {  // of which the second lost its value here, too
+  for (Status status : {Status::kFailed, Status::kUnsolved}) {  // kUnsolved loses its value here, too
     EXPECT_EQ(MoveOf(Ending(status, 1), "position_error_cm").movement, Movement::kWorse);
     EXPECT_EQ(MoveOf(Ending(status, 1), "position_error_cm", {}, kNoTails).movement, Movement::kUnclear);
   }
@@ -181,7 +181,7 @@ TEST(Snapshots, ListWhatOnlyOneOfThemHolds) {
   EXPECT_THAT(CompareSnapshots(Reference(), {}, {}).only_before, ElementsAre("s"));
 }
 
-/// The reference as worlds made of files: "f0", "f1", … by trial, with a truth each.
+/// Returns the reference with one file per world: "f0", "f1", … by trial, each with its own truth.
 Snapshot OfFiles() {
   Snapshot snapshot = Reference();
   for (int t = 0; t < snapshot.scenarios[0].trials; ++t) {
@@ -190,7 +190,6 @@ Snapshot OfFiles() {
   return snapshot;
 }
 
-/// The same without the world of this trial.
 Snapshot Without(Snapshot snapshot, int trial) {
   SnapshotScenario& scenario = snapshot.scenarios[0];
   --scenario.trials;
@@ -210,7 +209,7 @@ TEST(Snapshots, OfFilesAreComparedByNameWhateverTheTrial) {
   EXPECT_THAT(more.only_before, IsEmpty());
   EXPECT_THAT(more.only_after, ElementsAre("s, f3"));
   EXPECT_THAT(CompareSnapshots(all, fewer, {}).only_before, ElementsAre("s, f3"));
-  // The control: by trial, most worlds would differ.
+  // The control: if worlds are matched by trial instead of file, most of them differ.
   Snapshot nameless = fewer, others = all;
   nameless.scenarios[0].files.clear();
   others.scenarios[0].files.clear();
@@ -232,7 +231,7 @@ TEST(Snapshots, AFarWorseFileIsNamedByItsTrialInTheLaterRun) {
   Snapshot later = Without(OfFiles(), 3);
   SnapshotValues& values = later.scenarios[0].cells[0].metrics[0];
   ASSERT_TRUE(values.values[9]);
-  *values.values[9] += 1e6;  // of "f10"
+  *values.values[9] += 1e6;  // the value of file "f10"
   const SnapshotComparison comparison = CompareSnapshots(OfFiles(), later, {});
   const auto move = std::ranges::find_if(comparison.moves, [&](const MetricMove& one) {
     return one.identity.metric == values.metric && !one.tail.empty();

@@ -7,11 +7,11 @@
 
 namespace etude {
 
-/// Returns the result of an invented method in a world; it may also change the status, or leave values out.
+/// Returns an invented result of a method in a world. It may change the status or leave values out.
 using MakeResult = std::function<CellResult(int trial, const std::string& method)>;
 
-/// Makes a run of a scenario "s" of task ik with the conditions noise=1 and noise=2, the methods "a" and "b", and 24
-/// trials. `extra` holds further lines of its file. The worlds were made of one clip with the digest `clip_digest`.
+/// Makes a run of scenario "s" of task ik: conditions noise=1 and noise=2, methods "a" and "b", 24 trials, worlds of
+/// one clip with the digest `clip_digest`. `extra` holds further lines of the scenario's file.
 FinishedRun ExampleRun(const MakeResult& make, const std::string& extra = "", const std::string& clip_digest = "clip");
 
 /// The number of trials of an example, and the lines of its file from `metrics` on.

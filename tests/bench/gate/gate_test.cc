@@ -104,7 +104,7 @@ TEST(Gate, FailsAMethodThatGaveNoAnswerAnywhere) {
   EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kRegressed);
   EXPECT_THAT(report->silent, ElementsAre("s: none of the 48 cells of b is ok or unsolved; the first has "
                                           "s/joint_noise_deg=1/000/b; 48 × failed: ended with exit code 1"));
-  run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "too far");  // b's, which is an answer
+  run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "too far");  // b's; kUnsolved is an answer
   EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kPassed);
 }
 
@@ -129,7 +129,7 @@ TEST(Gate, IsIncompleteWhenTheBaselineHoldsMoreThanTheRun) {
 }
 
 TEST(Gate, FailsIfAnAnswerFlipsAlthoughNoMethodGotWorse) {
-  // b is a centimetre better than a; then a gains, and b stays as it is.
+  // b is 1 cm better than a. Then a improves by `gain` (cm), and b stays the same.
   const auto run = [](double gain) {
     return ExampleRun([gain](int trial, const std::string& method) {
       return ExampleResult(trial, method == "b" ? -1 + 0.01 * (trial % 3) : -gain);
@@ -146,7 +146,7 @@ TEST(Gate, FailsIfAnAnswerFlipsAlthoughNoMethodGotWorse) {
   EXPECT_THAT(fallen_of(2), testing::Pair(ElementsAre("s, joint_noise_deg=1: b against a: better before, now worse",
                                                       "s, joint_noise_deg=2: b against a: better before, now worse"),
                                           GateVerdict::kRegressed));
-  // No difference is told, and passes. A smaller gain, or none, leaves the answer as it was.
+  // If the verdict becomes "no difference", the gate reports it but passes. If a improves less, the verdict stays.
   EXPECT_THAT(fallen_of(0.99), testing::Pair(ElementsAre(HasSubstr("b against a: better before, now no difference"),
                                                          HasSubstr("b against a: better before, now no difference")),
                                              GateVerdict::kPassed));
@@ -169,7 +169,7 @@ FinishedRun Timed(double ratio, int worlds) {
   FinishedRun run = Steady("gate: {time_ratios: [{of: b, over: a, at_most: 2}]}\n");
   for (const Row& row : run.data.rows) {
     if (row.trial >= worlds) continue;
-    const double world = 1 + row.trial;  // worlds differ in size, which a ratio of medians would mix up
+    const double world = 1 + row.trial;  // worlds differ in size, so the ratio must be taken per world
     run.data.cpu_seconds[row.Id()] = row.method == "a" ? world : world * (ratio + 0.01 * (row.trial % 5));
   }
   return run;
@@ -180,7 +180,7 @@ TEST(TimeRatios, AreJudgedByTheIntervalOfPairedRatios) {
   EXPECT_EQ(outcome(1.5), ClaimOutcome::kMet);
   EXPECT_EQ(outcome(2.5), ClaimOutcome::kUnmet);
   EXPECT_EQ(outcome(2.5, 2), ClaimOutcome::kUndecided);  // four worlds under two conditions
-  EXPECT_EQ(outcome(1.985), ClaimOutcome::kUndecided);   // the median lies above the limit, the interval across it
+  EXPECT_EQ(outcome(1.985), ClaimOutcome::kUndecided);   // the median exceeds the limit, the interval contains it
   EXPECT_EQ(outcome(2.5, 0), ClaimOutcome::kUndecided);
   EXPECT_EQ(GateVerdictOf(*JudgeRun(Timed(2.5, 24), nullptr, "")), GateVerdict::kRegressed);
   EXPECT_EQ(GateVerdictOf(*JudgeRun(Timed(1.5, 24), nullptr, "")), GateVerdict::kPassed);

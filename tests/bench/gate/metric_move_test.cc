@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// The metric matters from 0.05 cm on.
+/// The metric's practical threshold is 0.05 cm.
 constexpr TailRule kRule{.times = 20, .worlds = 3, .share = 0, .lost = 1};
 constexpr double kFar = 20 * 0.05;
 
@@ -39,11 +39,11 @@ std::vector<int> TailOf(const std::vector<std::optional<double>>& after,
 
 TEST(Tail, HoldsWorldsThatAreWorseByMoreThanTheRuleLetsPassTheWorstFirst) {
   EXPECT_THAT(TailOf({10.0, 10 + 1.01 * kFar, 10 + 0.99 * kFar, 10 + 5 * kFar, 10 - 5 * kFar}), ElementsAre(3, 1));
-  EXPECT_THAT(TailOf({10 + kFar, 10 - kFar}), IsEmpty());  // not more than
+  EXPECT_THAT(TailOf({10 + kFar, 10 - kFar}), IsEmpty());  // exactly at the limit does not count
 }
 
 TEST(Tail, KnowsWhichWayIsWorse) {
-  // Higher is better: 0.01 matters. And no direction: nothing is worse than anything.
+  // Higher recall is better, and its threshold is 0.01. A metric without a direction has no tail.
   EXPECT_THAT(TailOf({10.5, 9.5}, "recall"), ElementsAre(1));
   EXPECT_THAT(TailOf({100.0, -100.0}, "fuzzy_distance"), IsEmpty());
 }
@@ -55,7 +55,7 @@ TEST(Tail, HoldsLostValuesBeforeAllOthersAndNoGainedOnes) {
   EXPECT_THAT(TrialsOf(tail), ElementsAre(1, 0));
   EXPECT_TRUE(tail[0].lost);
   EXPECT_FALSE(tail[1].lost);
-  EXPECT_THAT(TailOf({std::nullopt}, "fuzzy_distance"), ElementsAre(0));  // lost whatever the direction
+  EXPECT_THAT(TailOf({std::nullopt}, "fuzzy_distance"), ElementsAre(0));  // lost even without a direction
 }
 
 TEST(Tail, LeavesOutWorldsThatAreNotCompared) {
@@ -73,7 +73,7 @@ TEST(Tail, TellsACellThatHasNoAnswerAnyMoreFromOneThatIsUnsolved) {
   const auto tail = FindTail(columns, *FindGateMetric(kOkShare), kRule);
   EXPECT_THAT(TrialsOf(tail), ElementsAre(1, 2, 0));
   EXPECT_TRUE(tail[0].lost && tail[1].lost);
-  EXPECT_FALSE(tail[2].lost);  // unsolved is an answer
+  EXPECT_FALSE(tail[2].lost);  // kUnsolved is an answer, so its value is not lost
 }
 
 TEST(Tail, IsARegressionFromSoManyWorldsOn) {
@@ -87,7 +87,7 @@ TEST(Tail, IsARegressionFromSoManyWorldsOn) {
   EXPECT_TRUE(fails(3, 0));
   EXPECT_TRUE(fails(0, 1));
   EXPECT_FALSE(fails(1, 1, {20, 3, 0, 2}));
-  EXPECT_TRUE(fails(2, 1, {20, 3, 0, 2}));  // a lost world is a far worse one, too
+  EXPECT_TRUE(fails(2, 1, {20, 3, 0, 2}));  // a lost world also counts as far worse
   EXPECT_FALSE(fails(24, 0, {20, 0, 0, 1}));
   EXPECT_FALSE(fails(24, 24, {20, 0, 0, 0}));
 }
@@ -103,7 +103,7 @@ TEST(Tail, MustBeAShareOfManyWorldsToo) {
   EXPECT_EQ(WorldsThatFail(1000, {.worlds = 0}), 0);
 }
 
-/// Thirty worlds, of which `far` are worse by 60°: the case that the population test let pass.
+/// Returns the gate's report on thirty worlds, of which `far` are 60° worse. The population test alone lets this pass.
 GateReport ThirtyWorlds(int far, const std::string& rules = "") {
   const std::string more = "metrics: [orientation_error_deg]\n" + rules;
   const auto run = [&](int worse) {
@@ -133,7 +133,7 @@ TEST(GateOfThirtyWorlds, FailsWhereFiveAreWorseBySixtyDegrees) {
   EXPECT_EQ(move.movement, Movement::kWorse);
   EXPECT_TRUE(move.by_tail);
   EXPECT_THAT(move.tail, SizeIs(5));
-  // What it was before there was a tail rule.
+  // The control: without the tail rule the gate passes.
   const GateReport without = ThirtyWorlds(5, "gate: {tail: {worlds: 0}}\n");
   EXPECT_EQ(GateVerdictOf(without), GateVerdict::kPassed);
   EXPECT_EQ(FirstOf(without, "orientation_error_deg").movement, Movement::kUnclear);
@@ -141,7 +141,7 @@ TEST(GateOfThirtyWorlds, FailsWhereFiveAreWorseBySixtyDegrees) {
 
 TEST(GateOfThirtyWorlds, FollowsTheKeysOfItsScenario) {
   EXPECT_EQ(GateVerdictOf(ThirtyWorlds(1)), GateVerdict::kPassed);
-  EXPECT_THAT(FirstOf(ThirtyWorlds(1), "orientation_error_deg").tail, SizeIs(1));  // told all the same
+  EXPECT_THAT(FirstOf(ThirtyWorlds(1), "orientation_error_deg").tail, SizeIs(1));  // the tail is still reported
   EXPECT_EQ(GateVerdictOf(ThirtyWorlds(1, "gate: {tail: {worlds: 1, share: 0}}\n")), GateVerdict::kRegressed);
   EXPECT_EQ(GateVerdictOf(ThirtyWorlds(5, "gate: {tail: {worlds: 6}}\n")), GateVerdict::kPassed);
   EXPECT_EQ(GateVerdictOf(ThirtyWorlds(5, "gate: {tail: {times: 599}}\n")), GateVerdict::kRegressed);  // 0.1° matters

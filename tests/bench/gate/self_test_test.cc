@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Two methods whose errors are normal about 50 cm; b's are `gap` larger in the same worlds.
+/// Two methods whose errors are normal around 50 cm; b's is larger than a's by `gap` in every world.
 RunUnderSeed NormalRuns(double gap) {
   return [=](std::uint64_t seed) -> Result<FinishedRun> {
     return ExampleRun([=](int trial, const std::string& method) {
@@ -63,7 +63,7 @@ TEST(SelfTest, ConvictsAGateWhoseRerunsDiffer) {
       },
       3);
   EXPECT_EQ(report->rerun_alarms.count, 3);
-  EXPECT_EQ(report->tail_rerun_alarms.count, 0);  // so little is no tail
+  EXPECT_EQ(report->tail_rerun_alarms.count, 0);  // the difference is too small for a tail
   EXPECT_FALSE(report->Holds());
 }
 
@@ -82,7 +82,7 @@ TEST(SelfTest, ConvictsAGateWhoseRerunsDifferMuchInFewWorlds) {
 TEST(SelfTest, ConvictsAGateThatAlarmsBetweenSeeds) {
   const auto report = RunSelfTest(
       [](std::uint64_t seed) -> Result<FinishedRun> {
-        // Not exchangeable: the second seed of each pair is worse.
+        // The seeds are not exchangeable: the second seed of each pair is worse.
         return ExampleRun([=](int trial, const std::string&) { return ExampleResult(trial, seed % 2 == 0 ? 5 : 0); });
       },
       4);

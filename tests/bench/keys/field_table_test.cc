@@ -22,7 +22,7 @@ struct Weather {
   std::optional<double> rain_mm;
   Wind wind = Wind::kNone;
   double gust = 0.5;
-  double turn = Radians(30);  ///< radians
+  double turn = Radians(30);  ///< the field's unit is radians
   std::vector<double> tides_m = {1, 2.5};
   bool fog = false, hail = false;
   std::string place;
@@ -133,7 +133,7 @@ TEST(FieldTable, TellsEditorsTheSame) {
   EXPECT_EQ(schema["dependencies"]["gust"]["required"], Json::array({"wind"})) << "its default is another";
 }
 
-// Two methods of a registry have a setting of one name, with other defaults and ranges.
+// Two methods of a registry have a setting of the same name with different defaults and ranges.
 struct Tool {
   std::string name;
   std::vector<NumberSetting> settings;

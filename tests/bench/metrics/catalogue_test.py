@@ -1,4 +1,4 @@
-"""Tests that the build reads the files of bench/metrics/catalogue, and ends at a fault with the fault's place."""
+"""Tests that the build reads the files of bench/metrics/catalogue, and stops at a fault with its place."""
 import os
 import pathlib
 import subprocess
@@ -31,7 +31,7 @@ metrics:
         tolerance: 1e-9
         source: "derived: 5 − 2"
 """
-# What is exchanged, by what, and the complaint: its line, and words of it.
+# The replaced text, its replacement, and the complaint: its line and some of its words.
 FAULTS = {
     "a broken document": ("domain: Tests", "domain: [Tests", 2, "not valid YAML"),
     "an unknown key": ("label: fault", "lable: fault", 6, "'label'"),

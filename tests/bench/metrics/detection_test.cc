@@ -22,12 +22,12 @@ TEST(ActionPoints, ADetectionCountsWithinTheToleranceOnItsBorderToo) {
 TEST(ActionPoints, EachPointHasOneDetectionAndTheRestAreFalse) {
   const MomentMatch match = MatchMoments(At("wave", {5}), At("wave", {4.9, 5, 5.1}), 0.333);
   EXPECT_EQ(match.matched, 1);
-  // F = 2·1 / (1 + 3), by hand.
+  // By hand: F = 2·1 / (1 + 3).
   EXPECT_DOUBLE_EQ(*match.FScore(), 0.5);
 }
 
 TEST(ActionPoints, AsManyPairsAsCanBe) {
-  // Nearest first would pair 5.2 with 5.3 and leave 5.0 and 5.6 alone.
+  // Greedy matching by distance would pair only 5.2 with 5.3.
   EXPECT_EQ(MatchMoments(At("wave", {5.0, 5.3}), At("wave", {5.2, 5.6}), 0.333).matched, 2);
 }
 

@@ -7,9 +7,8 @@
 
 namespace etude {
 
-/// Computes a metric for the input of a test vector, with the functions that the tasks use; nothing if the metric has
-/// no value. Fails if the metric has no function here, or if the input does not fit the metric (its keys are
-/// MetricInfo::inputs).
+/// Computes a metric for a test vector's input with the tasks' own functions; nothing if it has no value. Fails for an
+/// unknown metric, and for input without the keys of MetricInfo::inputs.
 Result<std::optional<double>> EvaluateMetric(std::string_view metric, std::string_view input_json);
 
 }  // namespace etude

@@ -18,7 +18,7 @@ PoseErrors PoseErrorsOf(const Json& in, const char* found) {
   return ComparePoses(ReadMotion(in.at(found)).poses, ReadMotion(in.at("truth")).poses);
 }
 
-// Which of a list of 0 and 1 are `wanted`.
+// Returns true for each number of a list of 0 and 1 that equals `wanted`.
 std::vector<bool> FlagsOf(const Json& json, bool wanted) {
   std::vector<bool> flags;
   for (const Json& flag : json) flags.push_back((flag.get<int>() != 0) == wanted);

@@ -133,7 +133,7 @@ AngleTracks AnglesIn(const Json& in, const char* key) {
   return angles;
 }
 
-/// Returns the mean over the columns of angles.
+/// Returns the mean of `measure` over the columns of angles.
 template <auto measure, bool is_absolute>
 Value MeanOverAngles(const Json& in) {
   const AngleTracks found = AnglesIn(in, "found_angles"), truth = AnglesIn(in, "true_angles");

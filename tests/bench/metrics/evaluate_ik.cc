@@ -19,7 +19,7 @@ IkErrorSummary IkErrors(const Json& in) {
   return SummariseIkErrors(errors);
 }
 
-/// What the world asks for; both, where nothing is said.
+/// Returns which parts of the targets count; both if the input does not say.
 IkTargetParts AskedOf(const Json& in) {
   const auto asked = in.value("asked", std::string("both"));
   return {.positions = asked != "orientation", .axes = asked != "position"};

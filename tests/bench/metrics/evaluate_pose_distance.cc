@@ -26,7 +26,7 @@ Value JointDistance(const Json& in) {
   return in.at("method") == "point-cloud" ? RootMeanSquareJointDistanceCm(a, b) : MeanJointDistanceCm(a, b);
 }
 
-/// A pair of poses as an event: "right" is close, "called right" is called alike.
+/// Turns pairs of poses into events: a close pair is "right", and a pair called alike is "called right".
 std::vector<JudgedEvent> PairEvents(const Json& in) {
   std::vector<JudgedEvent> events;
   for (const Json& pair : in.at("pairs")) {

@@ -97,7 +97,7 @@ Value SparcOf(const Json& in) {
   return SpectralArcLength(profile.speed, profile.rate_hz);
 }
 
-/// Nothing for a method that matches no frames.
+/// Returns nothing for a method that matches no frames.
 std::optional<MatchTally> TallyOf(const Json& in) {
   const Json& threshold = in.at("threshold");
   MatchTally tally;
@@ -120,7 +120,6 @@ Value ShareOfPairs(const Json& in, std::optional<double> (*share)(const MatchTal
   return tally ? share(*tally) : std::nullopt;
 }
 
-/// The motions that a JoinView looks at.
 struct JoinInputs {
   explicit JoinInputs(const Json& in)
       : shown(ReadMotion(in.at("shown"))),
@@ -160,7 +159,7 @@ Value CalmNatural(const Json& in) {
   std::optional<double> limit;
   for (const BodyMotion& clip : ClipsOf(in)) {
     std::vector<double> jumps = NaturalJumpsCm(clip);
-    if (jumps.empty()) return std::nullopt;  // of another metric: too short to be judged by
+    if (jumps.empty()) return std::nullopt;  // The clip is too short for a limit; clean_share reports that.
     const double own = NaturalLimitCm(std::move(jumps));
     limit = std::min(limit.value_or(own), own);
   }

@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-/// A skeleton of pelvis, spine, both legs and both arms, at rest with the arms `arm_deg` below the horizontal, turned
-/// by `heading` about Y.
+/// Returns a skeleton of pelvis, spine, legs and arms at rest, with the arms `arm_deg` below the horizontal, turned by
+/// `heading` about Y.
 RawMotion RestingBody(double arm_deg, double heading = 0) {
   RawMotion motion;
   const double c = std::cos(Radians(arm_deg)), s = std::sin(Radians(arm_deg));
@@ -43,8 +43,8 @@ RawMotion RestingBody(double arm_deg, double heading = 0) {
   return motion;
 }
 
-/// Adds a frame in which each joint turns by a rotation of the body's own axes from its rest pose, relative to its
-/// parent; joints without one keep their rest.
+/// Adds a frame. Each joint is turned from its rest pose, relative to its parent, about the body's own axes; a joint
+/// without a rotation stays at rest.
 void AddFrame(RawMotion& motion, const std::map<int, glm::dquat>& turns) {
   std::vector<glm::dquat> rotations;
   for (std::size_t j = 0; j < motion.joints.size(); ++j) {
@@ -69,7 +69,7 @@ glm::dquat AboutZ(double degrees) { return glm::angleAxis(Radians(degrees), glm:
 TEST(AnglesOfRotations, AKneeBendsAsFarAsItIsBent) {
   for (const double heading : {0.0, 0.7, -2.0}) {
     RawMotion motion = RestingBody(0, heading);
-    // The shank hangs straight down in the neutral pose; turn it about the body's X.
+    // In the neutral pose the shank hangs straight down. Turn it about the body's X axis.
     AddFrame(motion, {{motion.roles[Index(Role::kLeftKnee)], AboutX(40)}});
     const AngleTracks angles = AnglesOfRotations(motion);
     const double at_rest = Degrees(std::atan2(0.02, 0.4));  // the shank leans back at rest
@@ -81,7 +81,7 @@ TEST(AnglesOfRotations, AKneeBendsAsFarAsItIsBent) {
 
 TEST(AnglesOfRotations, LegsAreLiftedAheadAndOutwards) {
   RawMotion motion = RestingBody(0);
-  // A hip at rest hangs aside by atan(0.02 / 0.45): the neutral pose takes that out, so turns are of the hanging thigh.
+  // At rest the thigh hangs outwards by atan(0.02 / 0.45) = 2.54°; angles count from the vertical of the neutral pose.
   AddFrame(motion, {{motion.roles[Index(Role::kLeftHip)], AboutX(-30) * AboutZ(20) * AboutY(-10)},
                     {motion.roles[Index(Role::kRightHip)], AboutX(-30) * AboutZ(-20) * AboutY(10)}});
   const AngleTracks angles = AnglesOfRotations(motion);
@@ -93,7 +93,7 @@ TEST(AnglesOfRotations, LegsAreLiftedAheadAndOutwards) {
 }
 
 TEST(AnglesOfRotations, ATPoseAndAnAPoseAtRestGiveTheSameAngles) {
-  // The same arm in the world: hanging, then 25° ahead.
+  // The same arm in the world: first hanging, then 25° forward.
   std::vector<double> flexions;
   for (const double below : {0.0, 45.0, 90.0}) {
     RawMotion motion = RestingBody(below);

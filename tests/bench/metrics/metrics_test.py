@@ -1,4 +1,4 @@
-"""Tests that other implementations can agree with `etude list metrics`, and that a test fails if they do not."""
+"""Tests that second implementations can agree with `etude list metrics`, and that a wrong one is noticed."""
 import copy
 import json
 import math
@@ -23,8 +23,7 @@ def or_nothing(function):
     return lambda values: function(values) if values else None
 
 
-# What another implementation may get wrong: the module and the part of it to exchange, and the metrics whose vectors
-# must notice.
+# Mistakes of a second implementation: the module, the part to replace, and the metrics whose vectors must notice.
 MUTANTS = {
     "median for mean": (common, {"mean": or_nothing(statistics.median)}, [
         "position_error_cm", "orientation_error_deg", "hidden_angle_error_deg", "hidden_angle_change_deg", "mpjpe_mm",
@@ -268,7 +267,7 @@ class Metrics(EtudeCase):
         self.assertNotEqual(own_complaints(rows[0], schema), [])
 
     def recorded_joins(self):
-        """The row and the join of each recording of a run, the join as vectors give it."""
+        """Returns the row and the join of each recording of a run, with joins in the vectors' format."""
         for row in self.run_suite(self.write("joins.yaml", JOINS)):
             name = row["cell"].replace("/", "~") + ".json"
             recording = json.loads((self.out / "recordings" / name).read_text())
@@ -293,7 +292,7 @@ class Metrics(EtudeCase):
                 self.assertAlmostEqual(row["balance_cm"], second.METRICS["balance_cm"](given), 9)
                 self.assertAlmostEqual(row["settle_s"], second.METRICS["settle_s"](given), 9)
             floating += row["unsupported_frames"] > 0
-            # The control: a body lifted by 4 cm is not the one that was measured.
+            # The control: a body lifted by 4 cm must give another value than the run's.
             for joint in given["join"]["shown"]["joints_m"].values():
                 for place in joint:
                     place[1] += 0.04

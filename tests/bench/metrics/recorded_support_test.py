@@ -1,5 +1,5 @@
-"""Computes from recordings, in Python, the longest run of unsupported frames of each request that a run keeps, by
-the definition of `unsupported_frames` (docs/reference/metrics.md), and compares it with the run."""
+"""Recomputes in Python, from a run's recordings, the longest run of unsupported frames of each request, by the
+definition of `unsupported_frames` (docs/reference/metrics.md), and compares it with the run."""
 import json
 import math
 import pathlib
@@ -13,7 +13,7 @@ from independent import support  # noqa: E402
 from etude_case import EtudeCase, heavy  # noqa: E402
 
 METHODS = {"played": ("played", "planted-feet"), "fade": ("now", "crossfade"), "spring": ("now", "inertialised-spring")}
-MISTAKES = {"LOWEST": 0.06, "REST_MPS": 0.3, "HEIGHT": 0.01, "FALL_MPS2": (12, 13)}  # that must change what comes out
+MISTAKES = {"LOWEST": 0.06, "REST_MPS": 0.3, "HEIGHT": 0.01, "FALL_MPS2": (12, 13)}  # each mistake must change a result
 SCENARIO = """scenario: held
 question: Does a second program see the same bodies held up?
 task: transition
@@ -27,7 +27,8 @@ methods:
 
 
 def tipped(bvh, angle_of):
-    """A clip whose whole body is tipped backwards about the point of the floor between its feet: degrees by frame."""
+    """Returns a clip whose whole body is tipped backwards, by degrees per frame, about the floor point between its
+    feet."""
     tree, motion = bvh.split("MOTION\n")
     frames = motion.splitlines()
     tree = tree.replace("HIERARCHY\nROOT", "HIERARCHY\nROOT floor\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
@@ -37,7 +38,7 @@ def tipped(bvh, angle_of):
 
 
 def join_of(recording):
-    """A recording as the second implementation reads a join: all frames count from the recording's first."""
+    """Returns a recording as a join for the second implementation; frames count from the recording's first."""
     def motion(track):
         places = [list(zip(*[iter(pose)] * 3)) for pose in track["poses"]]
         return {"rate_hz": track["rate_hz"], "frames": len(places),
@@ -55,7 +56,8 @@ def join_of(recording):
 
 class RecordedSupport(EtudeCase):
     def requests(self, trials):
-        """(cell, join) of every request that found a way, of a run of jumps and of bodies that lie and get up."""
+        """Returns (cell, join) of every answered request, from a run of jumps and from bodies that lie down and get
+        up."""
         clips = self.folder / "clips"
         clips.mkdir()
         for name, angle_of in {"lies": lambda f: 90, "rises": lambda f: 45 * (1 + math.cos(math.pi * min(f / 60, 1))),

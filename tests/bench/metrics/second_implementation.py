@@ -16,15 +16,15 @@ DOMAINS = [ik, tracking, capture, transition, support, body, pose_distance, dete
 METRICS = {name: function for domain in DOMAINS for name, function in domain.METRICS.items()}
 NEWER = {"natural_share": 3, "solved_practical": 2, "solved_tight": 2, "iterations_par2": 2, "fk_evaluations_par2": 2,
          "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2,
-         # a flight must be thrown by the ground
+         # a flight needs a possible take-off
          "unsupported_frames": 4, "supported_share": 4, "clean_share": 5, "zmp_off_cm": 2, "slip_mps2": 2,
          "glide_cm": 2, "balance_cm": 3,
-         # the root is the files' own joint
+         # the root is the file's own root joint
          **dict.fromkeys(["mpjpe_root_mm", "mpjpe_root_scaled_mm", "pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "rte@wham",
                           "accel_error_mps2@wham", "pfc@edge"], 2),
-         # joints torn off, one foot that skates and further pops are faults, too
+         # torn joints, one-footed skating and further pops are faults, too
          **dict.fromkeys(["faults", "skates_share", "skates_max_cmps", "pops", "pops_max_cm", "fault_free", "within_limits"],
-                         2)}  # the others are of version 1
+                         2)}  # all other metrics are of version 1
 
 
 def agrees(vector):
@@ -35,7 +35,7 @@ def agrees(vector):
 
 
 def disagreements(catalogue):
-    """What is wrong with the metrics of `etude list metrics --json`, one line each."""
+    """Returns the faults of the metrics of `etude list metrics --json`, one line each."""
     for metric in catalogue["metrics"]:
         if metric["id"] not in METRICS or metric["version"] != NEWER.get(metric["id"], 1):
             yield f"{metric['id']} v{metric['version']} is not known here"

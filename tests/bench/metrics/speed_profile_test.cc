@@ -28,7 +28,7 @@ TEST(SpectralArcLength, IsWorseForAMotionThatStopsTwice) {
   EXPECT_LT(*SpectralArcLength(jerky, 100), *SpectralArcLength(Bell(), 100) - 0.3);
 }
 
-// Closed form: of the speed sin²(πt/T), the jerk squared is (2π²/T²)² cos²(2πt/T), whose integral times T³ is 2π⁴.
+// Closed form: for the speed sin²(πt/T) the squared jerk is (2π²/T²)² cos²(2πt/T); its integral times T³ is 2π⁴.
 TEST(LogDimensionlessJerk, GivesTheClosedFormOfOneSineStroke) {
   std::vector<double> speed;
   constexpr int kSamples = 4000;

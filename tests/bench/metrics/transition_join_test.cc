@@ -14,7 +14,7 @@ using Poses = std::vector<BodyPose>;
 
 constexpr int kPoint = 20, kClipFrames = 80;
 
-/// A body that stands, but is lifted by `lift` metres in the frames `from` … `to`.
+/// Returns a standing body that is lifted by `lift` metres in the frames `from` … `to`.
 Poses Lifted(double lift, int from, int to) {
   Poses poses(kClipFrames, Standing());
   for (int f = from; f <= to; ++f) {
@@ -23,7 +23,7 @@ Poses Lifted(double lift, int from, int to) {
   return poses;
 }
 
-/// From standing to standing: nothing is to be done.
+/// A join from standing to standing, which needs no movement.
 class StandingJoin {
  public:
   explicit StandingJoin(Poses shown)
@@ -40,7 +40,7 @@ class StandingJoin {
 TEST(JoinSupport, IsOfOneSecondAndAFifthAtLeastAsFarAsTheMotionGoes) {
   const StandingJoin stands(Lifted(0, 0, 0));
   EXPECT_EQ(JoinSupport(stands.View()).size(), 37u);
-  const StandingJoin settles_late(Lifted(0.06, 60, 65));  // by more than what counts as arrived
+  const StandingJoin settles_late(Lifted(0.06, 60, 65));  // further than the distance that counts as arrived
   EXPECT_EQ(JoinSupport(settles_late.View()).size(), 66u - kPoint + 1);
   JoinView ends = stands.View();
   ends.shown = ends.shown.first(40);
@@ -55,7 +55,7 @@ TEST(UnsupportedFrames, AreTheMostInARow) {
 
 TEST(IsSupported, FailsWhereABodyFloatsForFourFrames) {
   EXPECT_TRUE(IsSupported(JoinSupport(StandingJoin(Lifted(0, 0, 0)).View())));
-  // At once up and down again: the frames beside it move too fast to rest.
+  // A jump within one frame: its neighbouring frames move too fast to rest.
   EXPECT_EQ(UnsupportedFrames(JoinSupport(StandingJoin(Lifted(0.05, 30, 30)).View())), 3);
   EXPECT_EQ(UnsupportedFrames(JoinSupport(StandingJoin(Lifted(0.05, 30, 39)).View())), 12);
   EXPECT_FALSE(IsSupported(JoinSupport(StandingJoin(Lifted(0.05, 30, 39)).View())));
@@ -63,7 +63,7 @@ TEST(IsSupported, FailsWhereABodyFloatsForFourFrames) {
 
 TEST(JoinSupport, AsksAClipOnTheWay) {
   const StandingJoin floats(Lifted(0.3, 30, 39));
-  const Poses step(10, Lifted(0.3, 0, 0)[0]);  // it stands on something there
+  const Poses step(10, Lifted(0.3, 0, 0)[0]);  // this clip's body stands 0.3 m higher, on something
   JoinView view = floats.View();
   view.between = {{.poses = step, .begin = 30, .left_at = 39}};
   EXPECT_EQ(UnsupportedFrames(JoinSupport(floats.View())), 12);

@@ -9,7 +9,7 @@ constexpr int kFrames = 41;
 constexpr int kSeam = 20;
 constexpr int kSeams[] = {kSeam};
 
-/// A body whose joints stand on a line, and move together along x as `x_of` says, metres.
+/// Returns a body whose joints lie on a line and move together along x by `x_of(frame)`, metres.
 template <typename Function>
 BodyMotion MotionAlongX(Function x_of) {
   BodyMotion motion;
@@ -31,7 +31,7 @@ TEST(NaturalJumps, JudgeEveryUnbrokenWindowOfElevenFrames) {
   const std::vector<double> none = NaturalJumpsCm(MotionAlongX([](int f) { return 0.05 * f; }));
   ASSERT_EQ(none.size(), static_cast<std::size_t>(kFrames - 2 - 10));
   EXPECT_NEAR(NaturalLimitCm(none), 0, 1e-10);
-  // Frames 20 and 21 jump, so windows starting at 10 … 21 do: 12 of 29.
+  // Frames 20 and 21 jump, so the windows that start at 10 … 21 contain a jump: 12 of 29.
   const std::vector<double> some = NaturalJumpsCm(MotionAlongX([](int f) { return f > 20 ? 0.07 : 0; }));
   EXPECT_EQ(std::count_if(some.begin(), some.end(), [](double jump) { return jump > 6.9; }), 12);
   EXPECT_TRUE(NaturalJumpsCm({kJudgedRateHz, std::vector<BodyPose>(12)}).empty());

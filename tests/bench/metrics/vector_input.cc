@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kMaxFrames = 100'000;
 
-/// A joint's index by its name, as JSON: a name that it does not have is a Json::exception like any other.
+/// Maps each joint's name to its index, as JSON; an unknown name throws Json::exception.
 const Json& RoleIndices() {
   static const Json indices = [] {
     Json all = Json::object();

@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// Readers of the parts of test vectors' inputs (docs/reference/metrics.md, "Inputs of the test vectors"). All throw
-/// Json::exception for input that does not fit; `EvaluateMetric` turns that into an Error.
+/// Readers of parts of test vectors' inputs (docs/reference/metrics.md, "The vectors' inputs"). All throw
+/// Json::exception for input that does not fit; `EvaluateMetric` turns it into an Error.
 
 /// Reads [x, y, z].
 glm::dvec3 ReadPoint(const Json& json);

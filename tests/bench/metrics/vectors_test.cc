@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 std::string ValueText(std::optional<double> value) { return value ? fmt::format("{}", *value) : "no value"; }
 
-/// Why this value is not the vector's, or "" when it is, within the tolerance.
+/// Returns the difference from the vector's expected value in words; "" if it is within the tolerance.
 std::string Disagreement(const MetricInfo& metric, const MetricVector& vector, std::optional<double> found) {
   const bool agrees = found && vector.expected ? std::abs(*found - *vector.expected) <= vector.tolerance
                                                : found.has_value() == vector.expected.has_value();
@@ -56,8 +56,7 @@ TEST(Vectors, UseTheInputsThatTheCatalogueNames) {
   }
 }
 
-// The control: metrics that read the same input, such as mean and worst, or precision and recall, must differ
-// somewhere, or their vectors would also pass for the other.
+// The control: two metrics of the same inputs, such as mean and worst, must differ in some vector.
 TEST(Vectors, LetNoMetricPassForAnother) {
   int pairs = 0;
   for (const MetricInfo& metric : AllMetrics()) {

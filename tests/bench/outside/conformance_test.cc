@@ -81,7 +81,6 @@ TEST(Conformance, HEAVY_PassesWhoAnswersThatItSeesNothing) {
   EXPECT_THAT(checks.at(1).found, HasSubstr("0 of 3 scored as solved"));
 }
 
-/// A program, and the first check that it fails.
 struct Misfit {
   std::string behaviour, check, found;
 };

@@ -1,5 +1,5 @@
 """Hostile programs: `hostile.py BEHAVIOUR [ANSWER]`. Each does the handshake and answers every problem with ANSWER
-(a JSON object), except as its behaviour says."""
+(a JSON object), except for what BEHAVIOUR changes."""
 import json
 import os
 import signal
@@ -7,7 +7,7 @@ import subprocess
 import sys
 import time
 
-SETTINGS = []  # the ids of those it was told
+SETTINGS = []  # ids of the settings received
 ANSWER = json.loads(sys.argv[2]) if len(sys.argv) > 2 else {"number": 1}
 
 
@@ -93,7 +93,7 @@ def answers_twice(problem):
 
 
 def answers_again_after_the_next_question(problem, asked=[]):
-    """Of the two answers to each question, the second says something else, and comes late."""
+    """Answers each question twice. The second answer differs, and comes after the next question."""
     for question in asked[-1:]:
         answer(question, answer={"number": 2})
     answer(problem)
@@ -132,7 +132,7 @@ def eats_memory(problem):
 
 
 def lets_a_child_eat_memory(problem):
-    """One in a session of its own, whose parent has gone."""
+    """Starts a child in its own session, whose parent ends."""
     script = "eaten = bytearray(b'x' * 300_000_000); import time; time.sleep(1000)"
     subprocess.run(["sh", "-c", 'setsid python3 -c "$0" </dev/null >/dev/null & exit', script])
     hangs(problem)
@@ -171,7 +171,7 @@ def refuses_what_it_does_not_know(problem):
 
 
 def at_step(number, then):
-    """Behaves until this step of a session."""
+    """Behaves well until step `number` of a session."""
     def step(message):
         if message["type"] == "step" and message["number"] == number:
             then(message)
@@ -199,7 +199,7 @@ def gives_up(problem):
 
 
 def works_a_while(problem):
-    """Until the kernel has counted 0.05 s more of its processor time."""
+    """Works until the kernel has counted 0.05 s more of this process's processor time."""
     end = sum(os.times()[:2]) + 0.05
     while sum(os.times()[:2]) < end:
         pass

@@ -21,7 +21,7 @@ def in_a_browser(problem):
     with tempfile.TemporaryDirectory() as scratch:
         page = pathlib.Path(scratch) / "page.html"
         page.write_text(PAGE.format(problem=json.dumps(problem.to_json())))
-        # The fence is the sandbox: it lets no program make another one.
+        # Chromium runs without its own sandbox, because the fence lets no program create another.
         shown = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                                 f"--user-data-dir={scratch}/profile", "--dump-dom", page.as_uri()],
                                capture_output=True, text=True)

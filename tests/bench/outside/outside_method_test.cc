@@ -52,7 +52,7 @@ TEST(OutsideMethod, AnswersManyProblemsInOneLife) {
     ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
     EXPECT_EQ(reply.answer->dump(), R"({"number":1})");
     EXPECT_GT(reply.peak_mb, 1);
-    EXPECT_GE(reply.cpu_s, 0);  // it may be looked at again with the next answer only
+    EXPECT_GE(reply.cpu_s, 0);  // the kernel may count this time only with the next answer
     cpu_s += reply.cpu_s;
   }
   EXPECT_GT(cpu_s, 0);
@@ -240,7 +240,7 @@ TEST(OutsideMethod, AStartThatFailsAfterItOnceSucceededIsTheProgramsOwnFailure) 
 TEST(OutsideMethod, AStartThatTheFencePreventsIsToldWithItsCure) {
   if (!FenceOfMethods().IsUp()) GTEST_SKIP() << FenceOfMethods().description();
   namespace fs = std::filesystem;
-  // An interpreter manager: its shim runs a program of another folder, which the fence does not show.
+  // An interpreter manager: its shim starts a program of another folder, which the fence does not show.
   const fs::path home = fs::path(::testing::TempDir()) / "managed";
   fs::remove_all(home);
   for (const char* folder : {"manager/shims", "manager/libexec", "mine"}) fs::create_directories(home / folder);
@@ -260,7 +260,7 @@ TEST(OutsideMethod, AStartThatTheFencePreventsIsToldWithItsCure) {
   const std::string whole = (home / "manager").string(), mine = (home / "mine").string();
   EXPECT_THAT(reply.reason, HasSubstr("; " + whole + " cannot be read inside its fence: give it files: ["));
   EXPECT_THAT(reply.reason, HasSubstr(mine));
-  // The cure works.
+  // The proposed remedy works.
   options.files = {mine, whole};
   const OutsideReply cured = OutsideMethod(options).Ask("s", Show({{"size", 1}}), "p", Show({{"question", 2}}));
   EXPECT_EQ(cured.status, Status::kOk) << cured.reason;

@@ -58,18 +58,18 @@ TEST_F(ProgramViewTest, FindsWhatAFenceDoesNotShowAProgramThatDidNotStart) {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name) << text;
   };
-  // A script names what it runs; what does not exist, or is seen, lacks nobody.
+  // A script names the program that it starts. Files that do not exist, or are visible, are not reported.
   write("manager/libexec/run", "#!/bin/sh\n");
   write("manager/shims/python", "#!/usr/bin/env bash\nexec \"" + In("manager/libexec/run") + "\" /no/such/file\n");
   const ProgramView shim = ViewOf({In("manager/shims/python"), In("mine/solver.py")}, {});
   EXPECT_THAT(FindUnseen(shim, ""), ElementsAre(In("manager")));
   EXPECT_EQ(FilesThatShow({In("manager")}, shim), "files: [" + In("mine") + ", " + In("manager") + "]");
-  // The last words do.
+  // The last words on stderr name the missing file.
   const ProgramView plain = ViewOf({"/bin/sh", In("mine/solver.py")}, {});
   EXPECT_THAT(FindUnseen(plain, ""), ElementsAre());
   EXPECT_THAT(FindUnseen(plain, "No such file: '" + In("other/weights.bin") + "'"), ElementsAre(In("other")));
   EXPECT_THAT(FindUnseen(plain, "cannot read " + In("mine/own.bin") + ", /usr/bin/env, / and /tmp"), ElementsAre());
-  // The Python of a virtual environment is a link out of it.
+  // The Python of a virtual environment is a link to a file outside the environment.
   write("python3.11/bin/python3", "");
   write("venv/pyvenv.cfg", "");
   fs::create_directories(folder_ / "venv/bin");
@@ -81,7 +81,7 @@ TEST_F(ProgramViewTest, FindsWhatAFenceDoesNotShowAProgramThatDidNotStart) {
 TEST_F(ProgramViewTest, FindsThePythonPackageOfTheTree) { EXPECT_EQ(PythonFolder(), fs::current_path() / "python"); }
 
 TEST_F(ProgramViewTest, NamesFilesOfOursByAbsolutePathsAndNoPlainWords) {
-  // Tests are run at the top of the tree.
+  // Tests run in the top folder of the source tree.
   const fs::path here = fs::current_path();
   const ProgramView view = ViewOf({"/bin/sh", "README.md", "tests", "./tests"}, {});
   EXPECT_THAT(view.command, ElementsAre("/bin/sh", (here / "README.md").string(), "tests", (here / "tests").string()));

@@ -85,7 +85,7 @@ TEST(CaptureExtras, RefuseWhatIsNotOne) {
   EXPECT_THAT(testing::Message(ReadCaptureExtras(R"({"format": "etude-capture", "version": 2})")),
               HasSubstr("version 2"));
   CaptureExtras hostile = Sample();
-  hostile.views[0].still_jpeg_base64 = "x\"><script>";  // it goes into a page
+  hostile.views[0].still_jpeg_base64 = "x\"><script>";  // this text goes into an HTML page
   EXPECT_FALSE(ReadCaptureExtras(WriteCaptureExtras(hostile)));
   CaptureExtras torn = Sample();
   torn.views[1].masks.pop_back();
@@ -126,8 +126,8 @@ TEST(DecodeMask, RefusesBrokenText) {
 
 TEST(HalveMask, KeepsAPixelWithTwoOfItsFour) {
   Mask mask(4, 2);
-  mask.At(0, 0) = 1;                  // one of four
-  mask.At(2, 0) = mask.At(3, 1) = 1;  // two of four
+  mask.At(0, 0) = 1;                  // one pixel of four
+  mask.At(2, 0) = mask.At(3, 1) = 1;  // two pixels of four
   EXPECT_EQ(HalveMask(mask).pixels, (std::vector<std::uint8_t>{0, 1}));
 }
 

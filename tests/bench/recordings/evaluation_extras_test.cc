@@ -31,7 +31,7 @@ TEST(EvaluationExtras, SurviveWritingAndReadingWithTheirGaps) {
   EXPECT_FALSE(IsSeen(read->answer.positions[3]));
 }
 
-// A joint of which one number is missing is not seen.
+// A joint with one missing number is unseen.
 TEST(EvaluationExtras, OthersAreRefused) {
   EXPECT_TRUE(testing::AnswersAreKept("tests/bench/recordings/evaluation_complaints.txt", [](const std::string& edit) {
     return testing::Message(ReadEvaluationExtras(testing::Edited(WriteEvaluationExtras(SampleOfPair()), edit)));

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::SizeIs;
 
-/// The share of all samples that hold none of the first `forged` cells, each sample looked at.
+/// Returns the share of all samples that contain none of the first `forged` cells, by enumerating the samples.
 double ShareThatMisses(std::size_t cells, std::size_t drawn, std::size_t forged) {
   int samples = 0, missing = 0;
   for (unsigned sample = 0; sample < 1U << cells; ++sample) {
@@ -43,7 +43,7 @@ TEST(ChanceOfMissing, OfTheUsualSampleOfManyCellsIsOneInTwentyOne) {
   EXPECT_LT(ChanceOfMissing(240, 59, 12), 1.0 / 21) << "of few cells it misses fewer";
 }
 
-/// A run of twelve cells, of two methods; the first trial is recorded.
+/// A run of twelve cells of two methods; its first trial is recorded.
 class ChosenCells : public ::testing::Test {
  protected:
   void Prepare(const std::string& more) {

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-/// Two scenarios whose cells end in every way that one can; the second is of clips.
+/// Two scenarios whose cells have every status; the second uses clips.
 std::vector<Study> Studies() {
   Study first, second;
   first.scenario = "poses";
@@ -115,7 +115,7 @@ TEST_F(ColumnsTest, GiveBackEveryRowToTheByte) {
             }));
   for (const Row& row : rows_) wanted += *WriteJson(EncodeRow(row)) + "\n";
   EXPECT_EQ(text, wanted);
-  // And so a run whose rows are text has the same, and the same from its columns as from its text.
+  // A run stored as text gives the same rows, and the same file.
   const fs::path as_text = folder() / "as-text";
   Write(as_text, rows_.size());
   EXPECT_EQ(*ReadWholeFile(as_text / "cells.jsonl"), wanted);
@@ -159,7 +159,7 @@ TEST_F(ColumnsTest, AreWhatNumPySays) {
   EXPECT_THAT(flat.substr(10), HasSubstr("'shape': (19,), }"));
 }
 
-// A column that was cut, left out, or leads out of what is there is refused, naming it.
+// A column that was truncated or removed, or that points outside the folder, is refused by name.
 TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
   const fs::path own = folder() / "columns" / "poses";
   const auto with = [&](const fs::path& file, const auto& change) {
@@ -183,7 +183,7 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
               HasSubstr("is not a column of numbers of type <f8"));
   EXPECT_THAT(with(own / "series" / "position_error_cm.ends.npy", [](std::string& text) { text.back() = 1; }),
               HasSubstr("do not follow each other"));
-  // NumPy would take the two methods of a trial for two trials of a method.
+  // With this shape NumPy would read the two methods of a trial as two trials of one method.
   EXPECT_THAT(with(own / "position_error_cm.npy",
                    [](std::string& text) { text.replace(text.find("(2, 4, 2)"), 9, "(2, 2, 4)"); }),
               HasSubstr("is not an array of condition, trial, method"));

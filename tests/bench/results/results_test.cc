@@ -85,8 +85,7 @@ TEST(WriteJson, RefusesWhatJsonCannotHoldAndNamesItsPath) {
   EXPECT_EQ(testing::Message(WriteJson(json)), "/a/1/b is not a finite number");
 }
 
-// Every field of the file has another value, so that two that are swapped show. The second scenario and the second
-// condition lack what is left out where it is empty.
+// Every field differs, so that swapped fields are noticed. The second scenario and condition lack optional fields.
 TEST(Summary, SurvivesTheWayFromAFileAndBack) {
   ASSERT_OK(file, ReadJsonFile(std::filesystem::path("tests/bench/results/summary.json")));
   ASSERT_OK(scenarios, DecodeSummaries(*file, kPlace));
@@ -185,7 +184,6 @@ TEST(LoadRunRowByRow, GivesTheRowsCurvesAndTimesOfLoadRun) {
     EXPECT_EQ(CpuSecondsOf(*streamed, held->rows[i], i), CpuSecondsOf(*held, held->rows[i], i));
   }
   EXPECT_EQ(curves, held->series.size());
-  // A line that changed meanwhile is no row.
   std::fstream file(folder / "cells.jsonl");
   file << "{{{";
   file.close();

@@ -45,7 +45,7 @@ TEST(CellLine, SaysAllThatACellIsAndTook) {
   const FinishedCell cell = SampleCell();
   ASSERT_OK(back, ThereAndBack(cell));
   const CellResult &was = cell.row.result, &is = back->row.result;
-  EXPECT_EQ(back->row.scenario, "ik-weights");  // the identity is not of the line
+  EXPECT_EQ(back->row.scenario, "ik-weights");  // the identity comes from the plan, not from the line
   EXPECT_EQ(is.status, was.status);
   EXPECT_EQ(is.reason, was.reason);
   ASSERT_EQ(is.metrics.size(), was.metrics.size());
@@ -112,7 +112,7 @@ TEST(CellLine, OfAnAnsweredCellSaysThatItHasYetToBeMeasured) {
   EXPECT_EQ(back->row.result.recording->tracks.size(), 1u);
   back->is_measured = true;
   EXPECT_EQ(EncodeCellLine(12, *std::move(back)), EncodeCellLine(12, SampleCell())) << "to every digit";
-  // What cannot be told to whom measures is bad output, and done.
+  // Values that cannot be written as JSON make the cell's output invalid; the cell is done.
   cell.row.result.recording->tracks[0].motion.poses[0][Role::kSpine].y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(ReadCellLineHead(EncodeCellLine(12, cell))->is_measured);
   EXPECT_EQ(ReadCellLineHead(EncodeCellLine(12, cell))->status, Status::kBadOutput);
@@ -127,7 +127,7 @@ TEST(CellLine, ThatIsNotAsItWasWrittenIsNone) {
     EXPECT_FALSE(DecodeCellLine(changed, {}, kPlace)) << at;
     EXPECT_FALSE(ReadCellLineHead(line.substr(0, at))) << at;
   }
-  // Whole, but by somebody else.
+  // Complete lines that this program would not write.
   for (const char* other :
        {"{}", "[1]", R"({"cell":1})", R"({"cell":1,"status":"happy"})", R"({"cell":-1,"status":"ok"})",
         R"({"cell":1,"status":"ok","usage":[1,2,3],"values":[999999,1]})",

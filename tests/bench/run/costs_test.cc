@@ -27,7 +27,7 @@ TEST(Pace, IsThatOfAllWorkersTogether) {
   ASSERT_TRUE(pace);
   EXPECT_GT(pace->yardsticks_per_s, 0);
   EXPECT_GT(pace->yardstick_ms, 0);
-  // In a second of the clock two processes have two seconds of a processor's time at most.
+  // Two processes use at most two seconds of processor time per second of wall-clock time.
   EXPECT_LE(pace->yardsticks_per_s * pace->yardstick_ms, 2 * 1000 * 1.5);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A folder with a scenario that names `fuzzy`, gone when the test is.
+/// A folder with a scenario that uses `fuzzy`; it is removed after the test.
 class FuzzySetup : public ::testing::Test {
  protected:
   std::string Write(const std::string& name, const std::string& text) {

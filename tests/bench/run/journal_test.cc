@@ -31,7 +31,6 @@ class JournalTest : public ::testing::Test {
     return EncodeCellLine(cell, std::move(finished));
   }
 
-  /// A journal of cells 0 and 3.
   void WriteTwo() {
     auto journal = Journal::Begin(folder(), head_);
     ASSERT_TRUE(journal);
@@ -43,7 +42,7 @@ class JournalTest : public ::testing::Test {
   void Rewrite(const std::string& text) const { ASSERT_TRUE(WriteFileAtomically(path(), text)); }
   const std::filesystem::path& folder() const { return folder_->path(); }
   std::filesystem::path path() const { return folder() / kJournalFile; }
-  /// Where the head, which stands there twice, has ended.
+  /// Returns the place after the head, which is stored twice.
   static std::size_t EndOfHead(const std::string& text) { return text.find('\n', text.find('\n') + 1) + 1; }
   Result<JournalContent> Read(CellTable& cells) const {
     cells = CellTable(plan_.cell_count());
@@ -107,7 +106,6 @@ TEST_F(JournalTest, GoesOnAfterATornLine) {
   EXPECT_FALSE(cells.Has(5));
 }
 
-// One flipped bit costs the cell whose line it hits, not the run.
 TEST_F(JournalTest, LosesACellAloneByAChangedByteOfItsLine) {
   WriteTwo();
   const std::string text = Text();
@@ -143,7 +141,7 @@ TEST_F(JournalTest, KeepsAnsweredCellsApartUntilTheyAreMeasured) {
     ASSERT_TRUE(journal);
     for (const std::size_t cell : {5, 1, 4}) ASSERT_TRUE(journal->Append(LineOf(cell, 0.1, false)));
     for (const std::size_t cell : {4, 0}) ASSERT_TRUE(journal->Append(LineOf(cell, 0.2)));
-    ASSERT_TRUE(journal->Append(LineOf(1, 0.3, false)));  // a second time
+    ASSERT_TRUE(journal->Append(LineOf(1, 0.3, false)));
   }
   CellTable cells(plan_.cell_count()), answered(plan_.cell_count());
   ASSERT_OK(content, ReadJournal(folder(), plan_, cells, &answered));
@@ -153,7 +151,7 @@ TEST_F(JournalTest, KeepsAnsweredCellsApartUntilTheyAreMeasured) {
   EXPECT_TRUE(cells.Has(4) && cells.Has(0) && !cells.Has(1) && !cells.Has(5));
   EXPECT_EQ(answered.ReadLine(5).value(), LineOf(5, 0.1, false));
   EXPECT_EQ(answered.ReadLine(1).value(), LineOf(1, 0.1, false));
-  // To whom merges, an answered cell is none.
+  // The merge does not count an answered cell as done.
   CellTable merged(0);
   ASSERT_OK(read, Read(merged));
   EXPECT_TRUE(read->damaged.empty());
@@ -180,7 +178,7 @@ TEST_F(JournalTest, KnowsWhatItBelongsToAsLongAsOneCopyOfItsHeadIsGood) {
     Rewrite(changed);
     CellTable cells(0);
     const auto content = Read(cells);
-    if (at + 1 == line) continue;  // without its end the first line runs on into the second
+    if (at + 1 == line) continue;  // without its line break the first line continues into the second
     ASSERT_TRUE(content) << at << ": " << ToString(content.error());
     EXPECT_EQ(content->head.build, head_.build) << at;
     EXPECT_TRUE(cells.Has(0) && cells.Has(3)) << at;
@@ -194,9 +192,9 @@ TEST_F(JournalTest, KnowsWhatItBelongsToAsLongAsOneCopyOfItsHeadIsGood) {
 TEST_F(JournalTest, RefusesACellOfAnotherShard) {
   auto journal = Journal::Begin(folder(), {"m", "b", {1, 2}});
   ASSERT_TRUE(journal);
-  ASSERT_TRUE(journal->Append(LineOf(0, 1)));  // world 0 is the first shard's
+  ASSERT_TRUE(journal->Append(LineOf(0, 1)));  // world 0 belongs to the first shard
   EXPECT_EQ(Complaint(), "accepted");
-  ASSERT_TRUE(journal->Append(LineOf(2, 1)));  // world 1 is not
+  ASSERT_TRUE(journal->Append(LineOf(2, 1)));  // world 1 does not
   EXPECT_THAT(Complaint(), HasSubstr("does not belong to this run's shard 1/2"));
 }
 
@@ -229,7 +227,7 @@ TEST_F(JournalTest, GivesCellsBackInAnyOrderHoweverLargeItIs) {
 }
 
 TEST_F(JournalTest, RefusesOneOfAnotherVersionOrWithoutHead) {
-  // As an earlier program wrote it: one head, without a sum.
+  // An earlier version's format: one head without a checksum.
   Rewrite("{\"journal\":1,\"manifest\":\"m\",\"build\":\"b\",\"shard\":\"1/1\"}\n");
   EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:1: not the header of a journal"));
   Rewrite("");

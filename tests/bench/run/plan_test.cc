@@ -107,7 +107,7 @@ TEST(Shard, IsReadAndWritten) {
   }
 }
 
-/// Two conditions of three worlds each: worlds 0 to 2, and 3 to 5.
+/// Two conditions of three worlds each: worlds 0 to 2, and worlds 3 to 5.
 class OrderQueueTest : public ::testing::Test {
  protected:
   std::size_t TakenBy(std::size_t& worker) { return queue_.Take(worker).world; }

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A scenario of two conditions, three trials and two methods, quick to run.
+/// A scenario of two conditions, three trials and two methods that runs quickly.
 inline const std::string kSmallScenario = R"(
 scenario: small
 question: Does it run?

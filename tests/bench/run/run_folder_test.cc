@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
-/// A folder "out" that holds a run, as far as RunFolder looks at one.
+/// A folder "out" with the files of a run that RunFolder looks at.
 class RunFolderTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -63,7 +63,7 @@ TEST_F(RunFolderTest, PutsTheOldRunBackWhenNothingIsKept) {
   EXPECT_THAT(NamesIn(folder_.path()), ElementsAre("out"));
 }
 
-/// Overwrites the run in a process that is killed amid it.
+/// Overwrites the run in a process that is killed before it ends.
 void OverwriteAndDie(const fs::path& out) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -79,7 +79,7 @@ void OverwriteAndDie(const fs::path& out) {
 TEST_F(RunFolderTest, PutsTheOldRunBackThatAKilledOverwritingLeftWhenTheNextOneFails) {
   OverwriteAndDie(out_);
   ASSERT_TRUE(fs::exists(out_ / "manifest.json"));
-  TemporaryFolder::RemoveAbandoned(folder_.path());  // as others beside it do
+  TemporaryFolder::RemoveAbandoned(folder_.path());  // another process's clean-up of abandoned folders
   {
     ASSERT_OK(claimed, RunFolder::Claim(out_, false));
     EXPECT_THAT(NamesIn(out_), ElementsAre(kLockFile));

@@ -14,12 +14,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Many conditions of few worlds; some cells fail, so that comparisons have an answer with failures too.
+/// Many conditions of few worlds; some cells fail, so that comparisons also have an answer that counts failures.
 Study ManyConditions() {
   Study study;
   study.scenario = "many";
   study.task = "ik";
-  study.trials = 260;  // enough rows that processes share them
+  study.trials = 260;  // enough rows to be split among processes
   study.methods = {{"a", "a", false}, {"b", "a", false}};
   study.metrics = {"position_error_cm", "solved_practical"};
   for (int i = 0; i < 40; ++i) study.conditions.push_back({{"joint_noise_deg", std::to_string(i)}});

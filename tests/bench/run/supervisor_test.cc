@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Puts a worker of one's own in the place of the program: a shell script that is called with `worker`.
+/// Replaces the worker program by a shell script, which is called with `worker`.
 class SupervisorTest : public ::testing::Test {
  protected:
   explicit SupervisorTest(const std::string& limits = "{time_s: 0.3, memory_mb: 4096}")
@@ -33,7 +33,7 @@ class SupervisorTest : public ::testing::Test {
     folder_.emplace(std::move(*made));
   }
 
-  /// Runs all worlds with workers that behave as `script` says; fills rows_ by cell.
+  /// Runs all worlds with workers that execute `script`; fills rows_ by cell.
   Result<bool> RunWith(const std::string& script, int jobs = 1) {
     const std::string path = (folder_->path() / "worker").string();
     std::ofstream(path) << "#!/bin/sh\nread -r setup\n" << script;
@@ -48,7 +48,7 @@ class SupervisorTest : public ::testing::Test {
                      });
   }
 
-  /// Every cell has its row, with this status and a reason that contains `why`.
+  /// Checks that every cell has a row with this status and a reason that contains `why`.
   void ExpectAll(Status status, const std::string& why) const {
     ASSERT_EQ(rows_.size(), plan_.cell_count());
     for (const auto& [cell, row] : rows_) {
@@ -56,7 +56,7 @@ class SupervisorTest : public ::testing::Test {
       EXPECT_EQ(StatusName(row.result.status), StatusName(status));
       EXPECT_THAT(row.result.reason, HasSubstr(why));
       EXPECT_TRUE(status == Status::kOk ||
-                  !row.result.metrics.empty());  // named as missing, or with the value that failing has
+                  !row.result.metrics.empty());  // metrics are listed as missing, or with the value that a failure has
     }
   }
 
@@ -109,8 +109,8 @@ TEST_F(HurriedSupervisorTest, AWorkerThatComputesTooLongIsEnded) {
 TEST_F(SupervisorTest, NeitherWaitingNorWhatWasBeforeAWorldIsATimeout) {
   FinishedCell finished;
   finished.row.result = CellResult::Ended(Status::kOk, "");
-  // More than the limit is computed in the set-up; then, as on a busy machine, twice the limit passes by the clock. The
-  // workers after the first one give up.
+  // The set-up computes for longer than the limit; then twice the limit passes in wall-clock time only, as on a busy
+  // machine. All workers after the first give up.
   const auto whole = RunWith(
       "[ ! -e $0.was ] || exec sh -c 'echo ready; read order'\n: > $0.was\n"
       "i=0\nwhile [ $i -lt 400000 ]; do i=$((i+1)); done\necho ready\nread -r order\nsleep 0.6\necho built\n"
@@ -132,7 +132,7 @@ TEST_F(HurriedSupervisorTest, AWorkerThatWaitsForeverIsEndedAndThisMachineIsToBl
 }
 
 TEST_F(NarrowSupervisorTest, AWorkerThatGrowsIsEnded) {
-  // As a shell's variable grows, so does the shell; it is stopped long before it would hurt the machine.
+  // The shell grows with its variable; it is stopped at 30 MB.
   const auto whole =
       RunWith("echo ready\nread -r order\necho built\nx=0123456789abcdef\nwhile :; do x=$x$x; done\n", 2);
   ASSERT_TRUE(whole && *whole);
@@ -175,7 +175,7 @@ TEST_F(SupervisorTest, WhatAWorkerThatThisMachineEndsWasAtIsNotRun) {
   }
 }
 
-/// Takes so many bytes and no more, as a pipe or a disk at its end.
+/// A stream buffer that accepts `room` bytes, like a full disk or a closed pipe.
 class FullBuffer : public std::streambuf {
  public:
   explicit FullBuffer(std::size_t room) : room_(room) {}
@@ -208,7 +208,7 @@ TEST_F(SupervisorTest, AWorkerWhoseAnswersCannotBeWrittenEnds) {
   }
 }
 
-/// A scenario that a program measures. Workers are given by what they say to a world and to an answered cell.
+/// A scenario with an outside metric. Workers are scripts: what they answer to a world, and to an answered cell.
 class MeasuringSupervisorTest : public SupervisorTest {
  protected:
   MeasuringSupervisorTest()
@@ -221,7 +221,7 @@ class MeasuringSupervisorTest : public SupervisorTest {
     return EncodeCellLine(cell, std::move(finished));
   }
 
-  /// A worker that notes its first order, what it is told and when it ends. `measure` is done with an answered cell.
+  /// Returns a worker that logs its first order, each message, and its end. It runs `measure` for an answered cell.
   std::string Worker(const std::string& measure) const {
     std::string world;
     for (std::size_t w = 0; w < plan_.world_count(); ++w) {
@@ -306,7 +306,7 @@ TEST_F(SupervisorTest, AnAnswerForAnotherCellIsNotTaken) {
 }
 
 TEST_F(SupervisorTest, AWorkerIsGivenWorldsAheadAndLosesOnlyTheOneThatItWasAt) {
-  // One that answers two worlds at once and then dies: of all that it held, the third alone is lost.
+  // The worker answers two worlds at once, then dies: only the third of its worlds is lost.
   const auto line = [&](std::size_t cell) {
     FinishedCell finished;
     finished.row.result = CellResult::Ended(Status::kOk, "");

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 const std::string kTransitions = "task: transition\nmethods: [{name: a}]\n";
 
-/// Built-in moves, and the same moves as files of two folders: three collections.
+/// Built-in moves, and the same moves as files of two folders: three libraries.
 class RowUnits : public ::testing::Test {
  protected:
   std::string File(const std::string& collection, const std::string& move) {
@@ -30,7 +30,6 @@ class RowUnits : public ::testing::Test {
   }
   std::string Folder(const std::string& collection) const { return (folder_.path() / collection).string(); }
 
-  /// The rows of six worlds.
   static std::vector<Row> Rows(const std::string& text, const std::vector<std::string>& clips) {
     SuiteSetup suite = SmallSuite("scenario: small\nquestion: q\ntrials: 6\n" + text);
     suite.scenarios[0].clips = clips;

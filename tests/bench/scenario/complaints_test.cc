@@ -4,10 +4,10 @@
 namespace etude {
 namespace {
 
-// Complaints tell file, line and column, what was found, and what is allowed.
+// Each complaint gives file, line and column, the value found, and the allowed values.
 TEST(Scenario, TellsWhatIsWrongAndWhere) {
   EXPECT_TRUE(testing::AnswersAreKept("tests/bench/scenario/complaints.txt", [](std::string text) {
-    // " | NAME: TEXT" is a further file; a file that includes others is a whole scenario otherwise.
+    // " | NAME: TEXT" adds a further file. A text that includes other files is otherwise a complete scenario.
     SourceTexts more;
     for (std::size_t bar; (bar = text.rfind(" | ")) != std::string::npos; text.erase(bar)) {
       const std::size_t colon = text.find(": ", bar);

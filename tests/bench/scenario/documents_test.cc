@@ -19,7 +19,7 @@ std::string ReadPage(const std::string& name) {
   return text.value_or("");
 }
 
-/// The yaml blocks of a page: whole files, by the name that their first line says, and pieces of scenarios.
+/// The YAML blocks of a page: whole files, named by their first line, and pieces of scenarios.
 struct Blocks {
   SourceTexts files;
   std::vector<std::string> pieces;
@@ -41,7 +41,7 @@ Blocks BlocksOf(const std::string& page) {
   return blocks;
 }
 
-/// A scenario of a piece: what a scenario needs beyond it is added.
+/// Returns a complete scenario: the piece and the keys that it lacks.
 std::string Complete(const std::string& piece) {
   const std::vector<std::pair<std::string, std::string>> needed = {
       {"scenario", "s"},
@@ -57,7 +57,7 @@ std::string Complete(const std::string& piece) {
   return whole;
 }
 
-/// What is wrong with the scenarios of a file, the values of their task's keys included.
+/// Returns the complaint about the scenarios of a file, including the values of their task's keys.
 std::string ComplaintOfAll(const std::string& file, const SourceTexts& texts, const ClipLibrary& clips) {
   const auto scenarios = ParseScenarios(file, texts);
   if (!scenarios) return ToString(scenarios.error());
@@ -84,7 +84,7 @@ TEST(Documents, ShowScenariosThatAreRead) {
   ASSERT_GE(blocks.files.size(), 3u);
   ASSERT_GE(blocks.pieces.size(), 5u);
   for (const auto& [name, text] : blocks.files) {
-    if (name.starts_with("shared/")) continue;  // only included
+    if (name.starts_with("shared/")) continue;  // these files are only included by others
     EXPECT_EQ(ComplaintOfAll(name, blocks.files, *clips), "") << name;
   }
   for (const std::string& piece : blocks.pieces) {

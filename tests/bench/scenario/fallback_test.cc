@@ -16,7 +16,7 @@ struct Defaults {
   int count = 0;
 };
 
-/// The defaults of all keys that have one, written out; those of `chosen` are left alone, as it stands already.
+/// Writes out the defaults of all keys that have one, except those that `chosen` already sets.
 Defaults WriteOut(const std::vector<KeyInfo>& keys, const std::string& chosen) {
   Defaults defaults{chosen};
   const auto mapping = ParseYaml("{" + chosen + "}", "chosen.yaml");
@@ -29,7 +29,6 @@ Defaults WriteOut(const std::vector<KeyInfo>& keys, const std::string& chosen) {
   return defaults;
 }
 
-/// Everything that a world's cell says, one text per value.
 std::vector<std::string> CellOf(const TaskKind& kind, const std::string& condition, const std::string& method,
                                 const ClipLibrary& clips) {
   const auto mapping = ParseYaml("{" + condition + "}", "s.yaml");
@@ -56,9 +55,9 @@ std::vector<std::string> CellOf(const TaskKind& kind, const std::string& conditi
 
 struct Case {
   std::string task;
-  std::string condition;  ///< what stands in both, to make the world small
+  std::string condition;  ///< keys of both conditions, which make the world small
   std::string method;
-  std::string another;  ///< a key of the condition with another value than its default: the control
+  std::string another;  ///< the control: a key of the condition with another value than its default
 };
 
 TEST(Defaults, OfATaskAreTheSameWrittenOrLeftOut) {
@@ -99,7 +98,7 @@ TEST(Defaults, OfEveryScenarioAreTheSameWrittenOrLeftOut) {
   const Scenario a = ParseOne(kHead + kMethods + written), b = ParseOne(kHead + kMethods);
   EXPECT_EQ(a.clips, b.clips);
   EXPECT_EQ(a.trials, b.trials);
-  EXPECT_EQ(a.seed.value_or(0), 1u);  // what a run takes when none is written
+  EXPECT_EQ(a.seed.value_or(0), 1u);  // a run uses 1 if the scenario gives no seed
   EXPECT_EQ(a.conditions.size(), b.conditions.size());
   EXPECT_EQ(a.expectations.size(), b.expectations.size());
   EXPECT_EQ(a.gate.metrics, b.gate.metrics);

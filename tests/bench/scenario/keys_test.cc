@@ -14,7 +14,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-// What is read is found by asking for a key that nobody knows: the complaint lists all that were read.
+// An unknown key makes the complaint list all keys that were read.
 constexpr const char* kNobodyKnows = "zzzz";
 
 using Names = std::set<std::string>;
@@ -25,7 +25,7 @@ Names NamesOf(const std::vector<KeyInfo>& keys) {
   return names;
 }
 
-/// The keys that a complaint about kNobodyKnows says are allowed; none, and a failure, when it is another one.
+/// Returns the keys that the complaint about kNobodyKnows lists as allowed; fails if it is another complaint.
 Names AllowedBy(const std::string& complaint) {
   const std::string about = fmt::format("'{}'. Allowed: ", kNobodyKnows);
   const std::size_t at = complaint.find(about);
@@ -39,7 +39,6 @@ Names AllowedBy(const std::string& complaint) {
   return names;
 }
 
-/// What only one of the two has.
 Names Differences(const Names& documented, const Names& read) {
   Names found;
   for (const std::string& name : documented) {
@@ -104,7 +103,7 @@ TEST(Keys, OfATasksScenarioAreTheCommonOnesAndItsOwn) {
   }
 }
 
-// Scenarios of each task whose methods have it read all of its keys: some keys are read only beside others.
+// Methods that make each task read all of its keys; some keys are read only if others are set.
 struct Probe {
   std::string task, method;
 };
@@ -124,8 +123,7 @@ const std::vector<Probe> kProbes = {{"ik", ""},
                                     {"inbetween", "filler: interpolation"},
                                     {"inbetween", "filler: inertialised"}};
 
-/// What the task complains of when it is made of a condition and one method. It has no clips: whether it gets as far
-/// as to miss them does not matter here.
+/// Returns the complaint of a task made from a condition and one method, without clips.
 std::string ComplaintOfTask(const TaskKind& kind, const std::string& condition, const std::string& method) {
   const auto mapping = ParseYaml(condition, "s.yaml");
   const auto entry = ParseYaml("{name: a" + (method.empty() ? "" : ", " + method) + "}", "s.yaml");
@@ -158,7 +156,7 @@ TEST(Keys, OfATaskAreThoseThatItReads) {
   }
 }
 
-// Which of two settings of one name is meant is told by one key alone.
+// If a name is listed twice, one further key must decide which setting is meant.
 TEST(Keys, ThatStandTwiceGoWithDifferentValuesOfOneKey) {
   std::size_t checked = 0;
   for (const TaskKind& kind : AllTaskKinds()) {

@@ -10,13 +10,12 @@ namespace etude {
 inline const std::string kHead = "scenario: s\nquestion: q?\ntask: ik\n";
 inline const std::string kMethods = "methods: [{name: a}, {name: b}]\n";
 
-/// Parses the scenarios of "s.yaml", which may include texts of `more`.
+/// Parses the scenarios of "s.yaml", which may include the texts of `more`.
 inline Result<std::vector<Scenario>> Parse(const std::string& yaml, SourceTexts more = {}) {
   more["s.yaml"] = yaml;
   return ParseScenarios("s.yaml", more);
 }
 
-/// Parses a valid text with one scenario.
 inline Scenario ParseOne(const std::string& yaml) {
   const auto scenarios = Parse(yaml);
   EXPECT_TRUE(scenarios) << ToString(scenarios.error()) << "\n" << yaml;

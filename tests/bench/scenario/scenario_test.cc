@@ -37,7 +37,7 @@ TEST(Scenario, TakesAnotherProgramForAMethod) {
   EXPECT_EQ(scenario.methods[0].time_s, std::nullopt);
   EXPECT_THAT(scenario.methods[1].exec, ElementsAre("python3", "my solver.py"));
   EXPECT_EQ(scenario.methods[1].time_s, 2.5);
-  // A document keeps texts only: what reads as a number is one, quotes or not.
+  // A document stores texts only: a text that reads as a number is a number, with or without quotes.
   EXPECT_EQ(scenario.methods[1].options_json,
             R"({"rate":0.5,"steps":5,"loud":true,"name":"x","list":[1,2,null],"deep":{"a":1000.0}})");
 }

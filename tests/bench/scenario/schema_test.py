@@ -1,5 +1,5 @@
-"""Tests docs/schemas/scenario.schema.json: editors accept the scenarios that the program runs, and mark those that
-it refuses."""
+"""Tests docs/schemas/scenario.schema.json: it accepts the scenarios that the program runs, and rejects those that it
+refuses."""
 import pathlib
 import re
 import sys
@@ -8,7 +8,7 @@ import unittest
 try:
     import jsonschema  # noqa: F401
     import yaml
-except ImportError as missing:  # scripts/setup --tests installs both
+except ImportError as missing:  # scripts/setup --tests installs both packages
     raise unittest.SkipTest(str(missing))
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
@@ -30,7 +30,7 @@ def refused(text):
 
 
 def undescribed(text):
-    """The scenarios and methods of a file that no whole sentence describes."""
+    """Returns a file's scenarios and methods without a description in a whole sentence."""
     document = yaml.safe_load(text)
     shared = document.get("defaults", {})
     scenarios = document.get("scenarios", [document])
@@ -56,7 +56,7 @@ class Schema(EtudeCase):
             self.assertEqual(refused(block), [], block)
         pieces = [block for block in blocks if not block.startswith("# ")]
         self.assertGreaterEqual(len(pieces), 7)
-        for block in pieces:  # they lack the scenario's name, its question, perhaps more
+        for block in pieces:  # pieces lack the scenario's name, its question, and other keys
             whole = {"scenario": "s", "question": "q", "task": "ik", "methods": [{"name": "a"}], **yaml.safe_load(block)}
             self.assertEqual(complaints(whole, SCHEMA), [], block)
 
@@ -82,7 +82,7 @@ class Schema(EtudeCase):
             IK.replace("trials: 4", "trials: 0"),
             IK.replace("trials: 4", "trials: 1.5"),
             IK.replace("trials: 4", "trails: 4"),
-            IK + "threshold: 0.4\n",  # another task's
+            IK + "threshold: 0.4\n",  # a key of another task
             IK + "joint_map: []\n",
             IK + "limit_set: AMA\n",
             IK + "poses: 2\n",
@@ -105,7 +105,7 @@ class Schema(EtudeCase):
             no_sweep + "start: stretched\nposes: 1\n",
             IK.replace("weights: fixed", "wieghts: fixed"),
             IK.replace("weights: fixed", "weights: fixd"),
-            IK.replace("solver: ccd, weights: fixed", "weights: fixed"),  # the default solver has none
+            IK.replace("solver: ccd, weights: fixed", "weights: fixed"),  # the default solver has no such setting
             IK.replace("solver: ccd, weights: fixed", "solver: ccd, memory: 3"),
             IK.replace("solver: ccd, weights: fixed", "solver: ccd-anderson, memory: 0"),
             IK.replace("{name: fixed, ", "{"),

@@ -28,13 +28,13 @@ TEST(Sources, LetsTheNearerFileWin) {
   ASSERT_EQ(scenarios->size(), 2u);
   const Scenario &one = (*scenarios)[0], &two = (*scenarios)[1];
   EXPECT_EQ(one.name, "one");
-  EXPECT_EQ(one.trials, 7);  // the file's defaults over shared/all.yaml's
-  EXPECT_EQ(two.trials, 9);  // its own over the file's
-  EXPECT_EQ(one.seed, 2u);   // shared/all.yaml's over shared/deep.yaml's
+  EXPECT_EQ(one.trials, 7);  // the file's defaults override shared/all.yaml
+  EXPECT_EQ(two.trials, 9);  // the scenario's own value overrides the file's
+  EXPECT_EQ(one.seed, 2u);   // shared/all.yaml overrides shared/deep.yaml
   const auto value = [](const Scenario& scenario, const char* key) {
     return scenario.conditions[0].node.Find(key)->scalar;
   };
-  EXPECT_EQ(value(one, "max_sweeps"), "6");  // a later include over an earlier one
+  EXPECT_EQ(value(one, "max_sweeps"), "6");  // a later include overrides an earlier one
   EXPECT_EQ(value(two, "max_sweeps"), "4");
   EXPECT_EQ(value(one, "noise"), "uniform");
 }

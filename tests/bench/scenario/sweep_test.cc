@@ -41,10 +41,10 @@ TEST(Sweep, TakesRangesByStepAndByCount) {
 }
 
 TEST(Sweep, WritesTheValuesOfARangeAsAPersonWould) {
-  // In doubles 0.1 + 2 × 0.1 is 0.30000000000000004, and 3 steps of 0.1 end just short of 0.3.
+  // In doubles, 0.1 + 2 × 0.1 is 0.30000000000000004, so 3 steps of 0.1 end just beyond 0.3.
   EXPECT_THAT(Labels("{joint_noise_deg: {from: 0, to: 0.3, step: 0.1}}"),
               ElementsAre("joint_noise_deg=0", "joint_noise_deg=0.1", "joint_noise_deg=0.2", "joint_noise_deg=0.3"));
-  // And 0.3 - 3 × 0.1 is -5.55e-17.
+  // In doubles, 0.3 − 3 × 0.1 is −5.55e-17.
   EXPECT_THAT(Labels("{joint_noise_deg: {from: 0.3, to: -0.1, step: -0.1}}"),
               ElementsAre("joint_noise_deg=0.3", "joint_noise_deg=0.2", "joint_noise_deg=0.1", "joint_noise_deg=0",
                           "joint_noise_deg=-0.1"));
@@ -79,7 +79,7 @@ TEST(Sweep, RefusesAHugeSweepBeforeItTakesMemory) {
   for (int i = 1; i < 5000; ++i) values += fmt::format(",{}", i);
   EXPECT_THAT(Complaint(kHead + kMethods + "sweep: {max_sweeps: [" + values + "]}\n"),
               HasSubstr("more than 1000 values"));
-  // Each condition is a copy of the scenario's mapping.
+  // Each condition copies the scenario's mapping, so the total of values is limited.
   EXPECT_THAT(
       Complaint(kHead + kMethods + "clips: [" + values + "]\nsweep: {poses: {from: 0, to: 0.9, step: 0.001}}\n"),
       HasSubstr("at most 300000 values in all"));

@@ -7,16 +7,15 @@
 namespace etude {
 namespace {
 
-/// The sums of a pair whose truth and answer are given frame by frame.
 AgreementSums SumsOf(const std::vector<double>& truth, const std::vector<double>& found) {
   return SumAgreement({{"a"}, found}, {{"a"}, truth}, 0);
 }
 
-/// Differences of three people, of 4, 2 and 3 frames.
+/// Differences of three people in 4, 2 and 3 frames.
 const std::vector<std::vector<double>> kDifferences = {{1, 2, 1.5, 2.5}, {-1, 0}, {3, 2, 4}};
 
 TEST(MeasureAgreement, LimitsAreThoseOfAnAnalysisOfVariance) {
-  // Bland and Altman's sums, computed from the differences one by one.
+  // Bland and Altman's sums, computed directly from the differences.
   double n = 0, sum = 0, squares = 0;
   for (const auto& person : kDifferences) {
     for (const double d : person) sum += d;
@@ -49,13 +48,13 @@ TEST(MeasureAgreement, LimitsAreThoseOfAnAnalysisOfVariance) {
   EXPECT_NEAR(*agreement.low.value, bias - 1.96 * deviation, 1e-12);
   EXPECT_NEAR(*agreement.high.value, bias + 1.96 * deviation, 1e-12);
   EXPECT_FALSE(agreement.bias.interval) << "three people are too few";
-  // The control: the deviation of all frames pooled is another number.
+  // The control: the deviation of all frames pooled differs.
   double pooled = 0;
   for (const auto& person : kDifferences) {
     for (const double d : person) pooled += (d - bias) * (d - bias) / (n - 1);
   }
   EXPECT_GT(std::abs(deviation - std::sqrt(pooled)), 0.05);
-  // Split into two pairs, a person's frames are the same frames.
+  // A person's frames may be split into two pairs without changing the result.
   std::vector<AgreementSums> split = pairs;
   split[0] = SumsOf({10, 11}, {11, 13});
   split.push_back(SumsOf({12, 13}, {13.5, 15.5}));
@@ -71,14 +70,14 @@ TEST(MeasureAgreement, OnePersonHasNoLimits) {
   EXPECT_FALSE(agreement.low.value);
 }
 
-// Answers whose people have biases of deviation 2 and whose frames have noise of deviation 1: the limits of one more
-// difference are ±1.96 · √5, and the intervals of the bias contain 0 about as often as they claim.
+// Biases have deviation 2 over people, noise has deviation 1 over frames: the limits of one more difference are ±1.96 ·
+// √5, and the bias's intervals contain 0 as often as they claim.
 TEST(MeasureAgreement, IntervalsAreOverPeople) {
   constexpr int kStudies = 60, kPeople = 12, kFrames = 50;
   int covered = 0, too_narrow = 0;
   double high = 0;
   unsigned state = 7;
-  const auto normal = [&] {  // sum of twelve uniform numbers
+  const auto normal = [&] {  // the sum of twelve uniform numbers is nearly normal
     double sum = -6;
     for (int i = 0; i < 12; ++i) {
       state = state * 1664525u + 1013904223u;
@@ -102,7 +101,7 @@ TEST(MeasureAgreement, IntervalsAreOverPeople) {
     const CurveAgreement agreement = MeasureAgreement(pairs, units, 1, std::to_string(study));
     ASSERT_TRUE(agreement.bias.interval && agreement.icc.interval && agreement.low.interval);
     covered += agreement.bias.interval->low <= 0 && agreement.bias.interval->high >= 0;
-    // The control: an interval as if all frames were independent has a half width of 1.96 √(5 / 600).
+    // The control: an interval that treats all frames as independent has a half width of 1.96 √(5 / 600).
     too_narrow += std::abs(*agreement.bias.value) > 1.96 * std::sqrt(5.0 / (kPeople * kFrames));
     high += *agreement.high.value / kStudies;
   }

@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// One cell: whether it solved its world, and its error; without an error it has crashed.
+/// One cell: whether it solved its world, and its error; without an error it crashed.
 struct CellValues {
   double solved = 1, error_cm = 1;
 };
 
-/// The values of methods a (the baseline), b and c in one world.
+/// Returns the values of methods a (the baseline), b and c in one world.
 using WorldOf = std::function<std::array<CellValues, 3>(int trial)>;
 
 Study IkStudy(int trials) {
@@ -50,7 +50,6 @@ ScenarioSummary SummaryOf(const Study& study, const WorldOf& world) {
   return Summarise(study, table, 1);
 }
 
-/// The answer on b against a.
 Answer AnswerOf(const Study& study, const WorldOf& world) {
   return SummaryOf(study, world).conditions.front().answers.front();
 }
@@ -65,7 +64,7 @@ TEST(McNemarMidP, AgreesWithFagerlandLydersenAndLaake) {
 }
 
 TEST(Answer, IsAboutSuccessBeforeAnyValue) {
-  // b has the smaller error where it succeeds, but solves 42 % against 100 %.
+  // b has the smaller error where it succeeds, but solves 42 % of the worlds; a solves all.
   const Answer answer = AnswerOf(IkStudy(60), [](int trial) -> std::array<CellValues, 3> {
     const bool solved = trial % 12 < 5;
     return {{{1, 3.0 + 0.01 * trial}, {solved ? 1.0 : 0.0, 1}, {1, 3}}};
@@ -116,14 +115,14 @@ TEST(Answer, IsAboutTheValueWhereSuccessIsTheSame) {
   EXPECT_EQ(answer.verdict, Verdict::kBetter);
   EXPECT_EQ(answer.decided_by, AnswerStep::kValue);
   EXPECT_FALSE(answer.both_succeed) << "that is every world";
-  // The control: where success alone is a headline metric, no value decides.
+  // The control: if success is the only headline metric, values decide nothing.
   Study alone = IkStudy(100);
   alone.metrics = {"solved_practical"};
   EXPECT_EQ(AnswerOf(alone, world).verdict, Verdict::kNoDifference);
 }
 
 TEST(Answer, IsNotLeftOpenByASuccessThatNeverDiffers) {
-  // 16 worlds are too few to exclude a difference of 5 points; but the two never differ, and the values do not matter.
+  // 16 worlds are too few to exclude a difference of 5 points, but the two never differ, so values decide.
   const auto world_with = [](int lost) {
     return [lost](int trial) -> std::array<CellValues, 3> {
       return {{{1, 3}, {trial < lost ? 0.0 : 1.0, 3 + 1e-5 * (trial % 3)}, {1, 3}}};
@@ -132,7 +131,7 @@ TEST(Answer, IsNotLeftOpenByASuccessThatNeverDiffers) {
   const Answer answer = AnswerOf(IkStudy(16), world_with(0));
   EXPECT_EQ(answer.success->verdict, Verdict::kInconclusive);
   EXPECT_EQ(answer.verdict, Verdict::kNoDifference);
-  // The control: one world is lost. Then nothing is claimed for others, either.
+  // The control: one world is lost. Then the verdict stays open.
   const Answer open = AnswerOf(IkStudy(16), world_with(1));
   EXPECT_EQ(open.verdict, Verdict::kInconclusive);
   EXPECT_EQ(open.beyond, Verdict::kInconclusive);
@@ -152,7 +151,7 @@ TEST(Answer, IsAboutSuccessAloneWhereThatIsGradedAndComesFirst) {
 }
 
 TEST(Answer, IgnoresADifferenceOfSuccessThatDoesNotMatter) {
-  // 12 of 400 worlds lost: 3 points, p = 0.0002.
+  // 12 of 400 worlds are lost: 3 points, p = 0.0002, below the threshold of 5 points.
   const auto world = [](int trial) -> std::array<CellValues, 3> {
     return {{{1, 3}, {trial < 12 ? 0.0 : 1.0, trial < 12 ? 3.5 : 1}, {1, 3}}};
   };
@@ -163,7 +162,7 @@ TEST(Answer, IgnoresADifferenceOfSuccessThatDoesNotMatter) {
 }
 
 TEST(Answer, IsOpenWhereTheValueIsOppositeAmongThoseThatSucceed) {
-  // a and b fail in different worlds, where their errors are large; where both succeed b is worse.
+  // a and b fail in different worlds, where their errors are large; b is worse where both succeed.
   const ScenarioSummary summary = SummaryOf(IkStudy(90), [](int trial) -> std::array<CellValues, 3> {
     if (trial < 54) return {{{trial % 2 == 0 ? 0.0 : 1.0, 9}, {trial % 2 == 0 ? 1.0 : 0.0, 2}, {1, 3}}};
     return {{{1, 1}, {1, 3 + 0.01 * trial}, {1, 3}}};
@@ -178,7 +177,7 @@ TEST(Answer, IsOpenWhereTheValueIsOppositeAmongThoseThatSucceed) {
 }
 
 TEST(Answer, LooksAtTheTailLast) {
-  // In 10 of 100 worlds b is off by a metre; median and success do not show it.
+  // In 10 of 100 worlds b is 1 m off; neither the median nor the success shows it.
   const auto world = [](int trial) -> std::array<CellValues, 3> {
     return {{{1, 1}, {1, trial % 10 == 0 ? 100 : 1 + 0.001 * (trial % 3)}, {1, 1}}};
   };
@@ -186,7 +185,7 @@ TEST(Answer, LooksAtTheTailLast) {
   EXPECT_EQ(answer.decided_by, AnswerStep::kTail);
   EXPECT_EQ(answer.verdict, Verdict::kWorse);
   EXPECT_NEAR(*answer.tail->difference, -0.1, 1e-12);
-  // The control: c does the same as a.
+  // The control: c equals a.
   const ScenarioSummary summary = SummaryOf(IkStudy(100), world);
   EXPECT_EQ(summary.conditions.front().answers[1].verdict, Verdict::kNoDifference);
 }

@@ -13,9 +13,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const MetricInfo& Metric() { return *FindMetric("mpjpe_mm"); }  // lower is better, 1 mm matters
+const MetricInfo& Metric() { return *FindMetric("mpjpe_mm"); }  // lower is better, threshold 1 mm
 
-/// Worlds of one unit each; `means` are the units' means, spread by ±1 within.
+/// Returns worlds of one unit each. `means` are the units' means; worlds vary by ±1 around them.
 UnitSample OneWay(const std::vector<double>& means, int worlds_each = 3) {
   UnitSample sample;
   for (std::size_t unit = 0; unit < means.size(); ++unit) {
@@ -83,7 +83,7 @@ TEST(MeasureBeyond, ClaimsNothingThatTheMeanContradicts) {
   std::vector<double> means;
   for (int i = 0; i < 20; ++i) means.push_back(-1.5 - 0.02 * i);
   EXPECT_EQ(Judged(OneWay(means)).verdict, Verdict::kBetter);
-  means.push_back(60);  // one clip is far worse, and outweighs the twenty
+  means.push_back(60);  // this clip is far worse, and its mean outweighs the twenty others
   const Beyond beyond = Judged(OneWay(means));
   EXPECT_LT(*beyond.high, -1);
   EXPECT_LE(*beyond.test.p, 0.01);
@@ -97,14 +97,14 @@ TEST(MeasureBeyond, SaysNoDifferenceOnlyOfUnitsThatDiffer) {
   const Beyond equal = Judged(OneWay({0, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(equal.verdict, Verdict::kInconclusive);
   EXPECT_THAT(equal.why_open, HasSubstr("0 of 8 clips differ"));
-  // Adjusted Wald is an interval of shares, not of millimetres.
+  // The adjusted Wald interval is for shares, so it does not apply to millimetres.
   EXPECT_EQ(std::pair(*equal.low, *equal.high), std::pair(0.0, 0.0));
   UnitSample shares = OneWay({0, 0, 0, 0, 0, 0, 0, 0}, 1);
   shares.yes_or_no = true;
   EXPECT_NEAR(*MeasureBeyond(shares, 1).high, 1.96 * std::sqrt(0.2 / 10), 1e-3);  // (1 + 1) / 10 / 10
 }
 
-/// Each pair of clips once, the difference the sum of what its clips bring.
+/// Returns each pair of clips once; a pair's difference is the sum of its clips' effects.
 UnitSample TwoWay(const std::vector<double>& effects) {
   UnitSample sample;
   for (std::size_t a = 0; a < effects.size(); ++a) {
@@ -129,9 +129,9 @@ TEST(MeasureBeyond, LeavesOutAClipInWhateverPart) {
     EXPECT_NEAR(beyond.left_out[i].difference, without, 1e-12);
     squares += (without - 2 * sum / 6) * (without - 2 * sum / 6);
   }
-  const double half = 2.570582 * std::sqrt(5.0 / 6 * squares);  // t of 5 degrees of freedom
+  const double half = 2.570582 * std::sqrt(5.0 / 6 * squares);  // t quantile, 5 degrees of freedom
   EXPECT_NEAR(*beyond.mean_high, 2 * sum / 6 + half, 1e-5);
-  // A clip's value is twice its effect: it is left, and it is entered.
+  // A clip's estimate is twice its effect, because it counts both as the clip left and as the clip entered.
   EXPECT_DOUBLE_EQ(*beyond.low, -10);
   EXPECT_DOUBLE_EQ(*beyond.high, -2);
   EXPECT_EQ(beyond.test.how, "signed ranks of units, exact");
@@ -144,7 +144,7 @@ TEST(MeasureBeyond, KnowsNothingBeyondWhatEveryWorldShows) {
   EXPECT_EQ(*one.difference, -4);
   EXPECT_TRUE(one.left_out.empty());
   EXPECT_FALSE(one.verdict);
-  // One clip is left in every world, whichever is entered.
+  // Every world leaves the same clip.
   UnitSample sample = OneWay({0, -1, -3, -2, -5, -4, -3});
   for (std::vector<int>& units : sample.units) {
     if (units.front() != 0) units.push_back(0);
@@ -157,7 +157,7 @@ TEST(MeasureBeyond, KnowsNothingBeyondWhatEveryWorldShows) {
   EXPECT_EQ(Judged({}).units, 0);
 }
 
-/// How many of 400 samples without an effect get a clear verdict.
+/// Returns how many of 400 samples without an effect get a clear verdict.
 int AlarmsBeyond(bool two_way, bool as_worlds) {
   MetricInfo metric = Metric();
   metric.practical = 1e-9;
@@ -186,7 +186,7 @@ int AlarmsBeyond(bool two_way, bool as_worlds) {
 TEST(MeasureBeyond, SeldomFindsWhatTheClipsMadeUp) {
   EXPECT_LE(AlarmsBeyond(false, false), 30);
   EXPECT_LE(AlarmsBeyond(true, false), 30);
-  // The controls: the same worlds, each taken for a unit of its own.
+  // The controls: each world is treated as its own unit.
   EXPECT_GE(AlarmsBeyond(false, true), 80);
   EXPECT_GE(AlarmsBeyond(true, true), 160);
 }

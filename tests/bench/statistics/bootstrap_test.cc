@@ -52,10 +52,10 @@ TEST(BcaInterval, IsThatOfEfronAndTibshiranisVariance) {
   EXPECT_EQ(bca.kind, IntervalKind::kBca);
   EXPECT_NEAR(bca.low, 115.8, 2);
   EXPECT_NEAR(bca.high, 259.6, 3);
-  // A jackknife without spread leaves the percentile interval, which is another one.
+  // With a jackknife of no spread, the BCa interval equals the percentile interval, which differs from the one above.
   const Interval percentile = BcaInterval(replicates, estimate, std::vector<double>(26, 3.0), 0.9);
   EXPECT_EQ(percentile.kind, IntervalKind::kPercentile);
-  EXPECT_NEAR(percentile.low, 100.8, 4);  // from 2,000 replicates in the book
+  EXPECT_NEAR(percentile.low, 100.8, 4);  // the book uses 2,000 replicates
   EXPECT_NEAR(percentile.high, 233.9, 3);
 }
 
@@ -67,7 +67,7 @@ TEST(BcaInterval, FallsBackWhenAllReplicatesLieOnOneSide) {
   EXPECT_EQ(BcaInterval(replicates, -1, jackknife).kind, IntervalKind::kPercentile);
   const Interval above = BcaInterval(replicates, 5000, jackknife);
   EXPECT_EQ(above.kind, IntervalKind::kPercentile);
-  EXPECT_EQ(above.low, 49);  // the 50th of 1,999
+  EXPECT_EQ(above.low, 49);  // the 50th of 1,999 replicates
   EXPECT_EQ(above.high, 1949);
 }
 
@@ -111,7 +111,7 @@ TEST(BootstrapInterval, SurvivesTies) {
   EXPECT_GT(mean->high, 0.625);
 }
 
-/// Every resample of the median by hand, instead of by counting.
+/// The reference resamples and sorts; the code counts instead.
 TEST(BootstrapInterval, DrawsTheMediansThatAPlainBootstrapDraws) {
   for (int n : {11, 12, 130}) {
     RandomStream dice({.suite_seed = 3, .scenario = "t", .trial = n}, "sample");
@@ -127,8 +127,7 @@ TEST(BootstrapInterval, DrawsTheMediansThatAPlainBootstrapDraws) {
   }
 }
 
-/// Bit for bit, with the draws that a summary makes: among so many, some resamples have their middle far from the
-/// sample's.
+/// The medians equal those of a summary's draws bit for bit, also in resamples with a median far from the sample's.
 TEST(BootstrapInterval, HasTheMediansOfItsOwnDraws) {
   std::vector<int> sizes = {6, 7, 1000, 4001};
   for (int n = 20; n < 100; ++n) sizes.push_back(n);
@@ -167,7 +166,7 @@ TEST(BootstrapInterval, AgreesWithTheNormalTheoryOfTheMean) {
   EXPECT_NEAR(interval->high, mean + 1.96 * standard_error, 0.15 * standard_error);
 }
 
-/// Share of samples whose interval holds the true value.
+/// Returns the share of samples whose interval contains the true value.
 double Coverage(Aggregate aggregate, int n, double truth, const std::function<double(RandomStream&)>& draw) {
   int covered = 0;
   const int experiments = 400;
@@ -182,15 +181,15 @@ double Coverage(Aggregate aggregate, int n, double truth, const std::function<do
 }
 
 TEST(BootstrapInterval, CoversTheTruthAboutNineteenTimesOfTwenty) {
-  // Binomial noise of 400 experiments: 1.1 points.
+  // The standard error of 400 experiments at 95 % is 1.1 points.
   const auto normal = [](RandomStream& dice) { return dice.Normal(); };
   EXPECT_NEAR(Coverage(Aggregate::kMedian, 40, 0, normal), 0.95, 0.035);
   EXPECT_NEAR(Coverage(Aggregate::kMean, 40, 0, normal), 0.95, 0.035);
   const auto skewed = [](RandomStream& dice) { return -std::log(1 - dice.Uniform()); };
   EXPECT_NEAR(Coverage(Aggregate::kMean, 40, 1, skewed), 0.935, 0.035);
-  // Few values say little of their tails: a dozen are known to cover less.
+  // A dozen values determine the tails poorly: their intervals are known to cover less.
   EXPECT_GT(Coverage(Aggregate::kMedian, 12, 0, normal), 0.90);
-  // The control: half a standard error off the truth.
+  // The control: a wrong true value, half a standard error off.
   EXPECT_LT(Coverage(Aggregate::kMean, 40, 0.5, normal), 0.5);
 }
 

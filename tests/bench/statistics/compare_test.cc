@@ -20,7 +20,7 @@ std::vector<Pair> PairsWithEffect(double effect, double noise, int count) {
   RandomStream dice({.suite_seed = 1, .scenario = "pairs", .trial = 0}, "x");
   std::vector<Pair> pairs;
   for (int i = 0; i < count; ++i) {
-    const double world = dice.Normal(50, 20);  // worlds differ far more than methods do
+    const double world = dice.Normal(50, 20);  // worlds differ much more than methods
     pairs.push_back({world, world + effect + dice.Normal(0, noise)});
   }
   return pairs;
@@ -53,17 +53,17 @@ TEST(ComparePaired, IsInconclusiveWhenNoiseHidesTheEffectOrPairsAreFew) {
 
 TEST(ComparePaired, TakesRoundingForATie) {
   std::vector<Pair> pairs;
-  for (int i = 0; i < 12; ++i) pairs.push_back({0.1 * i + 0.3, 0.1 * (i + 3) + 1e-15});  // equal on paper
+  for (int i = 0; i < 12; ++i) pairs.push_back({0.1 * i + 0.3, 0.1 * (i + 3) + 1e-15});  // equal except for rounding
   const Comparison equal = ComparePaired(pairs, Metric(Direction::kLowerIsBetter, 0.05), 1, "x");
   EXPECT_EQ(equal.differing, 0);
   EXPECT_EQ(*equal.difference, 0);
   EXPECT_EQ(*equal.p_holm, 1);
-  // Ten steps of a tenth, up or down, are all of one size: their ranks are tied.
+  // Ten steps of ±0.1 are equal in size, so their ranks are tied.
   pairs.clear();
   for (int i = 0; i < 10; ++i) pairs.push_back({0.1 * i, 0.1 * (i < 8 ? i + 1 : i - 1)});
   const Comparison steps = ComparePaired(pairs, Metric(Direction::kLowerIsBetter, 0.05), 1, "x");
   EXPECT_EQ(steps.differing, 10);
-  EXPECT_DOUBLE_EQ(*steps.signed_rank.p, 112.0 / 1024);  // the binomial's: 2 (1 + 10 + 45) of 2¹⁰
+  EXPECT_DOUBLE_EQ(*steps.signed_rank.p, 112.0 / 1024);  // binomial: 2 (1 + 10 + 45) / 2¹⁰
   EXPECT_DOUBLE_EQ(*steps.effect_size, -0.6);
 }
 
@@ -106,11 +106,11 @@ TEST(AreShares, IsSoWhereEveryValueOfBothMethodsIsZeroOrOne) {
   EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, 2}}, share));
   EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {-1, 0}}, share));
   EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, std::numeric_limits<double>::quiet_NaN()}}, share));
-  // Values that are all 0, or all 0 or 1, are a share of worlds only if the metric is of that kind.
+  // Values that are all 0 or 1 count as shares only if the metric is of that kind.
   EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 0}, {0, 1}}, Metric(Direction::kLowerIsBetter, 0.05)));
 }
 
-// A mean of shares has an interval of its own, of the counts of worlds gained and lost; any other a bootstrap's.
+// The mean of shares gets an interval of the counts of worlds gained and lost; any other mean gets a bootstrap's.
 TEST(AreShares, DecidesHowTheMeansIntervalIsMade) {
   MetricInfo metric = Metric(Direction::kHigherIsBetter, 0.05);
   metric.aggregate = Aggregate::kMean;
@@ -122,7 +122,7 @@ TEST(AreShares, DecidesHowTheMeansIntervalIsMade) {
   MetricInfo amount = metric;
   amount.reading = Reading::kAmount;
   EXPECT_NE(ComparePaired(pairs, amount, 1, "x").ci_low, of_shares.low);
-  for (Pair& pair : pairs) pair.baseline += 2, pair.method += 2;  // the same differences of what is no share
+  for (Pair& pair : pairs) pair.baseline += 2, pair.method += 2;  // the same differences of values that are not shares
   EXPECT_NE(ComparePaired(pairs, metric, 1, "x").ci_low, of_shares.low);
 }
 

@@ -61,7 +61,7 @@ const BudgetShare& ShareOf(const ErrorBudget& budget, const std::string& stage) 
   return *std::ranges::find(budget.shares, stage, &BudgetShare::stage);
 }
 
-// By hand: marks save 10 alone and 4 after lengths, lengths 8 alone and 2 after marks.
+// By hand: marks save 10 alone and 4 after lengths; lengths save 8 alone and 2 after marks.
 TEST(ErrorBudget, OfAllSubsetsAreShapleyValues) {
   const Study study = StudyOf(ParseOne(kWholeYaml));
   const auto budgets = BudgetsOf(study, [](const std::string& method, int trial) {

@@ -21,7 +21,7 @@ TEST(Wilson, AgreesWithNewcombesTable) {
 }
 
 TEST(PairedShare, IsAdjustedWaldWorkedByHand) {
-  // 12 gained, 2 lost, of 48: shares 13/50 and 3/50; 0.2 ± 1.95996 √((0.32 − 0.04) / 50).
+  // 12 gained and 2 lost of 48: shares 13/50 and 3/50; 0.2 ± 1.95996 √((0.32 − 0.04) / 50).
   const Interval interval = PairedShareInterval(12, 2, 48);
   EXPECT_NEAR(interval.low, 0.2 - 0.14667, 1e-5);
   EXPECT_NEAR(interval.high, 0.2 + 0.14667, 1e-5);

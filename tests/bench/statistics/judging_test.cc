@@ -23,7 +23,7 @@ std::vector<std::optional<double>> Corrected(std::vector<std::optional<double>> 
 }
 
 TEST(Holm, AgreesWithR) {
-  // p.adjust(c(0.01, 0.02, 0.03, 0.04, 0.05), "holm") and p.adjust(c(0.04, 0.001, 0.03), "holm")
+  // R: p.adjust(c(0.01, 0.02, 0.03, 0.04, 0.05), "holm") and p.adjust(c(0.04, 0.001, 0.03), "holm")
   const auto rising = Corrected({0.01, 0.02, 0.03, 0.04, 0.05});
   const double expected[] = {0.05, 0.08, 0.09, 0.09, 0.09};
   for (int i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(*rising[i], expected[i]);
@@ -37,7 +37,7 @@ TEST(Holm, NeverExceedsOneNorForgetsAQuestion) {
   const auto corrected = Corrected({0.9, std::nullopt, 0.02});
   EXPECT_EQ(*corrected[0], 1);
   EXPECT_FALSE(corrected[1]);
-  EXPECT_DOUBLE_EQ(*corrected[2], 0.06);  // times three, not two
+  EXPECT_DOUBLE_EQ(*corrected[2], 0.06);  // three comparisons, not two
   EXPECT_TRUE(Corrected({}).empty());
 }
 
@@ -63,7 +63,7 @@ void Judge(std::vector<Question>& questions) {
   JudgeFamily(family);
 }
 
-/// The first of `count` comparisons of which all others show nothing.
+/// Returns the first of `count` comparisons after the correction; the others show nothing.
 Comparison JudgedAmong(int count, const Comparison& first, const std::optional<Comparison>& with_failures = {}) {
   std::vector<Question> all(count, Question{Compared(std::vector<double>(20, 0.0)), {}});
   all[0] = {first, with_failures};
@@ -95,7 +95,7 @@ TEST(JudgeFamily, SaysWhyADifferenceIsNotYetAVerdict) {
   ASSERT_LT(*noisy.signed_rank.p, 0.05);
   ASSERT_LT(*noisy.ci_high, 0);
   EXPECT_THAT(JudgedAmong(40, noisy).why_open, HasSubstr("but not among 40 comparisons (Holm)"));
-  // Of a jump 1 cm matters: these differ for certain, by 0.9 cm or more.
+  // The threshold of a jump is 1 cm; the differences are certain, but their interval contains 1 cm.
   RandomStream dice({.suite_seed = 4, .scenario = "small", .trial = 0}, "x");
   std::vector<double> small(40);
   for (double& difference : small) difference = dice.Normal(-0.95, 0.6);
@@ -105,14 +105,14 @@ TEST(JudgeFamily, SaysWhyADifferenceIsNotYetAVerdict) {
 }
 
 TEST(JudgeFamily, TellsATestThatFoundSomethingFromOneThatDidNot) {
-  // A share of equal worlds and many small wins: the ranks are clear, the median stays at the equal ones.
+  // Equal worlds and small wins: the ranks are clear, but the interval of the median contains zero.
   std::vector<double> steps(24, 0.0);
   for (int i = 0; i < 13; ++i) steps[i] = -1 - 0.01 * i;
   const Comparison found = JudgedAmong(2, Compared(steps));
   EXPECT_EQ(found.verdict, Verdict::kInconclusive);
   EXPECT_THAT(found.why_open, HasSubstr("the test finds a difference (p = 0.00049 among 2), but the interval of its "
                                         "median reaches zero"));
-  // A share of twelve equal worlds: nothing differs, and the interval is wide all the same.
+  // Twelve equal worlds of a share: no pair differs, but the interval is wide.
   std::vector<etude::Pair> equal(12, etude::Pair{1, 1});
   Comparison same = ComparePaired(equal, *FindMetric("solved_practical"), 1, "x");
   EXPECT_EQ(JudgedAmong(1, same).why_open,
@@ -143,7 +143,7 @@ TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
     worlds.method_failed.resize(method_failed);
     return JudgedAmong(1, Compared(Falling(20)), ComparePaired(WithFailures(worlds, metric)->pairs, metric, 1, "x"));
   };
-  // A few failures don't turn twenty wins, as many as the wins do; those of the other speak for the method.
+  // Two failures do not change twenty wins, but twelve do. Failures of the baseline count for the method.
   EXPECT_EQ(judged(0, 2).verdict, Verdict::kBetter);
   EXPECT_EQ(judged(20, 0).verdict, Verdict::kBetter);
   const Comparison open = judged(0, 12);
@@ -172,12 +172,12 @@ TEST(JudgeFamily, CallsNothingEqualOfWhichTheMedianHidesWhatFewWorldsShow) {
   EXPECT_EQ(*judged.ci_high, 0);
   EXPECT_THAT(judged.why_open, HasSubstr("in most worlds the same, in 0 of 40 better, in 12 worse"));
   EXPECT_THAT(judged.notes, ElementsAre(HasSubstr("which the median does not show")));
-  // The control: the same ties, and differences that matter to neither.
+  // The control: the same ties, with differences below the threshold.
   for (double& difference : rare) difference *= 1e-4;
   EXPECT_EQ(JudgedAmong(1, Compared(rare)).verdict, Verdict::kNoDifference);
 }
 
-/// Scenarios of twelve comparisons each: how often does one of them find what is not there?
+/// Returns in how many of 100 scenarios of twelve comparisons a difference is found.
 int FalseAlarms(double effect, bool corrected) {
   int alarms = 0;
   for (int scenario = 0; scenario < 100; ++scenario) {
@@ -200,12 +200,12 @@ int FalseAlarms(double effect, bool corrected) {
 
 TEST(JudgeFamily, RaisesAFalseAlarmInOneScenarioOfTwenty) {
   EXPECT_LE(FalseAlarms(0, true), 10);
-  // The controls: without the correction every other scenario has one; a true effect is found.
+  // The controls: without the correction many scenarios have a false alarm; a true effect is found.
   EXPECT_GE(FalseAlarms(0, false), 25);
   EXPECT_GE(FalseAlarms(-1, true), 95);
 }
 
-/// "a" against "base" under one law and one noise.
+/// Returns the result of "a" against "base" under one law and one noise.
 ConditionSummary Under(const std::string& law, const std::string& noise, Verdict verdict, double difference) {
   ConditionSummary condition{.condition = {{"learning", law}, {"noise", noise}}};
   Comparison comparison;
@@ -228,7 +228,7 @@ TEST(Across, AVerdictHoldsWhereItIsTheSameUnderEveryValue) {
       JudgeAcross(Asking({"learning"}),
                   {Under("power", "0", Verdict::kBetter, 0.1), Under("power", "1", Verdict::kBetter, 0.1),
                    Under("two-rate", "0", Verdict::kBetter, 0.2), Under("two-rate", "1", Verdict::kWorse, -0.2)});
-  ASSERT_EQ(verdicts.size(), 2u);  // one per noise
+  ASSERT_EQ(verdicts.size(), 2u);  // one verdict per noise
   EXPECT_EQ(verdicts[0].condition, (std::vector<SweptValue>{{"noise", "0"}}));
   EXPECT_EQ(verdicts[0].verdict, Verdict::kBetter);
   EXPECT_TRUE(verdicts[0].Holds());

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Differences 1 … n, of which those named are negative.
+/// Returns the differences 1 … n; those listed are negative.
 std::vector<double> Ranks(int n, const std::vector<int>& negative) {
   std::vector<double> differences;
   for (int i = 1; i <= n; ++i) {
@@ -58,7 +58,7 @@ TEST(SignedRank, AgreesWithPublishedExamples) {
 }
 
 TEST(SignedRank, RanksZerosAsPrattDid) {
-  // Enumerated by hand over the 2¹⁰ and 2⁸ signs of the ranks that are left once the zeros have theirs.
+  // Enumerated by hand over the 2¹⁰ and 2⁸ signs. Zeros take the lowest ranks (Pratt).
   EXPECT_DOUBLE_EQ(*SignedRankTest(std::vector<double>{0, 0, 1, -2, 3, -4, 5, 6, 7, 8, 9, 10}).p, 0.029296875);
   EXPECT_DOUBLE_EQ(*SignedRankTest(std::vector<double>{0, 0, 1, 1, -2, 2, 3, -3, 3, 5}).p, 0.2421875);
   const PairedTest zeros = SignedRankTest(std::vector<double>(9, 0.0));
@@ -67,7 +67,7 @@ TEST(SignedRank, RanksZerosAsPrattDid) {
 }
 
 TEST(SignedRank, ApproximatesLargeSamplesAsScipyDoes) {
-  // stats.wilcoxon(v, zero_method='pratt', mode='approx', correction=True)
+  // scipy: stats.wilcoxon(v, zero_method='pratt', mode='approx', correction=True)
   std::vector<double> with_ties, without;
   for (int i = 0; i < 64; ++i) with_ties.push_back(i * 37 % 23 - 8);
   for (int i = 0; i < 60; ++i) without.push_back(std::fmod(i * 0.618, 1) * 3 - 1.2);
@@ -91,11 +91,11 @@ TEST(RankBiserial, IsOneWhenAllGoOneWay) {
 }
 
 TEST(SignFlip, IsFishersAnswerToDarwin) {
-  // Of the 32,768 ways to sign the differences, 863 make a sum as large, and as many one as small.
+  // Of the 32,768 ways to sign the differences, 863 give a sum at least as large, and 863 one at most as small.
   const PairedTest test = SignFlipTest(kDarwin, Aggregate::kMean, 1, "x");
   EXPECT_DOUBLE_EQ(*test.p, 2 * 863 / 32768.0);
   EXPECT_EQ(test.how, "exact");
-  EXPECT_DOUBLE_EQ(*SignFlipTest(kDarwin, Aggregate::kMedian, 1, "x").p, 0.109375);  // scipy's permutation_test
+  EXPECT_DOUBLE_EQ(*SignFlipTest(kDarwin, Aggregate::kMedian, 1, "x").p, 0.109375);  // scipy.stats.permutation_test
 }
 
 TEST(SignFlip, CountsEverySignOnceWhateverTheZerosAndTies) {
@@ -110,7 +110,7 @@ TEST(SignFlip, CountsEverySignOnceWhateverTheZerosAndTies) {
 }
 
 TEST(SignFlip, OfSharesIsMcNemarsExactTest) {
-  // Ten worlds gained, two lost, of any number: 2 · P(Binomial(12, ½) ≥ 10).
+  // Ten worlds are gained and two lost; equal worlds do not matter: 2 · P(Binomial(12, ½) ≥ 10).
   std::vector<double> differences(12, 1.0);
   differences[0] = differences[5] = -1;
   differences.resize(400, 0.0);
@@ -129,12 +129,12 @@ TEST(SignFlip, DrawsSignsWhenThereAreTooManyToCount) {
     const PairedTest exact = SignFlipTest(sixteen, aggregate, 1, "x");
     const PairedTest drawn = SignFlipTest(seventeen, aggregate, 1, "x");
     EXPECT_EQ(drawn.how, "9,999 draws");
-    // One tiny difference more moves a mean by nothing, a median by half a rank.
+    // The added tiny difference does not change the mean's test, but it changes the median's by half a rank.
     EXPECT_NEAR(*drawn.p, *exact.p, aggregate == Aggregate::kMean ? 0.02 : 0.15);
     EXPECT_EQ(*SignFlipTest(seventeen, aggregate, 1, "x").p, *drawn.p);
     EXPECT_NE(*SignFlipTest(seventeen, aggregate, 2, "x").p, *drawn.p);
   }
-  // Never zero: the sample itself is one of the ways.
+  // p is never zero, because the sample itself is one of the ways.
   EXPECT_DOUBLE_EQ(*SignFlipTest(Ranks(200, {1}), Aggregate::kMean, 1, "x").p, 1e-4);
   EXPECT_DOUBLE_EQ(*SignFlipTest(Ranks(200, {}), Aggregate::kMedian, 1, "x").p, 1e-4);
 }
@@ -151,7 +151,7 @@ TEST(SignFlip, IsExactForAMeanOfDifferencesOfOneSign) {
 }
 
 TEST(SignFlip, CountsNoSignsOfRounding) {
-  for (const int roundings : {5, 30}) {  // enumerated and drawn
+  for (const int roundings : {5, 30}) {  // enumerated, and drawn at random
     std::vector<double> differences(static_cast<std::size_t>(roundings), 1e-16);
     differences.insert(differences.end(), {1, 2});
     EXPECT_EQ(*SignFlipTest(differences, Aggregate::kMean, 1, "x").p, 0.5) << "2 / 2^2: as of 1 and 2 alone";
@@ -160,7 +160,7 @@ TEST(SignFlip, CountsNoSignsOfRounding) {
   }
 }
 
-/// The drawn median by sorting, instead of by counting bits.
+/// The reference sorts; the code counts bits.
 TEST(SignFlip, FindsTheMedianOfFlippedSigns) {
   std::vector<double> differences;
   for (int i = 1; i <= 15; ++i) differences.push_back(i % 4 == 0 ? -0.7 * i : 1.3 * i);
@@ -175,7 +175,7 @@ TEST(SignFlip, FindsTheMedianOfFlippedSigns) {
   EXPECT_DOUBLE_EQ(*SignFlipTest(differences, Aggregate::kMedian, 1, "x").p, extreme / 32768.0);
 }
 
-/// Share of samples whose p is at most 5 %.
+/// Returns the share of samples whose p is at most 5 %.
 double RejectionRate(double effect, int n, const std::function<PairedTest(const std::vector<double>&)>& test) {
   int rejected = 0;
   const int experiments = 400;
@@ -217,7 +217,7 @@ TEST(SignFlipTest, OfVeryManyDifferencesIsNormal) {
   const PairedTest of_mean = SignFlipTest(differences, Aggregate::kMean, 1, "x");
   EXPECT_EQ(of_mean.how, "normal approximation");
   EXPECT_NEAR(*of_mean.p, *drawn.p, 0.02);
-  // Of a median the sign test: |2k − n| / √n.
+  // For a median the test is the sign test: z = |2k − n| / √n.
   const auto above = std::count_if(differences.begin(), differences.end(), [](double value) { return value > 0; });
   const double z = std::abs(2.0 * static_cast<double>(above) - (kMaxResampled + 1)) / std::sqrt(kMaxResampled + 1);
   EXPECT_NEAR(*SignFlipTest(differences, Aggregate::kMedian, 1, "x").p, std::erfc(z / std::sqrt(2)), 1e-8);

@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A page of pairs of "a" and "b" with one metric each; a is on the left in even pairs. The metric is lower for a.
+/// The key of a page of pairs of "a" and "b"; the metric is lower for a; a is on the left in even pairs.
 BlindKey KeyOf(int pairs) {
   BlindKey key{.page = "page", .seed = "1", .worlds = pairs};
   for (int i = 0; i < pairs; ++i) {
@@ -27,7 +27,7 @@ BlindKey KeyOf(int pairs) {
   return key;
 }
 
-/// Answers that prefer a in the first `wins` pairs, b in the others.
+/// Returns answers that prefer a in the first `wins` pairs, and b in the others.
 BlindAnswers Prefers(const BlindKey& key, const std::string& rater, int wins) {
   BlindAnswers answers{key.page, rater, {}};
   for (std::size_t i = 0; i < key.pairs.size(); ++i) {
@@ -49,7 +49,7 @@ TEST(BradleyTerry, GivesEqualStrengthsToASymmetricRoundRobin) {
 }
 
 TEST(BradleyTerry, RecoversPlantedStrengths) {
-  // Expected wins of strengths .1, .2, .3, .4 are fitted exactly; with dice, within three standard errors.
+  // Strengths .1, .2, .3, .4 are recovered exactly from expected wins; from drawn wins within three standard errors.
   const std::vector<double> planted = {0.1, 0.2, 0.3, 0.4};
   WinTable exact(4, std::vector<double>(4)), drawn = exact;
   RandomStream dice({7, "planted", 0}, "wins");
@@ -86,21 +86,21 @@ TEST(Preferences, CountAnswersAndMetricsThatAgree) {
   EXPECT_EQ(found.methods[0].method, "a");
   EXPECT_EQ(found.methods[0].wins, 16.5);
   EXPECT_NEAR(*found.methods[0].share, 16.5 / 19, 1e-8);
-  EXPECT_FALSE(found.methods[0].interval);  // two raters
+  EXPECT_FALSE(found.methods[0].interval);  // two raters are too few
   ASSERT_EQ(found.metrics.size(), 4u);
   EXPECT_EQ(found.metrics[0].metric, "jump_cm");
   EXPECT_EQ(found.metrics[0].agreed, 8);
   EXPECT_EQ(found.metrics[0].decided, 10);
-  EXPECT_EQ(found.metrics[1].metric, "clean_share");  // it prefers b
+  EXPECT_EQ(found.metrics[1].metric, "clean_share");  // this metric prefers b
   EXPECT_EQ(found.metrics[1].agreed, 2);
-  EXPECT_EQ(found.metrics[2].equal, 10);  // rounding alone
+  EXPECT_EQ(found.metrics[2].equal, 10);  // the values differ by rounding only
   EXPECT_FALSE(found.metrics[2].interval);
   EXPECT_EQ(found.metrics[3].missing, 10);
   EXPECT_THAT(found.one_sided, IsEmpty());
 }
 
 TEST(Preferences, HaveIntervalsOverRatersThatCoverThePlantedShare) {
-  // Each rater has a share of their own, ½ ± .2 about .6: raters, not answers, must be drawn.
+  // Raters' own shares are uniform in 0.4 … 0.8, so the bootstrap must draw raters, not answers.
   int covered = 0, beyond_half = 0;
   constexpr int kStudies = 100;
   for (int study = 0; study < kStudies; ++study) {

@@ -11,7 +11,6 @@
 namespace etude {
 namespace {
 
-/// All Walsh averages in ascending order.
 std::vector<double> WalshAveragesOf(const std::vector<double>& values) {
   std::vector<double> averages;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -21,7 +20,7 @@ std::vector<double> WalshAveragesOf(const std::vector<double>& values) {
   return averages;
 }
 
-/// P(W ≤ w) of the signed-rank statistic of `n` values, by adding one rank after the other to its distribution.
+/// Returns P(W ≤ w) of the signed-rank statistic of `n` values, by adding one rank at a time to its distribution.
 double SignedRankCdf(int n, int w) {
   std::vector<double> chances = {1};
   for (int rank = 1; rank <= n; ++rank) {
@@ -58,7 +57,7 @@ TEST(PseudoMedianOf, IsTheMiddleOfAllWalshAverages) {
     EXPECT_DOUBLE_EQ(found.value, (averages[(count - 1) / 2] + averages[count / 2]) / 2) << n;
     ASSERT_EQ(found.interval.has_value(), n >= 6) << n;
     if (n < 6) continue;
-    // The largest rank whose tail is at most 2.5 %; above 50 values nearly that one.
+    // The largest rank whose tail is at most 2.5 %. Above 50 values the code approximates this rank.
     int rank = n * n / 5 - n;
     while (rank > 0 && SignedRankCdf(n, rank) > 0.025) --rank;
     while (SignedRankCdf(n, rank) <= 0.025) ++rank;

@@ -21,7 +21,6 @@ methods: [{name: a}, {name: b}, {name: c}, {name: seen, against: seen}]
 metrics: [position_error_cm, iterations]
 )";
 
-/// Errors by method and trial.
 using Errors = std::function<double(const std::string& method, int trial)>;
 
 ScenarioTable TableOf(const Study& study, const Errors& errors) {
@@ -56,7 +55,7 @@ TEST(FindRival, TakesTheBestOtherMethodThatCompetes) {
 }
 
 TEST(FindRival, IsNeverTheBaseline) {
-  // The baseline is best in half of the worlds: "a or c" would judge the pair b, a a second time, on half of its worlds.
+  // The baseline is best in half of the worlds. A rival "a or c" would compare b with a twice.
   const Study study = StudyOf(ParseOne(kRivalYaml));
   const ScenarioTable table = TableOf(study, [](const std::string& method, int trial) {
     if (method == "c") return 5.0;
@@ -107,7 +106,7 @@ TEST(FindRival, AsksTheNextMetricOfWhatTheFirstDoesNotTellApart) {
 }
 
 TEST(FindRival, ChoosesOnOtherWorldsThanThoseItIsJudgedOn) {
-  // Where b is best, c is chosen, and the other way round: whoever chose on the same worlds would pick each one's luck.
+  // c is chosen on the worlds where b is best, and vice versa, because choosing on the judged worlds rewards luck.
   const Study study = StudyOf(ParseOne(kRivalYaml));
   const ScenarioTable table = TableOf(study, [](const std::string& method, int trial) {
     if (method == "a") return 5.0;
@@ -138,7 +137,7 @@ TEST(FindRival, LetsNoMethodWinByFailing) {
   for (int trial = 0; trial < study.trials; ++trial) {
     for (const char* method : {"a", "b", "c"}) {
       Row row{"s", "ik", {}, trial, "", {}, method, {}};
-      const bool fails = *method == 'c' && trial % 4 != 0;  // it answers easy worlds only
+      const bool fails = *method == 'c' && trial % 4 != 0;  // c answers easy worlds only
       row.result = CellResult::Ended(fails ? Status::kFailed : Status::kOk, "");
       if (!fails) row.result.Measure("position_error_cm", *method == 'a' ? 9 : *method == 'b' ? 3 : 1);
       table.Add(row);

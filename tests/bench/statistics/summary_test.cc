@@ -26,7 +26,7 @@ expect:
   - {metric: hidden_angle_error_deg, of: a, at_most: 1}
 )";
 
-/// Method b is 2 cm better than a in every world; trial 9 of b has no value.
+/// Method b is 2 cm better than a in every world; b has no value in trial 9.
 std::vector<Row> Rows(const Study& study) {
   std::vector<Row> rows;
   for (const std::vector<SweptValue>& condition : study.conditions) {
@@ -72,12 +72,12 @@ TEST_F(SummaryTest, KeepsFailuresInTheCount) {
   EXPECT_DOUBLE_EQ(*b.metrics[0].mean, 7);
   EXPECT_EQ(b.ok, 9);
   EXPECT_EQ(b.attempted, 10);
-  EXPECT_NEAR(*b.ok_low, 0.596, 1e-3);  // Wilson, 9 of 10
+  EXPECT_NEAR(*b.ok_low, 0.596, 1e-3);  // Wilson's interval for 9 of 10
   EXPECT_NEAR(*b.ok_high, 0.982, 1e-3);
 }
 
 TEST_F(SummaryTest, GivesAShareItsOwnInterval) {
-  // Ten of ten is no proof of always.
+  // Ten of ten does not prove 100 %.
   const MetricSummary& solved = summary.conditions[0].methods[0].metrics[1];
   EXPECT_EQ(solved.id, "solved_practical");
   EXPECT_EQ(solved.interval, IntervalKind::kWilson);
@@ -124,7 +124,7 @@ truth: [t]
 methods: [{name: a, answers: [a]}, {name: b, answers: [b]}]
 metrics: [npss]
 )"));
-  // Ten pairs, of which one holds as much as the others together.
+  // Ten pairs; one has as much weight as the others together.
   Study ten = study;
   ten.trials = 10;
   ten.unit = SamplingUnit::kWorld;
@@ -144,7 +144,7 @@ metrics: [npss]
   ASSERT_NE(npss, methods[0].metrics.end());
   EXPECT_NEAR(*npss->mean, (9 * 1.0 + 9 * 0.1) / 18, 1e-12);
   EXPECT_GT(*npss->ci_high, 0.6) << "one pair decides";
-  // The difference of the weighted means is the weighted mean of differences.
+  // The difference of weighted means equals the weighted mean of differences.
   const Comparison& comparison = summary.conditions[0].comparisons[0];
   EXPECT_NEAR(*comparison.difference, 0.01 * (9 * 3 + 45 - 3) / 18, 1e-8);
 }
@@ -153,7 +153,7 @@ TEST_F(SummaryTest, CorrectsOverAllConditionsAndMetrics) {
   EXPECT_EQ(summary.family, 4);
   const Comparison& comparison = summary.conditions[0].comparisons[0];
   EXPECT_DOUBLE_EQ(*comparison.signed_rank.p, 2.0 / 512);
-  // Nine wins, and the crash is a loss: 2 (1 + 10) of 2¹⁰ signs of ten equal differences.
+  // Nine wins; the crash counts as a loss: 2 (1 + 10) / 2¹⁰ for ten equal differences.
   EXPECT_DOUBLE_EQ(*comparison.p_holm, 4 * 22.0 / 1024);
 }
 
@@ -163,7 +163,7 @@ TEST_F(SummaryTest, CountsTheWorldsWithoutAPairAndSaysSo) {
   EXPECT_EQ(comparison.only_method, 0);
   EXPECT_EQ(comparison.neither, 0);
   EXPECT_THAT(comparison.notes, ::testing::Contains(::testing::HasSubstr("only “a” has a value in 1")));
-  // A world that was skipped for both is no loss of either.
+  // A world that both methods skipped is a loss of neither.
   for (Row& row : rows) {
     if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
   }
@@ -181,7 +181,7 @@ TEST_F(SummaryTest, DependsOnNoOtherMethodNorCondition) {
   const Comparison &a = alone.conditions[0].comparisons[0], &b = summary.conditions[0].comparisons[0];
   EXPECT_EQ(a.ci_low, b.ci_low);
   EXPECT_EQ(a.sign_flip.p, b.sign_flip.p);
-  EXPECT_NE(a.p_holm, b.p_holm);  // Holm's correction is what the others are for
+  EXPECT_NE(a.p_holm, b.p_holm);  // Holm's correction depends on the other comparisons
 }
 
 TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {

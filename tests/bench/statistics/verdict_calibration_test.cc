@@ -19,7 +19,7 @@ constexpr SampleLaw kAllLaws[] = {SampleLaw::kNormal, SampleLaw::kHeavyTailed, S
 
 struct Moments {
   double mean = 0, deviation = 0;
-  double correlation = 0;  ///< of two worlds of one unit
+  double correlation = 0;  ///< correlation of two worlds of one unit
 };
 
 Moments MomentsOf(const SampleDesign& design, double effect) {
@@ -48,7 +48,7 @@ TEST(DrawSample, HasTheMeanAndTheCorrelationItSays) {
       EXPECT_NEAR(found.mean, effect * JustMatters(law), 0.03) << SampleLawName(law);
       if (effect > 0) continue;
       const double sixth = law == SampleLaw::kShares || law == SampleLaw::kCensored ? 6 : 3;
-      // The variance of t₃ is hardly to be sampled: its fourth moment is infinite.
+      // The sample variance of t₃ does not converge usefully, because its fourth moment is infinite.
       EXPECT_NEAR(found.deviation / JustMatters(law) / sixth, 1, law == SampleLaw::kHeavyTailed ? 0.15 : 0.03)
           << SampleLawName(law);
       const bool is_exact = law == SampleLaw::kNormal || law == SampleLaw::kShares;
@@ -109,14 +109,14 @@ TEST(MeasureVerdicts, HoldsWithUnevenUnits) {
 }
 
 TEST(MeasureVerdicts, TellsWhatATestOverWorldsWouldHaveClaimed) {
-  // The control: worlds of eight units that are alike are no independent worlds.
+  // The control: correlated worlds of eight units, treated as independent, give false alarms.
   const VerdictRates alike = MeasureVerdicts({.units = 8, .trials = 10, .alike = 0.5}, {400, 1});
   EXPECT_GE(alike.false_alarms_of_worlds.low, 25);
   const VerdictRates apart = MeasureVerdicts({.units = 8, .trials = 10, .alike = 0}, {400, 1});
   EXPECT_LE(apart.false_alarms_of_worlds.low, 5);
 }
 
-/// The numbers of every line of a table except its head.
+/// Returns the numbers of every line of a table except its head.
 std::vector<std::vector<double>> NumbersOf(std::istream& table) {
   std::vector<std::vector<double>> numbers;
   for (std::string line; std::getline(table, line);) {
@@ -129,7 +129,7 @@ std::vector<std::vector<double>> NumbersOf(std::istream& table) {
   return numbers;
 }
 
-// All designs, 10,000 samples each: minutes.
+// Draws 10,000 samples of each design; takes minutes.
 TEST(MeasureVerdicts, HEAVY_FindsThePublishedRatesAndKeepsThePromise) {
   std::vector<VerdictRates> rates;
   for (const SampleDesign& design : PublishedDesigns()) rates.push_back(MeasureVerdicts(design, {10'000, 2'000}));
@@ -144,14 +144,14 @@ TEST(MeasureVerdicts, HEAVY_FindsThePublishedRatesAndKeepsThePromise) {
   ASSERT_EQ(published.size(), 67u);
   ASSERT_EQ(measured.size(), 67u);
   for (std::size_t line = 0; line < published.size(); ++line) {
-    // Another library of mathematics may draw a last bit otherwise.
+    // Another mathematics library may round a last bit differently.
     EXPECT_THAT(measured[line], ::testing::Pointwise(::testing::DoubleNear(1.01), published[line])) << line;
   }
-  if (HasFailure()) std::cout << text;  // what to publish, if it is right
+  if (HasFailure()) std::cout << text;  // the new table, for the page if the change is right
 }
 
-// Each bound of the promise by itself; at the bound it is still kept. Of 10,000 samples at 5 % more than 577 are drawn
-// with a chance of 0.05 / 280 (500 + 3.57 × 21.8 = 578), of 6 % more than 684.
+// Values at each bound keep the promise. Of 10,000 samples at 5 % more than 577 alarm with probability 0.05 / 280 (500
+// + 3.57 × 21.8 = 578); at 6 %, more than 684.
 TEST(KeepsPromise, NeedsFewFalseAlarmsForCertainAndIntervalsThatHoldTheTruth) {
   constexpr std::size_t kDesigns = 280;
   VerdictRates rates{.false_alarms = {.count = 577, .of = 10'000, .percent = 5.77, .low = 5.3, .high = 6.5}};

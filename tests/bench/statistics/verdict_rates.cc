@@ -40,7 +40,6 @@ constexpr double kModeWidth = 0.3;
 
 bool IsOfUnits(SampleLaw law) { return static_cast<int>(law) >= kWorldLaws; }
 
-/// Draws a unit's contribution.
 double DrawContribution(SampleLaw law, RandomStream& dice) {
   switch (law) {
     case SampleLaw::kHeavyTailed:
@@ -71,7 +70,6 @@ double CoinsDiffer(double effect, RandomStream& dice) {
   return drawn < 0.25 - effect / 2 ? -1 : drawn >= 0.75 - effect / 2 ? 1 : 0;
 }
 
-/// Returns the cost, or twice the limit if it exceeds the limit.
 double PenalisedCost(double log_cost) { return log_cost > LogLimit() ? 2 * std::exp(LogLimit()) : std::exp(log_cost); }
 
 /// Return the expectations of a penalised cost whose logarithm is normal around `shift`, and of its square.
@@ -270,7 +268,6 @@ double TruthOf(const SampleDesign& design, double effect) {
   return Quantile(means, 0.5);
 }
 
-/// Returns true if the interval contains the true pseudo-median.
 bool Holds(const Beyond& beyond, double truth) {
   // A tolerance, because the interval of a sample of shares without any difference has no width.
   return *beyond.low <= truth + 1e-9 && truth - 1e-9 <= *beyond.high;
@@ -384,7 +381,6 @@ std::string VerdictRatesMarkdown(std::span<const VerdictRates> rates) {
     const bool ends = i + 1 == rates.size() || rates[i + 1].design.law == SampleLaw::kNormal;
     if (ends) table += is_uneven ? "\n" : fmt::format(" {:.0f} |\n", of_worlds);
   }
-  // The headers of the tables.
   std::string text = "| units | worlds each | correlation |";
   for (int law = 0; law < kWorldLaws; ++law) text += fmt::format(" {} |", SampleLawName(static_cast<SampleLaw>(law)));
   text += " over worlds |\n|---|---|---|---|---|---|---|---|---|\n" + one_way;

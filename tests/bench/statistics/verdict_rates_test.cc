@@ -12,7 +12,7 @@ namespace {
 
 using Draw = std::function<double(RandomStream&)>;
 
-/// Of 200 comparisons with nothing to find, those that call one method better, or worse. docs/results.md tells more.
+/// Returns how many of 200 comparisons without a true difference call one method better or worse (docs/results.md).
 int Claims(Aggregate aggregate, int pairs, const Draw& difference) {
   MetricInfo metric = *FindMetric("position_error_cm");
   metric.aggregate = aggregate;
@@ -33,7 +33,7 @@ double Normal(RandomStream& dice) { return dice.Normal(0, 3); }
 TEST(ComparePaired, SeldomFindsWhatIsNotThere) {
   EXPECT_LE(Claims(Aggregate::kMedian, 12, Normal), 16);
   EXPECT_LE(Claims(Aggregate::kMean, 12, Normal), 18);
-  // The control: something to find.
+  // The control: there is a difference.
   EXPECT_GE(Claims(Aggregate::kMedian, 12, [](RandomStream& dice) { return dice.Normal(6, 3); }), 190);
 }
 

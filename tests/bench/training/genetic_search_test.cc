@@ -44,7 +44,7 @@ TEST(GeneticSearch, IsNeverWorseThanItsAncestorsAndTellsEveryGeneration) {
   EXPECT_EQ(told.size(), 3u);
 }
 
-/// Pairs of which the left arm and knee alone say whether they are close; all else is noise.
+/// Returns pairs in which only the left arm and knee decide whether they are close; the rest is noise.
 std::vector<LabelledPair> PlantedPairs() {
   RandomStream dice({.scenario = "genetic-weights"}, "pairs");
   std::vector<LabelledPair> pairs(3000);

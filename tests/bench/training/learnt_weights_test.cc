@@ -42,7 +42,7 @@ TEST(LearntWeights, NeverSawTheJudgedClips) {
 
 TEST(LearntWeights, OfAJudgedClipDoNotMoveWhenItDoes) {
   TrainingClips moved = BuiltinClips();
-  moved.frames[0] = moved.frames[5];  // another dance under the same name
+  moved.frames[0] = moved.frames[5];  // another motion under the same name
   LearntWeights before(BuiltinClips()), after(moved);
   const std::string judged = moved.identities[0], other = moved.identities[1], third = moved.identities[2];
   EXPECT_EQ(before.For(WeightSource::kGenetic, judged, other), after.For(WeightSource::kGenetic, judged, other));

@@ -19,7 +19,7 @@ std::vector<TrainingFrame> Frames(const BodyMotion& motion) {
 }
 
 TEST(TrainingPairs, AreLabelledByTheirTruePoseGap) {
-  // Straight arms of 0.48 m: 10° apart is a gap of 8 cm, 30° apart one of 25 cm.
+  // Straight arms of 0.48 m: 10° apart is a gap of 8 cm, 30° apart is a gap of 25 cm.
   BodyMotion second = StandingClip(1, 70);
   second.poses.push_back(StandingClip(1, 90).poses[0]);
   const auto pairs = LabelPairs(Frames(StandingClip(1, 60)), Frames(second));
@@ -66,7 +66,7 @@ std::vector<LabelledPair> RandomPairs(int count) {
 }
 
 TEST(MatchScore, CountsLikeALoopOverEquation1) {
-  const std::vector<LabelledPair> pairs = RandomPairs(1000);  // no multiple of a block
+  const std::vector<LabelledPair> pairs = RandomPairs(1000);  // not a multiple of a block's size
   const FeatureWeights weights = {0, 2, 1, 0.5, 0, 1.5, 1, 1, 0.5, 0.5};
   const PairTable table(pairs);
   int checked = 0;

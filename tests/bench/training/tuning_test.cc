@@ -33,7 +33,7 @@ TEST(MembershipGenes, KeepBreakpointsInOrderAndSidesAlike) {
   const std::size_t count = CountMembershipGenes(paper);
   EXPECT_EQ(count, 20u);
   Genome genes(count);
-  for (std::size_t i = 0; i < count; ++i) genes[i] = i % 2 == 0 ? 1.0 : 0.0;  // neighbours against each other
+  for (std::size_t i = 0; i < count; ++i) genes[i] = i % 2 == 0 ? 1.0 : 0.0;  // neighbours get opposite values
   const Memberships tuned = MembershipsOfGenes(paper, genes);
   int checked = 0;
   for (const Shape& shape : tuned.shapes) {

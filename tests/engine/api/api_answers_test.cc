@@ -25,7 +25,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The engine's cameras before a walker, as the library reads them.
+/// Returns the engine's cameras in front of a walker, in the library's types.
 std::vector<NamedCamera> ApiCameras() {
   std::vector<NamedCamera> named;
   for (const Camera& camera : FourCameras()) named.push_back({"c" + std::to_string(named.size()), camera});
@@ -133,7 +133,7 @@ TEST(ApiMotion, ReadsWhatTheEngineWrote) {
 }
 
 TEST(ApiMotion, LaysTheRowsOfACsvOnItsClock) {
-  // Rows 10 to 19 of 60 are missing; the column of times tells so.
+  // Rows 10 to 19 of 60 are missing; the times show the gap.
   const BodyMotion flap = Flap(60, 30);
   std::istringstream lines(WriteJointCsv(flap));
   std::string text;

@@ -20,11 +20,10 @@ namespace {
 using etude::testing::RefusalOf;
 using ::testing::HasSubstr;
 
-/// A body that was ray cast into two cameras of 160 × 120 pixels.
 struct SmallTake {
   std::vector<NamedCamera> cameras;
   std::vector<std::vector<Mask>> masks;
-  std::vector<ProjectionMatrix> matrices;  ///< to pictures four times as large, which the options are made for
+  std::vector<ProjectionMatrix> matrices;  ///< for pictures four times as large, which the default options expect
   std::vector<std::vector<Silhouette>> silhouettes;
 
   SmallTake() {
@@ -75,7 +74,7 @@ TEST(ApiSilhouettes, RefusesWhatDoesNotGoTogether) {
   EXPECT_THAT(refused(), HasSubstr("1 cameras, but masks of 2"));
 }
 
-/// A standing body that sways, `far` metres to each side.
+/// Returns a standing body that sways by `far` metres to each side.
 Motion Swaying(int frames, double far) {
   const SilhouetteBody body = MakeSilhouetteBody({});
   const BodyPose standing = ToBodyPose(body, Swinging(body, 0));

@@ -41,7 +41,7 @@ TEST(ApiCameras, RefusesWhatDeterminesNoCamera) {
   EXPECT_THAT(Refusal([&] { Capture(two, none); }), HasSubstr("0 frames"));
 }
 
-/// A standing body whose right arm swings so many times, its joints told apart by their places alone.
+/// Returns a standing body whose right arm swings; joints have no names.
 Motion Swinging(double turns) {
   Motion motion;
   for (int frame = 0; frame < 40; ++frame) {

@@ -20,7 +20,7 @@
 namespace etude::engine {
 namespace {
 
-/// Cameras before a walker, all their numbers off the defaults.
+/// Returns cameras in front of a walker; no number has its default.
 std::vector<NamedCamera> LensedCameras() {
   std::vector<NamedCamera> cameras;
   for (const Camera& camera : FourCameras()) {
@@ -31,7 +31,7 @@ std::vector<NamedCamera> LensedCameras() {
   return cameras;
 }
 
-/// Every refusal's words; "" where the library takes what it is told.
+/// Collects the message of every refusal; "" if the library accepts the input.
 TEST(Api, RefusesJustBeyondEveryLimit) {
   std::vector<std::string> refusals;
   int taken = 0, refused = 0;

@@ -16,7 +16,7 @@ TEST(Error, ShowsNoControlByteOfAFileOrAMessage) {
   EXPECT_EQ(ToString(Error{{}, std::string("a\0b é", 6)}), "a b é") << "every control byte, and no byte of a letter";
 }
 
-// The textbook's recursion, without a table: what an edit costs is the least of what its last step can be.
+// The textbook's recursion without a table: the cost is the least over all last edits.
 int Edits(std::string_view a, std::string_view b) {
   if (a.empty() || b.empty()) return static_cast<int>(a.size() + b.size());
   const std::string_view a1 = a.substr(0, a.size() - 1), b1 = b.substr(0, b.size() - 1);
@@ -39,7 +39,7 @@ TEST(NearestName, IsTheFirstOfTheFewestEdits) {
   for (const std::vector<std::string>& known : {words, few}) {
     for (const std::string& name : words) {
       std::string nearest;
-      int least = 2 + static_cast<int>(name.size()) / 3;  // one edit, and one for every three letters
+      int least = 2 + static_cast<int>(name.size()) / 3;  // one edit, plus one per three letters
       for (const std::string& word : known) {
         if (Edits(name, word) < least) least = Edits(name, nearest = word);
       }

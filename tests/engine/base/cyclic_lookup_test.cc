@@ -15,7 +15,7 @@ TEST(CyclicLookup, FindsWhatAMapFindsInWhateverOrderItIsAsked) {
   std::minstd_rand dice(1);
   int found = 0, missed = 0;
   for (int i = 0; i < 5000; ++i) {
-    // In turn, with jumps, and now and then something new.
+    // Names come in a cycle, with jumps and some new names.
     const std::string name = "n" + std::to_string(dice() % 10 == 0 ? dice() % 40 : static_cast<unsigned>(i) % 12);
     int* const thing = things.Find(name);
     const auto known = oracle.find(name);

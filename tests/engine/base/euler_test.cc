@@ -62,10 +62,10 @@ TEST(Euler, SmallestRotationOfOppositeVectorsIsHalfATurn) {
 }
 
 TEST(Euler, SmallestRotationOfOppositeVectorsTurnsAboutTheCoordinateAxisLeastAlongThem) {
-  // Half a turn about a keeps a: for vectors that are at right angles to it, a is the coordinate axis itself.
+  // A half turn about a keeps a. For vectors normal to a coordinate axis, a is this axis.
   const auto axis_of = [](const glm::dvec3& v) {
     const glm::dmat3 rotation = SmallestRotation(v, -v);
-    return glm::dvec3(rotation[0][0], rotation[1][1], rotation[2][2]);  // 2 a² − 1, component by component
+    return glm::dvec3(rotation[0][0], rotation[1][1], rotation[2][2]);  // 2 a² − 1 per component
   };
   EXPECT_LT(glm::length(axis_of({0, 0.6, 0.8}) - glm::dvec3(1, -1, -1)), 1e-14);
   EXPECT_LT(glm::length(axis_of({0.6, 0, 0.8}) - glm::dvec3(-1, 1, -1)), 1e-14);

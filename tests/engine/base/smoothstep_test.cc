@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kStep = 1e-4;
 
-/// First and second derivatives by central differences.
+/// Returns the first and second derivatives by central differences.
 template <typename Function>
 double Speed(Function f, double t) {
   return (f(t + kStep) - f(t - kStep)) / (2 * kStep);

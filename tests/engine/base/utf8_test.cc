@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 std::string Utf8Complaint(std::string_view text) { return testing::Refusal(CheckUtf8(text, "file")); }
 
-/// The table of RFC 3629, section 3, written out.
+/// Encodes by the table of RFC 3629, section 3.
 std::string Encoded(std::uint32_t c) {
   const auto byte = [](std::uint32_t value) { return std::string(1, static_cast<char>(value)); };
   if (c < 0x80) return byte(c);

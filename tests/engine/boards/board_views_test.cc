@@ -17,12 +17,11 @@ Camera LookingAt(const glm::dvec3& from) {
   return LookAt({.width = 640, .height = 480, .fx = 620, .fy = 620, .cx = 320, .cy = 240, .skew = 0}, from, {0, 0, 0});
 }
 
-/// A board in the world: its top left corner and its axes.
 struct Placed {
   glm::dvec3 corner, right, down;
 };
 
-/// Every pixel's mean over nine rays to the board's plane.
+/// Renders each pixel as the mean of nine rays to the board's plane.
 ColourImage Photograph(const Camera& camera, const Placed& board) {
   const Intrinsics& in = camera.intrinsics;
   const glm::dvec3 normal = glm::cross(board.right, board.down);
@@ -52,7 +51,7 @@ Placed Tilted(double yaw, double pitch) {
   return {-0.45 * right - 0.375 * down, right, down};
 }
 
-/// The first board hangs straight on a wall, so that a rig told by it can be compared with the truth.
+/// The first board hangs upright on a wall, so its rig can be compared with the truth.
 TEST(BoardViews, PicturesOfBoardsGiveTwoCamerasBack) {
   const std::vector<Camera> cameras{LookingAt({0.2, 0.3, 1.9}), LookingAt({1.1, 0.2, 1.6})};
   const Placed boards[] = {Tilted(0, 0), Tilted(0.4, 0.3), Tilted(-0.3, 0.4), Tilted(0.2, -0.4), Tilted(0.5, -0.2)};
@@ -78,7 +77,7 @@ TEST(BoardViews, PicturesOfBoardsGiveTwoCamerasBack) {
 
 TEST(AlignToBoard, LaysTheFirstBoardOnTheFloor) {
   std::vector<Camera> cameras{LookAt({}, {0, 0.5, -2}, {0, 0, 0})};
-  // In the board's own frame: a point on it, one square right and two down; and one a metre before its front.
+  // In the board's frame: a point one square to the right and two down; and a point one metre in front.
   const glm::dvec3 on(0.2, 0.4, 0), before(0, 0, -1);
   const auto at = Project(cameras[0], on), above = Project(cameras[0], before);
   AlignToBoard(BoardPlacement::kOnFloor, cameras);

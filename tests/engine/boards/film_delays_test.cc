@@ -17,7 +17,7 @@ struct SteppingCase {
   double other_period_s = kPeriodS;
 };
 
-/// What two cameras see of a board of 4 x 5 squares that is waved about, the second one's film late.
+/// Returns what two cameras see of a moving board of 4 x 5 squares; the second film is late.
 std::vector<BoardSighting> SightingsOf(const SteppingCase& of, std::vector<Camera>& cameras) {
   const Intrinsics in{.width = 1280, .height = 720, .fx = 900, .fy = 900, .cx = 640, .cy = 360, .skew = 0};
   cameras = {LookAt(in, {0.3, 0.2, -1.2}, {0, 0, 0}), LookAt(in, {-0.7, 0.1, -0.9}, {0, 0, 0})};
@@ -38,7 +38,7 @@ std::vector<BoardSighting> SightingsOf(const SteppingCase& of, std::vector<Camer
       for (int i = 0; i < 12; ++i) {
         const glm::dvec2 place(0.054 * (i % 3 + 1), 0.054 * (i / 3 + 1));
         const glm::dvec2 pixel = *Project(cameras[camera], at(t, place));
-        // Corners err by a tenth of a pixel, in a way that repeats.
+        // Corner errors of a tenth of a pixel, deterministic.
         const glm::dvec2 error(std::sin(12.9 * look + 78.2 * i + static_cast<double>(camera)),
                                std::sin(37.7 * look + 11.1 * i + 2.0 * static_cast<double>(camera)));
         s.view.pairs.push_back({{place.x, place.y, 0}, pixel + 0.1 * error});
@@ -80,7 +80,7 @@ TEST(SynchronisedViews, OfAnotherRateStandAtTheFirstFilmsMoments) {
   std::vector<Camera> truth;
   const auto sightings = SightingsOf({.other_period_s = periods[1]}, truth);
   const auto views = SynchronisedViews(sightings, periods, delay_s);
-  ASSERT_EQ(views.size(), sightings.size());  // none is lost: those between the first film's moments stand alone
+  ASSERT_EQ(views.size(), sightings.size());  // no view is lost: views between the first film's frames stay single
   ASSERT_OK(rig, CalibrateFromPlanes(kSizes, views));
   EXPECT_LT(rig->rms_px, 0.4);
   EXPECT_NEAR(glm::distance(rig->cameras[0].p_WC, rig->cameras[1].p_WC), glm::distance(truth[0].p_WC, truth[1].p_WC),

@@ -23,7 +23,7 @@ namespace {
 
 using ::testing::IsEmpty;
 
-/// Where a board stands: its top left corner and its two axes in the world.
+/// A board's pose: its top left corner and its two axes in the world.
 struct Standing {
   glm::dvec3 corner, right, down;
 
@@ -34,10 +34,10 @@ struct Standing {
 struct Shown {
   Board board;
   Standing standing;
-  bool is_chess = false;  ///< without codes
+  bool is_chess = false;  ///< a chessboard without codes
 };
 
-/// The part of a picture that shows any of the boards, and a little more; the rest need not be looked at.
+/// The part of a picture that contains the boards, with a margin; only this part is rendered.
 struct Around {
   int left = 0, top = 0, right = 0, bottom = 0;
 
@@ -45,7 +45,7 @@ struct Around {
 };
 
 Around PartWith(const std::vector<Shown>& boards, const Camera& camera) {
-  constexpr double kMore = 8;  // edges bend under a lens
+  constexpr double kMore = 8;  // a lens bends the edges
   const Intrinsics& inside = camera.intrinsics;
   glm::dvec2 low(inside.width, inside.height), high(0, 0);
   for (const Shown& shown : boards) {
@@ -60,8 +60,8 @@ Around PartWith(const std::vector<Shown>& boards, const Camera& camera) {
   return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x), static_cast<int>(high.y)};
 }
 
-/// The second implementation of a picture: every pixel's mean over 25 rays that meet the boards' planes. (Their places
-/// make a lattice that is fine along both axes: a square one would show straight edges in steps of a fifth.)
+/// A second implementation of pictures: each pixel is the mean of 25 rays to the boards' planes. Their lattice is fine
+/// along both axes, because a square lattice renders straight edges in steps of a fifth.
 ColourImage Photograph(const std::vector<Shown>& boards, const Camera& camera, double noise, RandomStream& random) {
   constexpr int kRays = 25;
   const Intrinsics& inside = camera.intrinsics;
@@ -70,7 +70,7 @@ ColourImage Photograph(const std::vector<Shown>& boards, const Camera& camera, d
   for (int y = 0; y < inside.height; ++y) {
     for (int x = 0; x < inside.width; ++x) {
       double sum = part.Holds(x, y) ? 0 : 120 * kRays;
-      // What a lens does is nearly the same all over a pixel.
+      // Distortion is nearly constant within a pixel.
       const glm::dvec2 middle(x + 0.5, y + 0.5);
       const glm::dvec2 bent = camera.distortion.IsNone() ? middle : *UndistortPixel(camera, middle);
       for (int k = 0; k < kRays && part.Holds(x, y); ++k) {
@@ -105,7 +105,8 @@ ColourImage Photograph(const std::vector<Shown>& boards, const Camera& camera, d
   return picture;
 }
 
-/// A board before the camera at the origin, `distance` away, turned by `roll` in its plane and by `slant` out of it.
+/// Returns a board `distance` in front of the camera at the origin, turned by `roll` in its plane, by `slant` out of
+/// it.
 Standing Before(const Board& board, double distance, double roll, double slant) {
   const glm::dvec3 right(std::cos(roll) * std::cos(slant), std::sin(roll), std::cos(roll) * std::sin(slant));
   glm::dvec3 down(-std::sin(roll) * std::cos(slant), std::cos(roll), -std::sin(roll) * std::sin(slant));
@@ -120,7 +121,6 @@ struct Outcome {
   double rms = 0, worst = 0;
 };
 
-/// How far the corners that were found lie from where the definition says.
 Outcome Compare(const std::vector<SeenCorner>& seen, const std::vector<Shown>& boards) {
   Outcome outcome;
   std::set<std::tuple<std::size_t, int, int>> names;
@@ -143,7 +143,7 @@ std::vector<Board> BoardsOf(const std::vector<Shown>& shown) {
   return boards;
 }
 
-/// The second implementation of a calibration: OpenCV's. Both minimise the same sum over the same corners.
+/// A second implementation of calibration, OpenCV's, which minimises the same sum over the same corners.
 TEST(FindBoards, RenderedBoardsCalibrateACameraAsOpenCvDoes) {
   Camera camera{.intrinsics = {.width = 400, .height = 300, .fx = 390, .fy = 386, .cx = 207, .cy = 146, .skew = 0}};
   camera.distortion = {.k1 = -0.12, .k2 = 0.05, .p1 = 0.001, .p2 = -0.0015};
@@ -164,7 +164,7 @@ TEST(FindBoards, RenderedBoardsCalibrateACameraAsOpenCvDoes) {
     ASSERT_GE(views.size(), 5u);
     ASSERT_OK(ours, CalibrateFromPlanes(search.sizes(), views));
     ASSERT_OK(theirs, CalibrateByOpenCv(views, search.sizes()[0], LensModel::kRadial2));
-    EXPECT_NEAR(ours->rms_px, theirs->rms_px, 1e-5);  // OpenCV takes corners as floats
+    EXPECT_NEAR(ours->rms_px, theirs->rms_px, 1e-5);  // OpenCV stores corners as floats
     EXPECT_LT(ours->rms_px, 0.2);
     const Intrinsics &a = ours->cameras[0].intrinsics, &b = theirs->intrinsics;
     for (const auto side : {&Intrinsics::fx, &Intrinsics::fy, &Intrinsics::cx, &Intrinsics::cy}) {
@@ -221,7 +221,7 @@ TEST(FindBoards, FindsEveryCornerToATenthOfAPixelHoweverTheBoardIsTurned) {
       const Board board{.columns = 7, .rows = 6, .square = 0.12, .first_code = 11};
       const std::vector<Shown> shown{{board, Before(board, 1.6, Radians(roll), Radians(slant))}};
       const Outcome outcome = Compare(FindBoards(Photograph(shown, kCamera, 2, random), BoardsOf(shown)), shown);
-      EXPECT_GE(outcome.found, 29) << roll << " " << slant;  // of 30
+      EXPECT_GE(outcome.found, 29) << roll << " " << slant;  // of 30 corners
       EXPECT_LT(outcome.rms, 0.1) << roll << " " << slant;
       EXPECT_LT(outcome.worst, 0.5) << roll << " " << slant;
     }
@@ -234,13 +234,13 @@ TEST(FindBoards, TellsTwoBoardsApartAndReadsAPartOfOne) {
   const Board second{.columns = 8, .rows = 8, .square = 0.2, .first_code = CountCodes(first)};
   Standing left = Before(first, 2, Radians(10), Radians(20)), right = Before(second, 2.4, 0, Radians(-30));
   left.corner.x -= 0.5;
-  right.corner.x += 1.1;  // the right half of it is outside the picture
+  right.corner.x += 1.1;  // its right half is outside the picture
   const std::vector<Shown> shown{{first, left}, {second, right}};
   const auto seen = FindBoards(Photograph(shown, kCamera, 2, random), BoardsOf(shown));
   const Outcome outcome = Compare(seen, shown);
   EXPECT_LT(outcome.worst, 0.5);
   const auto of_first = std::ranges::count(seen, 0u, &SeenCorner::board);
-  EXPECT_GE(of_first, 15);  // of 16
+  EXPECT_GE(of_first, 15);  // of 16 corners
   EXPECT_GE(outcome.found - of_first, 15);
   EXPECT_LT(outcome.found - of_first, 49) << "corners outside the picture";
 }

@@ -20,10 +20,10 @@
 namespace etude {
 namespace {
 
-/// A board laid into a picture: its plane's point p is shown at (H p) / w.
+/// A board in a picture: its plane's point p has the pixel (H p) / w.
 struct Laid {
   Board board;
-  glm::dmat3 to_board;  ///< of pixels
+  glm::dmat3 to_board;  ///< from pixels
 };
 
 Laid AnyLaid(testing::Dice& dice, const Board& board, const glm::dvec2& middle, double square_px) {
@@ -36,7 +36,7 @@ Laid AnyLaid(testing::Dice& dice, const Board& board, const glm::dvec2& middle, 
   return {board, glm::inverse(turned * lean * centred)};
 }
 
-/// Four rays a pixel, blurred by noise; a few modules are painted over.
+/// Renders four rays per pixel with blur and noise, and paints over a few modules.
 ColourImage Photographed(testing::Dice& dice, const std::vector<Laid>& boards, int width, int height, double noise) {
   ColourImage picture(width, height);
   const std::array<glm::dvec2, 4> rays = {glm::dvec2(0.1, 0.4), {0.6, 0.15}, {0.85, 0.6}, {0.4, 0.9}};

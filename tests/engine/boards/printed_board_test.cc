@@ -15,8 +15,7 @@
 namespace etude {
 namespace {
 
-/// A chessboard seen from straight ahead: squares of `size` pixels from (left, top) on, black and white in turn, on
-/// white.
+/// Returns a chessboard seen straight on: squares of `size` pixels from (left, top), on white.
 ColourImage PictureOfChessboard(const PrintedBoard& board, int size, int left, int top) {
   ColourImage picture(left * 2 + board.columns * size, top * 2 + board.rows * size);
   for (int y = 0; y < picture.height; ++y) {
@@ -31,12 +30,12 @@ ColourImage PictureOfChessboard(const PrintedBoard& board, int size, int left, i
   return picture;
 }
 
-/// The first markers of DICT_4X4, modules by rows, 1 for white; as OpenCV draws them.
+/// The first markers of DICT_4X4, row by row, 1 for white, as OpenCV draws them.
 constexpr std::array<std::uint16_t, 10> kMarkers = {0xb532, 0x0f9a, 0x332d, 0x9946, 0x549e,
                                                     0x79cd, 0x9e2e, 0xc4f2, 0xfeda, 0xcf56};
 
-/// A ChArUco board of markers in every second square: from the second square on, or from the first one; `is_inverted`
-/// exchanges black and white of all.
+/// Returns a ChArUco board with markers in every second square, from the second square or the first one; `is_inverted`
+/// exchanges black and white.
 ColourImage PictureOfCharuco(const PrintedBoard& board, bool is_inverted, bool is_first) {
   constexpr int kModule = 8, kRim = 8, kSquare = 6 * kModule + 2 * kRim, kLeft = 50, kTop = 40;
   ColourImage picture(2 * kLeft + board.columns * kSquare, 2 * kTop + board.rows * kSquare);
@@ -110,7 +109,7 @@ TEST(PrintedBoard, CornersOfAChessboardAreWhereTheyWereDrawn) {
   const auto finder = MakePrintedBoardFinder(board);
   if (!finder) GTEST_SKIP() << ToString(finder.error());
   const std::vector<SeenCorner> seen = (*finder)->Find(PictureOfChessboard(board, kSize, kLeft, kTop));
-  ASSERT_EQ(seen.size(), 30u);  // inner corners alone
+  ASSERT_EQ(seen.size(), 30u);  // inner corners only
   for (const SeenCorner& each : seen) {
     EXPECT_NEAR(each.pixel.x, kLeft + kSize * (1 + (&each - seen.data()) % 6), 0.1);
     EXPECT_NEAR(each.pixel.y, kTop + kSize * (1 + (&each - seen.data()) / 6), 0.1);
@@ -118,7 +117,7 @@ TEST(PrintedBoard, CornersOfAChessboardAreWhereTheyWereDrawn) {
   EXPECT_TRUE((*finder)->Find(ColourImage(320, 240)).empty());
 }
 
-/// A picture through a homography, bilinear; `at` shows where its pixels come from.
+/// Returns a picture through a homography, bilinear; `at` maps its pixels to the source.
 ColourImage Warped(const ColourImage& picture, const glm::dmat3& to_source, int width, int height) {
   ColourImage warped(width, height, {120, 120, 120});
   for (int y = 0; y < height; ++y) {
@@ -138,10 +137,9 @@ ColourImage Warped(const ColourImage& picture, const glm::dmat3& to_source, int 
   return warped;
 }
 
-/// The corners of a board in a warped picture are where its own were, by name.
+/// Checks that the corners of a board in a warped picture are at the warped positions, by name.
 class WarpedCorners {
  public:
-  /// Returns how many there are.
   std::size_t Expect(const std::vector<SeenCorner>& seen, const glm::dmat3& to_source) {
     for (const SeenCorner& each : seen) {
       const glm::dvec3 p = to_source * glm::dvec3(each.pixel, 1);
@@ -151,7 +149,7 @@ class WarpedCorners {
     }
     return seen.size();
   }
-  /// Of all corners, each with its own weight: OpenCV's vectors may differ in the last digits, its settings do more.
+  /// Returns a weighted sum of all corners. OpenCV's vector code may change the last digits; its settings change more.
   double sum() const { return sum_; }
 
  private:
@@ -185,7 +183,7 @@ TEST(PrintedBoard, IsReadAslantUpsideDownAndInPart) {
   EXPECT_EQ((*MakePrintedBoardFinder({true, 5, 4, 0.03}))->Told(), "no marker of any dictionary");
 }
 
-/// Boards of 6 × 5 corners before a camera with a lens: OpenCV finds every number of it.
+/// Boards of 6 × 5 corners in front of a camera with a lens: OpenCV recovers all its parameters.
 TEST(CalibrateByOpenCv, FindsEveryNumberOfALens) {
   Camera camera = LookAt({.fx = 610, .fy = 590, .cx = 327, .cy = 231}, {0, 0, -1}, {0, 0, 0});
   camera.distortion = {.k1 = -0.2, .k2 = 0.08, .p1 = 0.003, .p2 = -0.004, .k3 = -0.02};

@@ -20,7 +20,7 @@ using testing::Dice;
 constexpr int kWidth = 640, kHeight = 480;
 constexpr double kFocal = 620;
 
-/// A flat board: where it is black, metres from its top left corner.
+/// A flat board: which parts are black, metres from its top left corner.
 struct Sheet {
   bool is_chess = false;
   int columns = 9, rows = 6;
@@ -56,7 +56,7 @@ View Thrown(const Sheet& sheet, Dice& dice) {
   return view;
 }
 
-/// A picture of the board: nine rays a pixel, blurred by a lens, with a sensor's noise.
+/// Renders the board: nine rays per pixel, lens blur, sensor noise.
 ColourImage PhotographOf(const Sheet& sheet, const View& view, double blur_px, Dice& dice) {
   const glm::dmat3 R_TC = glm::transpose(view.R_CT);
   const glm::dvec3 eye = -(R_TC * view.p_CT);
@@ -95,7 +95,7 @@ ColourImage PhotographOf(const Sheet& sheet, const View& view, double blur_px, D
   return picture;
 }
 
-/// Finds the board of a sheet; nullopt if the module with OpenCV's detectors is not there.
+/// Finds a sheet's board; nullopt without the module of OpenCV's detectors.
 std::optional<BoardViews> SearchFor(const Sheet& sheet) {
   if (!sheet.is_chess) return BoardViews({Board{sheet.columns, sheet.rows, sheet.square, 0}});
   const PrintedBoard board{.columns = sheet.columns, .rows = sheet.rows, .square = sheet.square};
@@ -105,12 +105,12 @@ std::optional<BoardViews> SearchFor(const Sheet& sheet) {
 }
 
 struct Measured {
-  double corner_px = 0;  ///< RMS distance of corners from the truth
+  double corner_px = 0;  ///< RMS distance of the corners from the truth
   int calibrations = 0, covered = 0;
-  double bias_px = 0, scatter_px = 0, told_px = 0;  ///< of the focal length; the mean ± told
+  double bias_px = 0, scatter_px = 0, told_px = 0;  ///< of the focal length: bias, scatter, and mean reported ±
 };
 
-/// Calibrates a camera from some pictures, so many times.
+/// Calibrates a camera from `pictures` pictures, `calibrations` times.
 std::optional<Measured> Measure(const Sheet& sheet, double blur_px, int calibrations, std::uint64_t seed,
                                 int pictures = 10) {
   Measured measured;
@@ -136,7 +136,7 @@ std::optional<Measured> Measure(const Sheet& sheet, double blur_px, int calibrat
     const auto rig = CalibrateFromPlanes(search->sizes(), search->views(), {.lens = LensModel::kPinhole});
     EXPECT_TRUE(rig);
     if (!rig) continue;
-    constexpr double kNinetyFive = 2;  // as `etude calibrate` prints
+    constexpr double kNinetyFive = 2;  // as in `etude calibrate`'s output
     const double off = rig->cameras[0].intrinsics.fx - kFocal, told = kNinetyFive * rig->deviations[0].fx;
     ++measured.calibrations;
     measured.covered += std::abs(off) <= told;

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// An arm of three limbs from a turning root: seven angles, two lengths, four points.
+/// Returns an arm of three limbs on a turning root: seven angles, two lengths, four points.
 MeasurableBody Arm(double upper = 0.5, double lower = 0.4) {
   MeasurableBody arm;
   arm.tree.joints = {{"root", -1, glm::dvec3(0), glm::dmat3(1), 0, 0},
@@ -54,7 +54,6 @@ std::vector<TreeState> Poses(int count, double step, double offset = 0) {
   return states;
 }
 
-// The largest distance of any point of any frame.
 double LargestError(const MeasurableBody& body, const BundleSolution& found, const MeasurableBody& true_body,
                     const std::vector<TreeState>& truth) {
   double largest = 0;
@@ -123,14 +122,14 @@ TEST(AdjustBundle, GivesPosesAndLengthsOfExactMarksBack) {
   EXPECT_GT(LargestError(arm, fixed, true_arm, truth), 0.01) << "the control: with wrong lengths no pose fits";
 }
 
-// What the sum is worth at one place, without a step.
+// Returns the cost at a place, without a step.
 double CostAt(const MeasurableBody& body, std::span<const TreeState> states, std::span<const BundleMark> marks,
               BundleOptions options) {
   options.max_iterations = 0;
   return AdjustBundle({.body = body, .start = states, .marks = marks}, options).first_cost;
 }
 
-// A search with a wrong derivative of any term ends elsewhere than where the sum itself is smallest.
+// A wrong derivative of any term would end the search away from the minimum.
 TEST(AdjustBundle, EndsWhereFiniteDifferencesOfTheWholeSumVanish) {
   const std::vector<TreeState> truth = Poses(5, 0.1);
   auto marks = ExactMarks(Arm(), truth);
@@ -153,7 +152,7 @@ TEST(AdjustBundle, EndsWhereFiniteDifferencesOfTheWholeSumVanish) {
 
   constexpr double kStep = 1e-4;
   int checked = 0;
-  // The cost is a parabola of `by`: its slope must be nothing beside what it is a degree away.
+  // The cost is a parabola of `by`, so its slope must vanish relative to the slope a degree away.
   const auto expect_minimum = [&](const auto& cost) {
     const double slope = (cost(kStep) - cost(-kStep)) / (2 * kStep);
     const double bend = (cost(kStep) + cost(-kStep) - 2 * found.last_cost) / (kStep * kStep);
@@ -188,7 +187,7 @@ TEST(AdjustBundle, EndsWhereFiniteDifferencesOfTheWholeSumVanish) {
 TEST(AdjustBundle, IsMovedByAGrossErrorOnlyWithoutARobustLoss) {
   const std::vector<TreeState> truth = Poses(3, 0.2);
   auto marks = ExactMarks(Arm(), truth);
-  marks[2 * Arm().points.size() - 2].pixel += glm::dvec2(150, -80);  // of the wrist, in the first frame
+  marks[2 * Arm().points.size() - 2].pixel += glm::dvec2(150, -80);  // the wrist in the first frame
   const auto error = [&](RobustLoss loss) {
     BundleOptions options = Exact();
     options.loss = loss;

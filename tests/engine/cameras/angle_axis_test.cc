@@ -20,7 +20,7 @@ double Distance(const glm::dmat3& a, const glm::dmat3& b) {
   return most;
 }
 
-/// Vectors of all lengths up to π, the smallest below what has a first order alone.
+/// Returns rotation vectors of lengths up to π; the smallest ones need the first-order branch.
 std::vector<glm::dvec3> Turns() {
   testing::Dice dice(1);
   std::vector<glm::dvec3> turns = {{0, 0, 0}, {kPi, 0, 0}, {0, 0, -kPi}};
@@ -46,7 +46,7 @@ TEST(AngleAxis, TurnsByItsLengthAboutItsDirection) {
 TEST(AngleAxis, ComesBackFromItsRotation) {
   for (const glm::dvec3& v : Turns()) {
     const glm::dvec3 back = ToAngleAxis(FromAngleAxis(v));
-    // By π, both directions of the axis are the same rotation.
+    // At π, both directions of the axis give the same rotation.
     const double off = std::min(glm::distance(back, v), glm::length(v) > 3.14 ? glm::distance(-back, v) : 9.0);
     EXPECT_LT(off, 1e-14) << v.x << " " << v.y << " " << v.z;
     EXPECT_LE(glm::length(back), kPi + 1e-15);

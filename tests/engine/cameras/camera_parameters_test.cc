@@ -16,7 +16,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// All twelve, as an array that can be compared number by number.
 std::array<double, 12> Listed(const CameraParameters& p) {
   return {p.focal_length, p.delta_u, p.delta_v, p.principal_u, p.principal_v, p.skew,
           p.omega,        p.phi,     p.kappa,   p.t.x,         p.t.y,         p.t.z};
@@ -36,7 +35,7 @@ CameraParameters AnyParameters(int seed) {
           .t = {dice.Uniform(-5, 5), dice.Uniform(-5, 5), dice.Uniform(0.1, 9)}};
 }
 
-/// K and R as the header prints them, multiplied by hand: a second implementation.
+/// A second implementation: K and R as in the header, multiplied out.
 ProjectionMatrix PrintedMatrix(const CameraParameters& p) {
   const double K[3][3] = {{p.focal_length / p.delta_u, -p.focal_length / p.delta_u / std::tan(p.skew), p.principal_u},
                           {0, p.focal_length / (p.delta_v * std::sin(p.skew)), p.principal_v},
@@ -60,7 +59,7 @@ ProjectionMatrix PrintedMatrix(const CameraParameters& p) {
   return matrix;
 }
 
-/// The matrix of parameters, scaled such that w is the depth in metres.
+/// Returns the parameters' matrix, scaled so that w is the depth in metres.
 ProjectionMatrix Recompose(const CameraParameters& parameters) { return MatrixOf(ToCamera(parameters, 1, 1)); }
 
 TEST(CameraParameters, RecomposeIsThePrintedProduct) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Distortion kLens{.k1 = -0.28, .k2 = 0.09, .p1 = 0.0012, .p2 = -0.0021, .k3 = -0.01};
 
-// cv::projectPoints' documentation, written down once more.
+// A second implementation, from the documentation of cv::projectPoints.
 glm::dvec2 AsOpenCvSays(const Distortion& d, double x, double y) {
   const double r2 = x * x + y * y;
   const double radial = 1 + d.k1 * r2 + d.k2 * std::pow(r2, 2) + d.k3 * std::pow(r2, 3);
@@ -41,7 +41,7 @@ TEST(Distortion, IsUndone) {
   }
 }
 
-// r' = r + k r³ has a root in closed form (Cardano): on an axis, without tangential terms.
+// On an axis without tangential terms r' = r + k r³, whose root has a closed form (Cardano).
 TEST(Distortion, IsUndoneByTheCubicsOwnRoot) {
   for (const double k1 : {0.2, 0.5}) {
     for (const double seen : {0.1, 0.4, 0.7}) {
@@ -73,7 +73,7 @@ TEST(Distortion, OfACameraMovesItsPixels) {
   camera.distortion = kLens;
   const glm::dvec2 straight = *Project(MatrixOf(camera), point), seen = *Project(camera, point);
   EXPECT_GT(glm::length(straight - seen), 2);
-  // Through the camera's own frame: K (distorted ray).
+  // A second implementation: K times the distorted ray in the camera's frame.
   const glm::dvec3 ray = camera.R_CW * (point - camera.p_WC);
   const glm::dvec2 bent = AsOpenCvSays(kLens, ray.x / ray.z, ray.y / ray.z);
   EXPECT_NEAR(seen.x, 610 * bent.x + 2 * bent.y + 318, 1e-9);
@@ -156,10 +156,10 @@ TEST(Distortion, OfMoreCoefficientsAndFisheyesIsUndone) {
       EXPECT_LT(glm::distance(*back, ray), 1e-9);
     }
   }
-  // A fisheye without coefficients shows angles: 45 degrees to the right at π/4.
+  // A fisheye without coefficients shows angles: 45° is at π/4.
   EXPECT_NEAR(Distort({.is_fisheye = true}, {1, 0}).x, 0.78539816339744831, 1e-15);
   EXPECT_FALSE(Undistort({.is_fisheye = true}, {1.6, 0})) << "behind the camera";
-  // The rational model with equal numerator and denominator is none.
+  // A rational model with equal numerator and denominator distorts nothing.
   const Distortion equal{.k1 = 0.1, .k2 = 0.02, .k3 = 0.01, .k4 = 0.1, .k5 = 0.02, .k6 = 0.01};
   EXPECT_LT(glm::distance(Distort(equal, {0.4, 0.3}), glm::dvec2(0.4, 0.3)), 1e-15);
 }

@@ -1,5 +1,4 @@
-// The complaints of readers of rigs and point pairs about files damaged line by line, and how often they accept such
-// files.
+// Complaints of readers of rigs and point pairs about files damaged line by line, and how often they accept such files.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -19,8 +18,7 @@ namespace {
 
 using testing::ComplaintLines;
 
-/// The text, then it without each of its lines in turn, with each cut off or doubled, with each of its numbers replaced
-/// by others.
+/// Returns the text with each line removed, truncated or doubled, and each number replaced.
 std::vector<std::string> Spoilt(const std::string& text) {
   std::vector<std::string> spoilt = {text};
   const auto read = [&](const std::string& changed) { spoilt.push_back(changed); };
@@ -43,7 +41,6 @@ std::vector<std::string> Spoilt(const std::string& text) {
 
 Result<RigFile> ReadRigText(const std::string& text) { return ReadRigFile(text, "rig"); }
 
-/// One camera of each kind of lens, in round numbers.
 std::vector<NamedCamera> CamerasOfAllKinds() {
   std::vector<NamedCamera> cameras;
   const std::vector<Distortion> lenses = {
@@ -63,7 +60,7 @@ std::vector<NamedCamera> CamerasOfAllKinds() {
   return cameras;
 }
 
-/// Without what stands beyond a number's ninth decimal: the last ones are the mathematics library's.
+/// Truncates numbers after nine decimals, because the last ones depend on the mathematics library.
 std::string NineDecimals(const std::string& text) {
   std::string cut;
   for (std::size_t i = 0, decimals = 0; i < text.size(); ++i) {

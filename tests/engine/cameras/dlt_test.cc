@@ -18,7 +18,7 @@ ProjectionMatrix TrueMatrix() {
   return MatrixOf(LookAt({.fx = 610, .fy = 590, .skew = 3}, {2.2, 1.4, 3.1}, {0, 1, 0}));
 }
 
-// The corners of a box, and more points inside it, none of them special.
+// Returns the corners of a box, and random points inside.
 std::vector<PointPair> Pairs(int count) {
   std::vector<PointPair> pairs;
   for (int i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ class Dlt : public ::testing::TestWithParam<Calibration> {};
 
 TEST_P(Dlt, GivesTheMatrixBackFromSixExactPairs) {
   ASSERT_OK(matrix, Calibrate(Pairs(6), GetParam()));
-  // MatrixOf is scaled alike: its third row is a unit vector, so w is the depth.
+  // MatrixOf has the same scale: its third row is a unit vector, so w is the depth.
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
       EXPECT_NEAR(matrix->h[row][column], TrueMatrix().h[row][column], 1e-6) << row << ", " << column;
@@ -90,10 +90,10 @@ TEST_P(Dlt, RefusesPointsOnOneLine) {
 TEST_P(Dlt, RefusesOnePointRepeated) { EXPECT_FALSE(Calibrate(std::vector<PointPair>(8, Pairs(1)[0]), GetParam())); }
 
 TEST_P(Dlt, RefusesPairsThatNoCameraHasInFrontOfIt) {
-  // Points on both sides of the camera's plane: the equations do not tell w from −w.
+  // Points on both sides of the camera's plane: the equations cannot tell w from −w.
   std::vector<PointPair> pairs = Pairs(10);
   const glm::dvec3 eye(2.2, 1.4, 3.1);
-  for (std::size_t i = 5; i < pairs.size(); ++i) pairs[i].world = 2.0 * eye - pairs[i].world;  // the same ray, behind
+  for (std::size_t i = 5; i < pairs.size(); ++i) pairs[i].world = 2.0 * eye - pairs[i].world;  // same ray, behind
   EXPECT_THAT(testing::Message(Calibrate(pairs, GetParam())), HasSubstr("in front of it"));
 }
 
@@ -108,7 +108,7 @@ TEST_P(Dlt, RefusesNumbersThatAreNotFinite) {
 }
 
 TEST_P(Dlt, RefusesPairsThatManyCamerasFit) {
-  // All but one point in a plane: the other's distance cannot be told from the camera's.
+  // All points but one in a plane: that point's distance and the camera's are ambiguous.
   std::vector<PointPair> pairs = Pairs(10);
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     pairs[i].world.y = 0.5;

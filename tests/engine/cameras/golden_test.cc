@@ -14,7 +14,7 @@ namespace {
 
 using testing::Fingerprint;
 
-/// Within ±1000, so that rigs that are far off after few iterations hide none of the others.
+/// Limits numbers to ±1000, so that diverged rigs do not hide the others.
 double Bounded(double x) { return x / (1 + 0.001 * std::abs(x)); }
 glm::dvec3 Bounded(const glm::dvec3& p) { return {Bounded(p.x), Bounded(p.y), Bounded(p.z)}; }
 
@@ -32,7 +32,7 @@ void AddRig(Fingerprint& print, const Result<RefinedRig>& rig) {
   }
 }
 
-/// Boards of 6 × 4 corners as three cameras show them, with noise; some views are missing or cut off.
+/// Returns three cameras' views of boards of 6 × 4 corners with noise; some views are missing or cut off.
 std::vector<TargetView> ViewsOfBoards(testing::Dice& dice, const std::vector<Camera>& cameras, int boards) {
   std::vector<TargetView> views;
   for (int b = 0; b < boards; ++b) {
@@ -41,7 +41,7 @@ std::vector<TargetView> ViewsOfBoards(testing::Dice& dice, const std::vector<Cam
     const glm::dvec3 p_WT = glm::dvec3(-0.2, 1.1, 0) + 0.4 * dice.Vector();
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       if (dice.Below(5) == 0) continue;
-      TargetView view{c, static_cast<std::size_t>(b + (b > 2)), {}};  // there is no board 3
+      TargetView view{c, static_cast<std::size_t>(b + (b > 2)), {}};  // board 3 does not exist
       const int corners = dice.Below(6) ? 24 : static_cast<int>(dice.Below(9));
       for (int i = 0; i < corners; ++i) {
         const glm::dvec3 place(0.09 * (i % 6), 0.08 * (i / 6), 0);

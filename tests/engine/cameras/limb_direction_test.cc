@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Paper B's case of two cameras; `angle`: the smallest between planes, if not the default.
+/// Runs paper B's case of two cameras; `angle` replaces the smallest plane angle.
 template <typename... Angle>
 LimbDirection DirectionOfTwo(const ProjectionMatrix& matrix1, const PixelSegment& stroke1,
                              const ProjectionMatrix& matrix2, const PixelSegment& stroke2, Angle... angle) {
@@ -63,8 +63,8 @@ TEST(LimbDirection, TurnsRoundWhenTheStrokesDo) {
 }
 
 TEST(LimbDirection, BelievesThePictureInWhichTheLimbIsLessForeshortened) {
-  // A limb that almost points at one camera is a stroke of few pixels there, which noise can turn round. Only that
-  // one is turned here, so the limb's true direction is the exact answer, whichever camera it is.
+  // A limb that points almost at a camera gives a stroke of few pixels, which noise may reverse. Only this stroke is
+  // reversed here, so the true direction is the exact answer for either camera.
   for (double foreshortened_at : {-40.0, 40.0}) {
     const ProjectionMatrix short_view = CameraAt(foreshortened_at), full_view = CameraAt(-foreshortened_at);
     const glm::dvec3 eye = EyeAt(foreshortened_at), from(0.1, 1.1, 0.05);
@@ -80,7 +80,7 @@ TEST(LimbDirection, BelievesThePictureInWhichTheLimbIsLessForeshortened) {
 }
 
 TEST(LimbDirection, ReportsTheAngleBetweenThePlanes) {
-  // Seen from ±40° at its own height, an upright limb on the axis lies in planes 80° apart.
+  // Cameras at ±40° at the limb's height see an upright limb on the axis in planes 80° apart.
   auto level = [](double degrees) {
     const double a = Radians(degrees);
     return MatrixOf(LookAt({}, {4 * std::sin(a), 1, 4 * std::cos(a)}, {0, 1, 0}));
@@ -93,7 +93,7 @@ TEST(LimbDirection, ReportsTheAngleBetweenThePlanes) {
 
 TEST(LimbDirection, IsIllConditionedForALimbInAPlaneThroughBothCameras) {
   const ProjectionMatrix left = CameraAt(-40), right = CameraAt(40);
-  // The plane of both eyes and the target, in which this limb lies.
+  // This limb lies in the plane of both eyes and the target.
   const glm::dvec3 middle(0, 0.9, 0), across(0.2, 0.9, 0);
   const LimbDirection limb =
       DirectionOfTwo(left, StrokeOf(left, middle, across), right, StrokeOf(right, middle, across));
@@ -103,7 +103,7 @@ TEST(LimbDirection, IsIllConditionedForALimbInAPlaneThroughBothCameras) {
 }
 
 TEST(LimbDirection, NeedsPlanesThatAreFartherFromParallelThanAsked) {
-  // Level cameras at ±half see an upright limb on the axis in planes that are twice that apart.
+  // Level cameras at ±half see an upright limb on the axis in planes 2 · half apart.
   auto status_at = [](double half, double smallest) {
     auto level = [](double degrees) {
       const double a = Radians(degrees);
@@ -139,7 +139,7 @@ ProjectionMatrix CameraOf(int i) {
   return MatrixOf(LookAt({}, {3.8 * std::sin(a), 1 + 0.3 * i, 3.8 * std::cos(a)}, {0, 0.9, 0}));
 }
 
-/// The limb as `count` cameras see it, each mark off by `error_px`.
+/// Returns the limb as `count` cameras see it, with errors of `error_px`.
 std::vector<LimbSighting> Sightings(int count, double error_px = 0) {
   std::vector<LimbSighting> sightings;
   for (int i = 0; i < count; ++i) {
@@ -149,7 +149,7 @@ std::vector<LimbSighting> Sightings(int count, double error_px = 0) {
   return sightings;
 }
 
-/// Each normal's part along the direction, in units of what a pixel at the stroke's ends makes of it.
+/// Returns Σ (N · d)² over cameras, each divided by the effect of a pixel at the stroke's ends.
 double SumOfSquares(const std::vector<LimbSighting>& sightings, const glm::dvec3& direction) {
   double sum = 0;
   for (const LimbSighting& s : sightings) {

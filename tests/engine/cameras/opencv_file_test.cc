@@ -18,7 +18,7 @@ Result<Camera> ReadBack(const std::string& text) {
   return rig.front().camera;
 }
 
-/// The numbers of the matrix of that name, read as any YAML reader would find them.
+/// Returns the numbers of the named matrix, read as any YAML reader does.
 std::vector<double> MatrixNamed(const std::string& text, const std::string& name) {
   std::size_t at = text.find("\n" + name + ": !!opencv-matrix");
   at = text.find("data: [", at) + 7;
@@ -30,7 +30,7 @@ std::vector<double> MatrixNamed(const std::string& text, const std::string& name
   return numbers;
 }
 
-// OpenCV's own formula, written down once more: pixel = K (R X + T), divided by its last entry.
+// A second implementation of OpenCV's formula: pixel = K (R X + T), divided by its last entry.
 TEST(OpenCvFile, ProjectsAsOpenCvWouldHalfAPixelApart) {
   const Camera camera =
       LookAt({.width = 800, .height = 500, .fx = 610, .fy = 590, .cx = 401, .cy = 239}, {2, 1.2, 3}, {0.1, 0.9, 0.2});
@@ -50,7 +50,7 @@ TEST(OpenCvFile, ProjectsAsOpenCvWouldHalfAPixelApart) {
   }
 }
 
-// cv::FileStorage refuses a matrix whose numbers are not rows times columns.
+// cv::FileStorage refuses a matrix with another number of numbers than rows times columns.
 TEST(OpenCvFile, HasAsManyNumbersAsRowsTimesColumns) {
   const std::string text = WriteOpenCvCamera(LookAt({}, {0, 1, 4}, {0, 1, 0}));
   const auto number_behind = [&](const std::string& word, std::size_t from) {

@@ -25,12 +25,11 @@ std::vector<Camera> TrueCameras() {
   return cameras;
 }
 
-/// A board of 7 × 5 corners, turned and shifted by dice.
 CalibrationTargetPose AnyPose(RandomStream& dice) {
   const glm::dquat turn = glm::angleAxis(dice.Uniform(-0.6, 0.6), glm::dvec3(0, 1, 0)) *
                           glm::angleAxis(dice.Uniform(-0.6, 0.6), glm::dvec3(1, 0, 0)) *
                           glm::angleAxis(dice.Uniform(-0.3, 0.3), glm::dvec3(0, 0, 1));
-  // The board's z points away from who sees its front.
+  // The board's z axis points away from a viewer in front.
   const glm::dmat3 facing(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
   return {glm::mat3_cast(turn) * facing, {dice.Uniform(-0.4, 0.2), dice.Uniform(0.9, 1.5), dice.Uniform(-0.3, 0.3)}};
 }
@@ -83,7 +82,7 @@ TEST(Planes, CamerasComeBackFromExactCorners) {
   EXPECT_LT(rig->rms_px, 1e-9);
   EXPECT_EQ(rig->parameters, 3u * 14 + 7 * 6);
   RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = 1}, "boards");
-  const CalibrationTargetPose world = AnyPose(dice);  // the first board's frame is the rig's world
+  const CalibrationTargetPose world = AnyPose(dice);  // the first board is the rig's world
   for (std::size_t i = 0; i < 3; ++i) {
     const Camera &found = rig->cameras[i], &wanted = cameras[i];
     EXPECT_NEAR(found.intrinsics.fx, wanted.intrinsics.fx, 1e-6);

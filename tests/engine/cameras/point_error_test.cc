@@ -14,7 +14,7 @@ namespace {
 
 RandomStream Dice(int trial) { return {WorldKey{Seed{1}, "point-error", trial}, "draws"}; }
 
-/// Two to four cameras at random angles, heights and distances, some of them with a lens.
+/// Returns two to four cameras at random angles, heights and distances, some with a lens.
 std::vector<Camera> RandomRig(RandomStream& dice) {
   std::vector<Camera> cameras;
   const int count = 2 + static_cast<int>(dice.IndexBelow(3));
@@ -31,13 +31,13 @@ std::vector<Camera> RandomRig(RandomStream& dice) {
   return cameras;
 }
 
-/// The camera as a calibration that errs by one draw takes it to be.
+/// Returns the camera as a calibration with one random error sees it.
 Camera Miscalibrated(Camera camera, const CalibrationDeviation& deviation, RandomStream& dice) {
   const glm::dvec3 turn = deviation.turn * dice.Normal3();
   const double angle = glm::length(turn);
   if (angle > 0) {
     const glm::dvec3 u = turn / angle;
-    const glm::dmat3 cross(0, u.z, -u.y, -u.z, 0, u.x, u.y, -u.x, 0);  // columns
+    const glm::dmat3 cross(0, u.z, -u.y, -u.z, 0, u.x, u.y, -u.x, 0);  // its columns
     camera.R_CW = (glm::dmat3(1) + std::sin(angle) * cross + (1 - std::cos(angle)) * cross * cross) * camera.R_CW;
   }
   camera.p_WC += deviation.place_m * dice.Normal3();
@@ -47,7 +47,7 @@ Camera Miscalibrated(Camera camera, const CalibrationDeviation& deviation, Rando
   return camera;
 }
 
-/// The root mean square error of `draws` real triangulations.
+/// Returns the RMS error of `draws` simulated triangulations.
 double SimulatedRms(const std::vector<Camera>& cameras, const glm::dvec3& p_WQ, const SightingErrors& errors, int draws,
                     RandomStream& dice) {
   double sum = 0;
@@ -94,13 +94,13 @@ TEST(ExpectedPointError, IsThatOfSimulatedTriangulations) {
   }
   EXPECT_GT(compared, 500);
   EXPECT_GT(with_two, 60);
-  // Where dropouts leave two cameras that nearly face each other, the error is too large for first order.
+  // If only two cameras remain that nearly face each other, the error is too large for a first-order formula.
   EXPECT_LE(beyond, compared / 100);
 }
 
 TEST(ExpectedPointError, OfAStereoPairIsTheClosedForm) {
-  // Two parallel cameras, base b, a point in the middle at the depth Z: depth has the deviation σ Z² √2 / (f b), height
-  // σ Z / (f √2); sideways both disparities average likewise.
+  // Two parallel cameras with base b, a point in the middle at depth Z: the deviation is σ Z² √2 / (f b) in depth and σ
+  // Z / (f √2) in height, and the same sideways.
   const Intrinsics in{.width = 2000, .height = 2000, .fx = 1000, .fy = 1000, .cx = 1000, .cy = 1000};
   constexpr double kBase = 0.5, kDepth = 4, kNoise = 2;
   const glm::dvec3 forwards(0, 0, -1);

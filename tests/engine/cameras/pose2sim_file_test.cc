@@ -47,7 +47,7 @@ TEST(Pose2SimFile, KeepsAThirdRadialCoefficientWhereThereIsOne) {
   EXPECT_EQ(back->front().camera.distortion, camera.camera.distortion);
 }
 
-/// The numbers behind a key, each found anew by reading doubles.
+/// Returns the numbers after a key, read by this test alone.
 std::vector<double> NumbersBehind(const std::string& text, const std::string& key) {
   std::string list = text.substr(text.find("\n" + key + " = ") + key.size() + 4);
   list = list.substr(0, list.find('\n'));
@@ -62,8 +62,8 @@ std::vector<double> NumbersBehind(const std::string& text, const std::string& ke
   }
 }
 
-// What Pose2Sim does with the file, written down from OpenCV's documentation: cv::Rodrigues, K (R X + T), and its own
-// axes: a point that it triangulates as (x, y, z), Z up, it writes as (y, z, x), Y up.
+// Pose2Sim's use of the file, from OpenCV's documentation: cv::Rodrigues, K (R X + T). It triangulates (x, y, z) with Z
+// up, and writes (y, z, x) with Y up.
 TEST(Pose2SimFile, ProjectsAsPose2SimWould) {
   const NamedCamera named = Crooked();
   const std::string text = WritePose2SimCalibration(std::vector{named});
@@ -75,7 +75,7 @@ TEST(Pose2SimFile, ProjectsAsPose2SimWould) {
   const double angle = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
   const glm::dvec3 axis(r[0] / angle, r[1] / angle, r[2] / angle);
   const glm::dvec3 ours(0.4, 1.6, -0.3);
-  const glm::dvec3 theirs(ours.z, ours.x, ours.y);  // Z up; (y, z, x) of it is ours again
+  const glm::dvec3 theirs(ours.z, ours.x, ours.y);  // Z up; its (y, z, x) is ours
   const glm::dvec3 turned = std::cos(angle) * theirs + std::sin(angle) * glm::cross(axis, theirs) +
                             (1 - std::cos(angle)) * glm::dot(axis, theirs) * axis;
   const glm::dvec3 seen = turned + glm::dvec3(t[0], t[1], t[2]);
@@ -111,7 +111,7 @@ TEST(Pose2SimFile, ReadsFisheyesMatricesAndListsOverLines) {
           "[cameras.4]\nignore = true\nmatrix = [1]\n"));
   ASSERT_EQ(caliscope->size(), 1u);
   EXPECT_EQ(caliscope->front().name, "cam_3");
-  // Z up: the file's x, which the camera looks along, is our z.
+  // The file has Z up; the camera looks along its x, which is our z.
   EXPECT_LT(glm::distance(caliscope->front().camera.p_WC, glm::dvec3(0, 0, -2)), 1e-12);
 }
 

@@ -25,7 +25,7 @@ RandomStream Dice(int seed, const char* purpose) {
   return RandomStream(WorldKey{.suite_seed = 1, .scenario = "refine", .trial = seed}, purpose);
 }
 
-/// Points of a box about the middle, as `camera` shows them, each coordinate off by `sigma_px`.
+/// Returns points in a box about the middle with their pixels, each coordinate with an error of deviation `sigma_px`.
 std::vector<PointPair> Pairs(const Camera& camera, int count, int seed, double sigma_px) {
   RandomStream places = Dice(seed, "places"), errors = Dice(seed, "errors");
   std::vector<PointPair> pairs;
@@ -78,8 +78,8 @@ TEST(RefineCamera, FindsTheSixthPowerOfAWideLens) {
   EXPECT_GT(without->rms_px, 1e-4) << "the control: a model that lacks it leaves a residual";
 }
 
-/// Σ r² / σ² of a least-squares fit is χ² with 2N − p degrees of freedom, so the residual of a coordinate is
-/// σ √((2N − p) / 2N): its mean over many throws is held to four standard errors.
+/// Σ r² / σ² is χ² with 2N − p degrees of freedom, so a coordinate's residual is σ √((2N − p) / 2N). The mean over many
+/// draws must agree within four standard errors.
 TEST(RefineCamera, LeavesTheResidualThatNoiseShouldLeave) {
   constexpr int kSeeds = 300, kPoints = 40;
   constexpr double kSigma = 0.5;
@@ -98,7 +98,7 @@ TEST(RefineCamera, LeavesTheResidualThatNoiseShouldLeave) {
   EXPECT_GT(std::abs(sum / kSeeds - (2.0 * kPoints - 10)), tolerance) << "the control: not another p";
 }
 
-/// The estimates scatter about the truth as the deviations that the fit tells.
+/// The estimates scatter about the truth by the fit's reported deviations.
 TEST(RefineCamera, TellsHowUncertainItsFocalLengthIs) {
   constexpr int kSeeds = 200;
   double squares = 0;
@@ -107,7 +107,7 @@ TEST(RefineCamera, TellsHowUncertainItsFocalLengthIs) {
     const double off = (rig->cameras[0].intrinsics.fx - TrueCamera().intrinsics.fx) / rig->deviations[0].fx;
     squares += off * off;
   }
-  // Student's t with 66 degrees of freedom has variance 1.03; the mean square of 200 of them, ±4 standard errors.
+  // Student's t with 66 degrees of freedom has variance 1.03; ±4 standard errors of the mean square of 200 values.
   EXPECT_NEAR(squares / kSeeds, 1.03, 4 * std::sqrt(2.1 / kSeeds));
 }
 
@@ -127,7 +127,7 @@ TEST(RefineCamera, RefusesWhatDoesNotDetermineACamera) {
 }
 
 TEST(RefineRig, RefusesViewsThatLeaveTheFocalLengthOpen) {
-  // A board that the camera sees straight on may be near and small or far and large.
+  // A board seen straight on may be near and small or far and large.
   std::vector<PointPair> board;
   Camera camera;
   for (int i = 0; i < 25; ++i) board.push_back({{0.1 * (i % 5), 0.1 * (i / 5), 0}, {}});

@@ -25,7 +25,6 @@ std::vector<NamedCamera> TwoCameras() {
   return {{"left", left}, {"26 578: right", right}};
 }
 
-/// Two cameras show every point at the same pixel.
 void ExpectSamePictures(const Camera& a, const Camera& b, double tolerance_px) {
   for (int i = 0; i < 20; ++i) {
     const glm::dvec3 point(0.3 * (i % 3) - 0.3, 0.1 * i, 0.2 * (i % 5) - 0.4);
@@ -59,7 +58,7 @@ TEST(RigFile, KnowsOtherFilesByWhatIsInThem) {
   ExpectSamePictures(toml->front().camera, cameras[0].camera, 1e-6);
 }
 
-/// A camera 3 m before the world's origin and 1 m high, as QTM tells it: its z is up, pixels are in 64ths.
+/// A camera 3 m in front of the world's origin and 1 m high, in QTM's format: z up, pixels in 64ths.
 constexpr const char* kQualisys = R"(<?xml version="1.0" encoding="UTF-8"?>
 <calibration created="2020-01-01" type="regular">
  <cameras>
@@ -87,7 +86,7 @@ TEST(RigFile, ReadsQualisys) {
   EXPECT_DOUBLE_EQ(camera.intrinsics.cy, 510.5);
   EXPECT_DOUBLE_EQ(camera.distortion.k1, -0.045) << "not in 64ths";
   EXPECT_DOUBLE_EQ(camera.distortion.p2, -0.0004);
-  // QTM's x is our z, its y our x: from 3 m before, looking back at the origin, what is left of it (our −x) is left.
+  // QTM's x is our z, its y our x. The camera is 3 m in front and looks back, so what is left (−x) stays left.
   EXPECT_LT(glm::distance(camera.p_WC, glm::dvec3(0, 1, 3)), 1e-12);
   const auto middle = Project(camera, {0, 1, 0}), left = Project(camera, {-0.5, 1, 0}),
              above = Project(camera, {0, 1.5, 0});
@@ -112,7 +111,7 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
 }
 
 TEST(RigFile, RefusesWhateverNumberIsNotFinite) {
-  // Every number of every camera in turn; the control is read.
+  // Replaces every number of every camera in turn; the unchanged control is read.
   const auto spoilt = [](const std::string& good, const std::string& nan, std::string_view begins) {
     EXPECT_TRUE(ReadRig(good, "rig"));
     int read = 0, refused = 0;
@@ -121,7 +120,7 @@ TEST(RigFile, RefusesWhateverNumberIsNotFinite) {
       if (from == std::string::npos) break;
       at = good.find_first_not_of("0123456789.e-+", from);
       const char before = good[from - 1];
-      if (before != ' ' && before != '-' && before != '[') continue;  // of a name
+      if (before != ' ' && before != '-' && before != '[') continue;  // part of a name
       const std::string bad = good.substr(0, from) + nan + good.substr(std::min(at, good.size()));
       const auto rig = ReadRig(bad, "rig");
       EXPECT_FALSE(rig) << bad.substr(from < 60 ? 0 : from - 60, 90);
@@ -137,7 +136,7 @@ TEST(RigFile, RefusesWhateverNumberIsNotFinite) {
   spoilt(toml, "inf", "size");
   std::string yaml = WriteOpenCvCamera(camera.camera);
   for (std::size_t at = 0; (at = yaml.find("   rows:", at)) != std::string::npos;) {
-    yaml.erase(at, yaml.find("   data:", at) - at);  // sizes of matrices are not read
+    yaml.erase(at, yaml.find("   data:", at) - at);  // matrix sizes are not read
   }
   spoilt(yaml, "nan", "image_width");
   spoilt(yaml, ".nan", "image_width");
@@ -149,13 +148,12 @@ TEST(RigFile, RefusesALensThatItCannotRead) {
               HasSubstr("fisheye is yes; allowed: true, false"));
 }
 
-/// A matrix as cv::FileStorage writes it.
 std::string OpenCvMatrix(const std::string& name, std::size_t rows, const std::vector<double>& values) {
   return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {:.17g} ]\n", name, rows,
                      values.size() / rows, fmt::join(values, ", "));
 }
 
-/// X_C = R X_F + T in the axes of a file whose Z is up: its (x, y, z) is our (y, z, x).
+/// X_C = R X_F + T in a file's axes with Z up; its (x, y, z) is our (y, z, x).
 struct FilePose {
   glm::dmat3 R;
   glm::dvec3 T;
@@ -174,7 +172,7 @@ std::vector<double> OpenCvIntrinsics(const Intrinsics& in) {
 constexpr const char* kYaml = "%YAML:1.0\n---\n";
 
 TEST(RigPair, ReadsEasyMocapsFiles) {
-  for (const bool is_vector : {false, true}) {  // Rodrigues' vectors or matrices
+  for (const bool is_vector : {false, true}) {  // rotation vectors, then matrices
     for (const bool has_size : {false, true}) {
       const std::vector<NamedCamera> cameras = TwoCameras();
       std::string inside = std::string(kYaml) + "names:\n  - \"a\"\n  - \"b\"\n", outside = kYaml;
@@ -231,7 +229,7 @@ TEST(RigPair, ReadsOpenCvsStereoWhoseWorldIsTheLeftCamera) {
   for (int i = 0; i < 20; ++i) {
     const glm::dvec3 point(0.3 * (i % 3) - 0.3, 0.1 * i, 0.2 * (i % 5) - 0.4);
     const glm::dvec3 in_left = left.R_CW * (point - left.p_WC);
-    const glm::dvec3 ours(in_left.y, in_left.z, in_left.x);  // read as any file whose Z is up
+    const glm::dvec3 ours(in_left.y, in_left.z, in_left.x);  // the axes of files with Z up
     for (std::size_t c = 0; c < 2; ++c) {
       EXPECT_LT(glm::distance(*Project(rig->cameras[c].camera, ours), *Project(cameras[c].camera, point)), 1e-6) << c;
     }

@@ -91,7 +91,7 @@ TEST(TriangulateRobustly, LeavesOutTwoOfFiveThatShowSomethingElse) {
   EXPECT_GT(glm::distance(Triangulate(all).position, kPlace), 0.05) << "the control: least squares over all";
 }
 
-/// Of cameras at rest the minimum of Σ w d² is where its gradient is nothing: no step in any direction is better.
+/// At the minimum of Σ w d² the gradient vanishes: no step in any direction lowers it.
 TEST(TriangulateRobustly, FindsTheLeastWeightedSquares) {
   auto sightings = Sightings();
   for (std::size_t i = 0; i < sightings.size(); ++i) {

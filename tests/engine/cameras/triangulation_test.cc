@@ -31,8 +31,8 @@ TEST(Triangulation, FindsThePointThatTwoOrMoreCamerasSee) {
 }
 
 TEST(Triangulation, SplitsADisagreementEvenlyBetweenEqualCameras) {
-  // Both cameras see the point h pixels too high resp. too low: the rows differ in v only, so the
-  // point stays where it is and each picture is off by h.
+  // The cameras see the point h pixels too high and too low. The rows differ in v only, so the point stays, and each
+  // picture is off by h.
   const glm::dvec3 point(0, 0.9, 0);
   Sighting left = SightingOf(CameraAt(-40), point), right = SightingOf(CameraAt(40), point);
   left.pixel.y += 2;
@@ -60,7 +60,7 @@ TEST(Triangulation, SaysWhenOneCameraIsNotEnough) {
 }
 
 TEST(Triangulation, RefusesAPointBehindACamera) {
-  // Rays that diverge meet behind both cameras: eyes half a metre apart that look outwards.
+  // Diverging rays meet behind both cameras: two cameras half a metre apart look outwards.
   const ProjectionMatrix left = MatrixOf(LookAt({}, {-0.25, 1, 0}, {-1.25, 1, -4}));
   const ProjectionMatrix right = MatrixOf(LookAt({}, {0.25, 1, 0}, {1.25, 1, -4}));
   const TriangulatedPoint found = Triangulate(std::vector<Sighting>{{left, {320, 240}}, {right, {320, 240}}});
@@ -88,14 +88,13 @@ TEST(Triangulation, SaysWhenTheRaysAreParallelOrNotFinite) {
   EXPECT_EQ(Triangulate(std::vector{once, broken}).status, PointStatus::kIllConditioned);
 }
 
-/// Three, five and eight cameras of other heights, distances, focal lengths and scales of H, each of which sees a point
-/// two pixels off (standard deviation).
+/// Three, five and eight cameras with different poses, focal lengths and scales of H; pixel errors have deviation 2.
 struct Vector {
   std::vector<Sighting> sightings;
   glm::dvec3 alike, by_pixels;
 };
 
-// The points by numpy: lstsq of the rows over |h₃|, then three times over the depth, too.
+// The points by numpy: lstsq of the rows over |h₃|, then three times with the rows over the depth.
 const std::vector<Vector> kVectors = {
     {{
          {{{{{-948.087947, -514.157818, -1837.001172, 5065.350543}, {-266.023824, -1922.68834, -41.779107, 5182.375886}, {-3.771323, -1.606743, -0.592287, 15.82922}}}}, {285.786, 167.792}},
@@ -153,7 +152,7 @@ TEST(EpipolarGeometry, OfOnePointsPixelsTheDistanceIsNothing) {
   EXPECT_NEAR(geometry->DistancePx(*Project(CameraAt(-30), kSeen), *Project(CameraAt(50), kSeen)), 0, 1e-9);
 }
 
-/// A second way there: the point that both pixels are nearest to, and how far off it they are.
+/// A second way: the point nearest to both pixels' rays, and its pixel errors.
 TEST(EpipolarGeometry, IsTheResidualOfTriangulationToFirstOrder) {
   const std::array cameras = {CameraAt(-30), CameraAt(50)};
   const auto geometry = EpipolarGeometry::Of(cameras[0], cameras[1]);

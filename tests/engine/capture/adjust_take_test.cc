@@ -116,7 +116,7 @@ TEST(MeasureLengths, FindsThoseOfExactMarksAndNothingWhereNothingIsSeen) {
   EXPECT_FALSE(MeasureLengths(pictures, MeasureJoints(pictures)));
 }
 
-// Errors of single marks matter less than those of triangulated lengths.
+// Lengths over all frames average the errors of single marks.
 TEST(MeasureLengths, IsCloserThanTheDistancesOfTriangulatedJoints) {
   FilmedTake film(Poses(30, 0.1, PaperBody(kTall)));
   int n = 0;

@@ -82,11 +82,11 @@ TEST(BridgeGaps, PutsAnEndThatOneCameraSeesOnItsSightLine) {
   frames[2].ends[hand] = glm::dvec3(0.2, 1, 0);
   frames[1].ends[hand].reset();
   frames[1].sight_lines[hand] = SightLine{{0, 1.5, 4}, glm::normalize(glm::dvec3(0, -0.5, -4))};
-  // The middle of the neighbours is (0.1, 1, 0); the line passes through (0, 1, 0) and is normal to X.
+  // The neighbours' middle is (0.1, 1, 0); the line passes through (0, 1, 0) and is normal to X.
   EXPECT_LT(glm::distance(BridgeGaps(frames)[1]->ends[Role::kLeftHand], {0, 1, 0}), 1e-12);
 }
 
-// One plane: the minimiser of (N·d)²/ε² + |d − b|²/τ² is b − N (N·b) / (1 + ε²/τ²), at length 1.
+// One plane: the minimiser of (N·d)²/ε² + |d − b|²/τ² is b − N (N·b) / (1 + ε²/τ²), normalised.
 TEST(BridgeGaps, TurnsALimbIntoThePlaneThatOneCameraSeesItIn) {
   const std::size_t head = Index(Role::kHead);
   const BridgeOptions options{.mark_error_px = 2, .turn_per_frame = Radians(3)};
@@ -112,7 +112,7 @@ TEST(BridgeGaps, TurnsALimbIntoThePlaneThatOneCameraSeesItIn) {
   }
 }
 
-// Two planes a degree apart settle the angle across them and leave the rest to the neighbours.
+// Two planes a degree apart determine the angle across them; the neighbours determine the rest.
 TEST(BridgeGaps, LetsNearlyParallelPlanesTellWhatTheyCan) {
   const std::size_t head = Index(Role::kHead);
   std::vector<FrameMeasurement> frames(3, WholeMeasurement());

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// Ten points that fill a volume, as each camera sees them.
+/// Returns each camera's view of ten points that fill a volume.
 std::vector<std::vector<PointPair>> ExactPairs() {
   std::vector<std::vector<PointPair>> pairs;
   for (const ProjectionMatrix& camera : ThreeCameras()) {
@@ -44,7 +44,7 @@ TEST(CalibrateCameras, NamesTheCameraThatCannotBeCalibrated) {
               ::testing::StartsWith("camera 2: cannot calibrate a camera: 5 point pairs"));
 }
 
-/// Two cameras with lenses, and what they show of a volume.
+/// Two cameras with lenses, and their views of a volume.
 std::vector<Camera> LensCameras() {
   const Intrinsics in{.width = 640, .height = 480, .fx = 600, .fy = 590, .cx = 322, .cy = 236, .skew = 0};
   std::vector<Camera> cameras{LookAt(in, {2, 1.4, 3}, {0, 1, 0}), LookAt(in, {-2.2, 2, 2.5}, {0, 1, 0})};

@@ -22,7 +22,7 @@ CaptureBody PlainBody() {
   return FittedBody(RestBodyOf(poses)).value();
 }
 
-// Some pose of a body: angles within a radian, turned about the vertical axis.
+// Returns a random pose of a body: angles within a radian, turned about the vertical axis.
 TreeState SomePose(const CaptureBody& body, int trial) {
   TreeState state = StandingState(body.tree);
   state.root_position = {0.3, 0.05, -0.2};
@@ -34,8 +34,7 @@ TreeState SomePose(const CaptureBody& body, int trial) {
   return state;
 }
 
-// Hips and shoulders of a depth sensor's skeleton move against its trunk. A chest between spine and neck that no place
-// tells is bent one way by one pose and the other way by the next.
+// A depth sensor's hips and shoulders move relative to the trunk. A chest joint without a target may bend either way.
 TEST(PoseFitter, FindsEveryPoseOfABodyFromItsJoints) {
   for (const auto& [body, within] : {std::pair(PlainBody(), 1e-6),
                                      {FittedBody(SensorRestBody()).value(), 1e-6},
@@ -58,7 +57,7 @@ TEST(PoseFitter, FindsPosesOfPaperBsBodyWithinIt) {
   }
 }
 
-// The spine is seen by nobody: it is put where backs bend, and everything else stays exact.
+// The spine is hidden: it is placed as backs bend, and all other joints stay exact.
 TEST(PoseFitter, LeavesWhatNobodySeesToTheBody) {
   const CaptureBody body = PlainBody();
   const PoseFitter fitter(body);
@@ -75,7 +74,7 @@ TEST(PoseFitter, LeavesWhatNobodySeesToTheBody) {
   EXPECT_GT(glm::distance(pose[kSpine], truth[kSpine]), 1e-3) << "the control";
 }
 
-// No pose of the body has a stretched arm: the joints that it has are as near as they can be all together.
+// The body cannot stretch its arm this far, so the joints get the best common fit.
 TEST(PoseFitter, ComesAsNearAsItCanToJointsThatFitNoBody) {
   const CaptureBody body = PlainBody();
   const PoseFitter fitter(body);
@@ -83,7 +82,7 @@ TEST(PoseFitter, ComesAsNearAsItCanToJointsThatFitNoBody) {
   const glm::dvec3 along = wanted[kLeftHand] - wanted[kLeftWrist];
   wanted[kLeftHand] += 0.5 * along;
   const BodyPose found = ToBodyPose(body, fitter.Fit(TargetsAt(wanted))->state);
-  // Along the hand both ends share what is missing; nothing else is torn by more.
+  // The hand's two ends share the missing length; no other joint is further off.
   EXPECT_NEAR(glm::distance(found[kLeftHand], found[kLeftWrist]), glm::length(along), 1e-9);
   EXPECT_LT(WorstJointDistance(found, wanted), 0.5 * glm::length(along));
   EXPECT_GT(WorstJointDistance(found, wanted), 0.1 * glm::length(along));

@@ -22,7 +22,6 @@ inline TreeState ModelState(const KinematicTree& tree, double phase) {
   return state;
 }
 
-/// Returns the tree's body in ModelState.
 inline BodyPose ModelPose(double phase = 0) {
   const KinematicTree body = MakeBodyTree({});
   return ToBodyPose(body, ModelState(body, phase));

@@ -23,14 +23,14 @@ double MeanDistance(const BodyPose& a, const BodyPose& b) {
   return sum;
 }
 
-/// What every stage made of the pictures, one entry per frame.
+/// The results of every stage, one entry per frame.
 struct CapturedMotion {
   std::vector<FrameMeasurement> measured;
   std::vector<std::optional<LimbObservation>> seen;
   std::vector<std::optional<RecoveredFrame>> frames;
 };
 
-/// The stages one after the other, as the task `capture` runs them.
+/// Runs the stages in sequence, as the task `capture` does.
 struct Stages {
   MeasureOptions measure;
   BridgeOptions bridge;
@@ -45,7 +45,7 @@ struct Stages {
   }
 };
 
-/// From calibration points and marks to a clip, as a program does it that links this folder alone.
+/// Calibration points and marks become a clip, by this folder's functions alone.
 TEST(MarkedTake, MakesAClipOfMarkedPicturesOfTwoCamerasOrThree) {
   const std::vector<BodyPose> truth = Dance();
   for (std::size_t camera_count : {2u, 3u}) {
@@ -79,7 +79,6 @@ TEST(MarkedTake, MakesAClipOfMarkedPicturesOfTwoCamerasOrThree) {
   }
 }
 
-/// Two cameras, exact marks, and what else it takes.
 struct Studio {
   std::vector<BodyPose> truth = Dance();
   std::vector<ProjectionMatrix> cameras = {ThreeCameras()[0], ThreeCameras()[1]};
@@ -118,7 +117,7 @@ TEST(MarkedTake, HasASkeletonAsLongAsThereAreMarks) {
 
 TEST(MarkedTake, NeedsNoMarksWhereMeasurementsAreKnown) {
   Studio studio;
-  studio.stages.measure.min_plane_angle = Radians(1);  // exact marks need no margin: all limbs are measured
+  studio.stages.measure.min_plane_angle = Radians(1);  // exact marks need no margin, so all limbs are measured
   const std::vector<FrameMeasurement> measured = studio.Capture().measured;
   const BodyPose head_to_toe = studio.Capture().frames[3]->pose;
   for (std::vector<Marks>& of_camera : studio.marks) of_camera.assign(6, Marks{});
@@ -126,7 +125,7 @@ TEST(MarkedTake, NeedsNoMarksWhereMeasurementsAreKnown) {
   EXPECT_EQ(studio.Capture().frames[3]->pose.joints, head_to_toe.joints);
 }
 
-/// Inputs that do not fit together are the caller's bug: builds with assertions stop there.
+/// Inputs that do not fit together are a caller's bug, at which builds with assertions stop.
 TEST(MarkedTakeDeathTest, StopsAtInputsThatDoNotFitTogether) {
   const auto capture = [](auto spoil) {
     Studio studio;

@@ -21,7 +21,7 @@ FrameMeasurement MeasureFrame(const std::vector<ProjectionMatrix>& cameras, cons
 
 std::vector<ProjectionMatrix> MeasuringCameras() { return {ThreeCameras()[0], ThreeCameras()[1]}; }
 
-/// Expects every direction found to be the pose's; gives their number.
+/// Checks that every direction found is the pose's; returns their number.
 int CountTrueDirections(const FrameMeasurement& found, const BodyPose& pose) {
   int count = 0;
   for (const StrokeMark& mark : StrokeMarks()) {
@@ -99,15 +99,15 @@ TEST(MeasureFrames, SeesWithAThirdCameraALimbThatLiesInAPlaneThroughTheOthers) {
   const std::vector<ProjectionMatrix> with_high = {level[0], level[1], CameraAt(0, 2.5)};
   BodyPose pose = ModelPose();
   pose[Role::kLeftElbow] = {0.1, 1, 0.1};
-  pose[Role::kLeftWrist] = {0.4, 1, 0.1};  // level as the first two cameras' centres
+  pose[Role::kLeftWrist] = {0.4, 1, 0.1};  // as high as the first two cameras
   const std::size_t forearm = Index(Role::kLeftWrist);
   EXPECT_FALSE(MeasureFrame(level, ExactMarks({pose}, level)).directions[forearm]);
   ASSERT_OK(found, MeasureFrame(with_high, ExactMarks({pose}, with_high)).directions[forearm]);
   EXPECT_LT(Degrees(AngleBetween(*found, {1, 0, 0})), 1e-6);
 }
 
-// A forearm that points almost at one camera, which sees it the wrong way round, as a careless stroke can: the others,
-// who see it at full length, decide about its sense.
+// A forearm points almost at one camera, whose stroke is reversed by mistake. The other cameras see it at full length
+// and decide its sense.
 TEST(MeasureFrames, TakesTheSenseOfALimbFromTheCamerasThatSeeItBest) {
   const auto cameras = ThreeCameras();
   for (std::size_t careless = 0; careless < 3; ++careless) {
@@ -124,7 +124,7 @@ TEST(MeasureFrames, TakesTheSenseOfALimbFromTheCamerasThatSeeItBest) {
     std::swap(stroke.a, stroke.b);
     ASSERT_OK(found, MeasureFrame(cameras, marks).directions[Index(Role::kLeftWrist)]) << careless;
     EXPECT_LT(Degrees(AngleBetween(*found, towards)), 1e-6) << careless;
-    // The same with that camera and one other alone, in either order.
+    // The same with this camera and only one other, in either order.
     const std::size_t other = (careless + 1) % 3;
     for (const auto& [first, second] : {std::pair(careless, other), std::pair(other, careless)}) {
       ASSERT_OK(of_two, MeasureFrame({cameras[first], cameras[second]}, {marks[first], marks[second]})
@@ -200,7 +200,7 @@ TEST(MeasureFrames, KeepsWhatOnePictureTellsOfALimbOrAnEnd) {
   EXPECT_LT(glm::distance(NearestOn(*line, pose[end] + 0.1 * line->direction_W), pose[end] + 0.1 * line->direction_W),
             1e-6);
   EXPECT_EQ(NearestOn(*line, line->camera_W - line->direction_W), line->camera_W) << "nothing is seen behind a camera";
-  // What was measured whole needs no help.
+  // A limb measured by two cameras has no plane or sight line.
   EXPECT_TRUE(found.planes[Index(StrokeMarks()[1].to)].empty());
   EXPECT_FALSE(found.sight_lines[Index(EffectorMarks()[1].role)]);
 }

@@ -17,7 +17,6 @@ std::vector<BodyPose> Poses(int count, double step = 0.02) {
 
 bool IsMarkedRole(Role role) { return role != Role::kHipCentre && role != Role::kSpine; }
 
-// Every mark of `role` in one frame of some cameras is taken away.
 void Hide(Role role, std::size_t frame, std::initializer_list<std::size_t> cameras, TakeMarks& marks) {
   for (const std::size_t camera : cameras) {
     Marks& of_frame = marks[camera][frame];
@@ -80,14 +79,14 @@ TEST(MeasureJoints, FindsEveryJointOfExactMarks) {
   }
 }
 
-// What the information promises is what errors of the marks do: its inverse is their covariance.
+// The inverse of the reported information is the covariance of the marks' effects.
 TEST(MeasureJoints, KnowsHowExactItIs) {
   const std::vector<ProjectionMatrix> cameras = {CameraAt(-40, 1), CameraAt(40, 2.2)};
-  const Role role = Role::kLeftHand;  // marked by discs alone
+  const Role role = Role::kLeftHand;  // this role has only disc marks
   constexpr int kTakes = 4000;
   const BodyPose pose = ModelPose();
   auto marks = ExactMarks(std::vector<BodyPose>(kTakes, pose), cameras);
-  // Of unit variance, by a stratified sum of uniform numbers: no dice of a library decide about the test.
+  // Numbers of unit variance: stratified sums of uniform numbers, independent of any library.
   std::uint64_t state = 1;
   const auto normal = [&] {
     double sum = 0;
@@ -139,7 +138,7 @@ TEST(CompleteJoints, HangsWhatWasNeverSeenOnWhatWas) {
   for (const Role role : AllRoles()) {
     EXPECT_LT(glm::distance((*shifted)[role], pose[role] + glm::dvec3(1, 2, 3)), 1e-9) << RoleName(role);
   }
-  // Both hips of a body turned by 90°: the rest turns with them.
+  // Both hips are turned by 90°, so the rest follows.
   const FloorMove turn{.yaw = kPi / 2};
   for (const Role role : {Role::kLeftHip, Role::kRightHip}) joints[Index(role)] = turn.Apply(pose)[role];
   ASSERT_OK(turned, CompleteJoints(joints, pose));

@@ -42,7 +42,7 @@ TEST(HoldFrames, ShowsTheFirstSkeletonBeforeItAndTheLastOneAfterIt) {
   for (int k = 0; k < 5; ++k) EXPECT_EQ(held[k].pose.joints, recovered[shown[k]]->pose.joints) << k;
 }
 
-// A solver that does nothing shows where each frame starts.
+// With a solver that does nothing, the result is each frame's start.
 TEST(RecoverFrames, StartsMarkedFramesFromTheirPicturesAndOthersFromTheLastFrame) {
   const IkSolver idle{.name = "idle",
                       .description = "",
@@ -68,7 +68,7 @@ TEST(RecoverFrames, StartsMarkedFramesFromTheirPicturesAndOthersFromTheLastFrame
   EXPECT_NE(all_marked[1]->state.angles, all_marked[0]->state.angles);
 }
 
-/// Without one end or one limb, as BridgeGaps tells it.
+/// Returns the observation without one end or one limb, marked as BridgeGaps expects.
 LimbObservation Lacking(LimbObservation seen, std::optional<Role> end, std::optional<Role> limb) {
   if (end) {
     seen.ends[*end] = glm::dvec3(0);

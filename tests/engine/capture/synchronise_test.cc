@@ -10,10 +10,9 @@
 namespace etude {
 namespace {
 
-/// A body that moves, at any time.
 BodyPose PoseAtTime(double frame) { return ModelPose(0.15 * frame); }
 
-/// What cameras have marked that are so late.
+/// Returns the marks of cameras that are late by `offsets` frames.
 TakeMarks LateMarks(const std::vector<ProjectionMatrix>& cameras, const std::vector<double>& offsets, int frames = 40) {
   TakeMarks marks;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -23,8 +22,8 @@ TakeMarks LateMarks(const std::vector<ProjectionMatrix>& cameras, const std::vec
   return marks;
 }
 
-// Of exact marks to 0.04 of a frame: misfits are no parabola. A search between frames would be nearer here, and half a
-// frame off with marks that err.
+// Exact marks give 0.04 of a frame, because the misfit is not a parabola. A search between frames would be better here,
+// but off by half a frame with noisy marks.
 TEST(Synchronise, FindsHowLateEveryCameraIs) {
   const std::vector<ProjectionMatrix> cameras = ThreeCameras();
   for (const std::vector<double>& offsets :
@@ -44,7 +43,7 @@ TEST(Synchronise, FindsItWithMarksThatErrAndAreMissing) {
         ++mark;
         if (disc) *disc += 3.0 * glm::dvec2(std::sin(37.0 * mark), std::cos(91.0 * mark * mark));
         if (mark % 11 == 0) disc.reset();
-        if (mark % 23 == 0 && disc) *disc += glm::dvec2(80, -50);  // on another limb
+        if (mark % 23 == 0 && disc) *disc += glm::dvec2(80, -50);  // a mistaken mark on another limb
       }
     }
   }

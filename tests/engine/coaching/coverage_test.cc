@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The moves that have no bridge frame into `wanted` in a library of all moves and it.
+/// Returns the moves without a bridge frame into `wanted`, in a library of all moves and `wanted`.
 std::vector<std::string> MovesWithoutWayInto(const std::string& wanted) {
   std::vector<std::string> names = BuiltinMoveNames();
   const auto moves = static_cast<int>(names.size());
@@ -22,7 +22,7 @@ std::vector<std::string> MovesWithoutWayInto(const std::string& wanted) {
     if (!move) return {};
     clips.push_back(move->motion);
   }
-  constexpr double kHipHeight = 0.9;  // at which `etude bridge` measures
+  constexpr double kHipHeight = 0.9;  // the height at which `etude bridge` measures
   const MotionLibrary library = MakeLibrary(names, clips, MakeBodyProportions(clips.front().poses.front(), kHipHeight));
   const Coverage coverage(library.tagged, {}, {.with_pairs = false, .wanted = {moves}});
   std::vector<std::string> without;
@@ -42,7 +42,7 @@ TEST(Coverage, EveryMoveReachesItsOwnSlowDemonstration) {
   }
 }
 
-TEST(Coverage, AnActForWaitingIsNotReachedByAll) {  // the control: there is something to find
+TEST(Coverage, AnActForWaitingIsNotReachedByAll) {  // the control: moves without a way exist
   EXPECT_THAT(MovesWithoutWayInto("doze"), ::testing::Not(::testing::IsEmpty()));
 }
 

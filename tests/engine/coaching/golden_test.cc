@@ -14,7 +14,7 @@ namespace {
 
 using testing::Dice;
 
-// What is shown and decided, and each line that is said, once.
+// Digests of the frames and decisions, and each text once.
 struct SessionPrint {
   testing::Fingerprint print;
   std::set<std::string> heard;
@@ -41,7 +41,7 @@ struct SessionPrint {
   }
 };
 
-// The small dance of a body that goes somewhere and turns in every clip, so that it matters where clips are laid.
+// Returns the small dance of a body that travels and turns in every clip, so that clip placement matters.
 Dance WanderingDance() {
   Dance dance = SmallDance();
   const auto wander = [](BodyMotion& motion, double pace) {
@@ -57,7 +57,7 @@ Dance WanderingDance() {
   return dance;
 }
 
-// A player who does something else every now and then, to music that is anywhere near.
+// A player who changes behaviour at random, with music near the right time.
 void PlayAnything(Dice& dice, SmallSession& session) {
   SmallSession::Player& player = session.player;
   const auto chance = [&dice](std::size_t of_thousand) { return dice.Below(1000) < of_thousand; };
@@ -102,7 +102,7 @@ TEST(Coaching, GoldenSessionsOfEveryPolicy) {
   EXPECT_TRUE(testing::AreKept(print.said, "tests/engine/coaching/said.txt"));
 }
 
-// A choice that finds no way from some clips: with nothing to show, or with nothing but what plays already.
+// A choice that finds no transition from some clips: it shows nothing, or only the current clip.
 TEST(Coaching, CutsWhereItsWayFindsNoTransition) {
   static const Choice* const now = FindChoice("now");
   static std::size_t kept_segments;

@@ -41,7 +41,7 @@ TEST(CoachMachine, ARightPerformanceIsJudgedAsSoonAsItIsSeenAndTheDanceGoesOn) {
   session.player.evidence = 0.9;
   ASSERT_TRUE(session.Until(CoachEvent::kRight, 60));
   EXPECT_EQ(session.record().repetition, 0);
-  EXPECT_EQ(session.record().frame, 30 + 9 + 1);  // the first frame of the window, which opens 0.3 s late
+  EXPECT_EQ(session.record().frame, 30 + 9 + 1);  // the window's first frame; it opens 0.3 s late
   ASSERT_TRUE(session.Until(CoachEvent::kSongEnds));
   EXPECT_EQ(session.Count(CoachEvent::kRight), 4);
   EXPECT_EQ(session.Count(CoachEvent::kWrong), 0);
@@ -53,7 +53,7 @@ TEST(CoachMachine, AMistakeLeadsToAHeadShakeASlowDemonstrationAndBackToThatMove)
   ASSERT_TRUE(session.Until(CoachEvent::kWrong));
   EXPECT_EQ(session.record().repetition, 0);
   EXPECT_EQ(session.record().mistake, Mistake::kNotReached);
-  EXPECT_EQ(session.record().frame, 30 + 90 + 9);  // the window's end
+  EXPECT_EQ(session.record().frame, 30 + 90 + 9);  // the last frame of the window
   EXPECT_EQ(session.Count(CoachEvent::kCorrects), 1);
   EXPECT_EQ(session.Next().mode, CoachMode::kCorrect);
   EXPECT_EQ(session.out().clip, "head_shake");

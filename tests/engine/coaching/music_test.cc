@@ -28,15 +28,15 @@ TEST(MusicAt, IsStraightBetweenTagsAndAtTheJudgedRateBeyond) {
 
 TEST(RateToTag, BringsTheDanceToTheTagWithTheMusic) {
   const Dance dance = SmallDance();                             // tags every 3 s
-  EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, 1.0, 0.5, 2), 1);    // in time
-  EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, 1.5, 0.5, 2), 1.2);  // late by half a second: 3 s in 2.5
+  EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, 1.0, 0.5, 2), 1);    // on time
+  EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, 1.5, 0.5, 2), 1.2);  // half a second late: 3 s of dance in 2.5 s
   EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, 0.0, 0.5, 2), 0.75);
-  EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, 3.9, 0.5, 2), 2);  // as fast as may be
-  EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, 9.0, 0.5, 2), 2);  // the tag's moment is over
+  EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, 3.9, 0.5, 2), 2);  // the limit
+  EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, 9.0, 0.5, 2), 2);  // the tag has passed
   EXPECT_DOUBLE_EQ(RateToTag(dance, 1, 30, -9.0, 0.5, 2), 0.5);
 }
 
-/// A dance of 40 repetitions of three seconds, one tag each.
+/// Returns a dance of 40 repetitions of three seconds, one tag each.
 Dance LongDance() {
   Dance dance = SmallDance();
   dance.repetitions.clear();
@@ -50,7 +50,7 @@ Dance LongDance() {
   return dance;
 }
 
-/// Beat errors, seconds, of every frame of a session of two minutes that nothing interrupts.
+/// Returns the beat errors (s) of every frame of an uninterrupted session of two minutes.
 std::vector<double> BeatErrors(const MusicClockOptions& music, bool follows_tags, int trial) {
   static const DanceLibrary library = DanceLibrary::Make(LongDance()).value();
   const DanceTransitions transitions(library, {.choice = FindChoice("now"), .join = FindJoin("cut")});
@@ -85,10 +85,10 @@ TEST(Tags, WithoutThemAClockThatDriftsRunsAwayInAStraightLine) {
 }
 
 TEST(Tags, WithThemADriftIsMadeUpForMoveByMove) {
-  // Late by e at a tag, a move of T seconds is danced in T - e; the music plays (1 + d)(T - e) meanwhile, so that the
-  // next tag is late by e' = d (T - e), which tends to d T / (1 + d).
+  // If the dance is late by e at a tag, it dances a move of T seconds in T − e. Meanwhile the music plays (1 + d)(T −
+  // e), so the next tag is late by e' = d (T − e), which tends to d T / (1 + d).
   const std::vector<double> errors = BeatErrors({.drift = 0.02}, true, 0);
-  // From the middle to the last tag: the dance ends four seconds after that.
+  // From the middle to the last tag, four seconds before the end of the dance.
   const auto late = std::span(errors).subspan(errors.size() / 2, errors.size() / 2 - 130);
   EXPECT_NEAR(*std::ranges::max_element(late), 0.02 * 3 / 1.02, 0.002);
   EXPECT_NEAR(*std::ranges::min_element(late), 0.02 * 3 / 1.02, 0.002);

@@ -63,7 +63,7 @@ TEST(Policy, EveryDecisionSaysWhy) {
 
 TEST(Policy, TheOracleJudgesByWhatItIsToldAlone) {
   SmallSession right({}, "oracle");
-  right.player.told_right = true;  // the recogniser sees nothing, and nobody moves
+  right.player.told_right = true;  // the recogniser sees nothing, and the player stands still
   right.player.moves = false;
   ASSERT_TRUE(right.Until(CoachEvent::kSongEnds));
   EXPECT_EQ(right.Count(CoachEvent::kRight), 4);
@@ -87,7 +87,7 @@ TEST(Policy, TheYokedCoachCorrectsAtAGivenMomentOrAsSoonAsItDancesAgain) {
   session.Next();
   EXPECT_EQ(session.Count(CoachEvent::kCorrects), 1);
   for (int i = 0; i < 20; ++i) session.Next();
-  session.player.moment = true;  // while it corrects
+  session.player.moment = true;  // during the correction
   ASSERT_TRUE(session.Until(CoachEvent::kReturns));
   ASSERT_TRUE(session.Until(CoachEvent::kCorrects));
   ASSERT_TRUE(session.Until(CoachEvent::kSongEnds));

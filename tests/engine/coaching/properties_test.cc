@@ -12,7 +12,6 @@
 namespace etude {
 namespace {
 
-/// Does something else every now and then.
 void DoAnything(RandomStream& dice, SmallSession::Player& player) {
   if (dice.Chance(0.01)) player.seen = dice.Chance(0.8);
   if (dice.Chance(0.01)) player.moves = dice.Chance(0.7);
@@ -36,7 +35,7 @@ class RandomPlayers : public ::testing::TestWithParam<int> {
 
   const CoachOutput& Next() {
     DoAnything(dice_, session_.player);
-    // Music that is anywhere near.
+    // Music near the right time.
     if (session_.music_s && dice_.Chance(0.02)) *session_.music_s += dice_.Uniform(-0.3, 0.3);
     return session_.Next();
   }
@@ -64,7 +63,7 @@ TEST_P(RandomPlayers, AreAskedForNothingThatTheCoachHasNotDancedFromItsBeginning
     const CoachOutput& out = Next();
     if (!out.asks || !out.open) continue;
     const Repetition& asked = session_.coach().dance().repetitions[static_cast<std::size_t>(out.open->repetition)];
-    EXPECT_LE(out.clip_frame, static_cast<double>(asked.first) + 9 + 3) << i;  // the reaction time, and who hurries
+    EXPECT_LE(out.clip_frame, static_cast<double>(asked.first) + 9 + 3) << i;  // reaction time and catching up
   }
 }
 
@@ -88,7 +87,7 @@ TEST_P(RandomPlayers, EveryWindowComesToOneVerdictBeforeTheNextOneOpens) {
 }
 
 TEST_P(RandomPlayers, EveryDueTagIsHandledOnce) {
-  int expected = -1;  // the tag to come, once music plays
+  int expected = -1;  // the next tag, once music plays
   for (int i = 0; i < kFrames; ++i) {
     const CoachOutput& out = Next();
     if (out.music.kind == MusicCommand::Kind::kPlayFrom) expected = session_.state().next_tag;
@@ -101,7 +100,7 @@ TEST_P(RandomPlayers, EveryDueTagIsHandledOnce) {
     const auto& tags = session_.coach().dance().tags;
     const bool is_due = expected < static_cast<int>(tags.size()) &&
                         out.clip_frame >= static_cast<double>(tags[expected].frame) && session_.music_s;
-    // A tag that falls on the frame in which the music begins comes with the next one.
+    // A tag in the music's first frame comes with the next frame.
     if (is_due) {
       EXPECT_EQ(out.music.kind, MusicCommand::Kind::kPlayFrom) << i;
     }
@@ -171,7 +170,7 @@ TEST(Transitions, AreContinuousWhereTheJoinIs) {
 }
 
 TEST(Transitions, ComeHomeWithTheDance) {
-  SmallSession session;  // wrong for ever: three corrections, with turns and shifts of their own
+  SmallSession session;  // always wrong: three corrections, each with its own turn and shift
   ASSERT_TRUE(session.Until(CoachEvent::kGoesOn));
   const auto frame = static_cast<std::size_t>(session.out().clip_frame);
   const BodyPose& authored = session.coach().dance().motion.poses[frame];

@@ -91,7 +91,6 @@ TEST(MirrorImage, TwiceIsTheFrameItself) {
   for (std::size_t i = 0; i < kRoleCount; ++i) EXPECT_EQ(back.joints[i].position, frame.joints[i].position);
 }
 
-// Right at the bounds, and beyond them.
 TEST(CheckDance, SaysWhatIsWrong) {
   const auto complaint = [](const auto& spoil) {
     Dance dance = SmallDance();

@@ -16,7 +16,7 @@
 namespace etude {
 namespace {
 
-/// What recognisers are taught: key poses as the moves have them.
+/// Returns what recognisers are taught: the moves' key poses.
 std::vector<TaughtMove> TaughtBy(const std::vector<Move>& moves) {
   std::vector<TaughtMove> taught;
   for (const Move& move : moves) {
@@ -32,7 +32,6 @@ std::vector<TaughtMove> TaughtBy(const std::vector<Move>& moves) {
   return taught;
 }
 
-/// All that a session needs, of the song "warm_up".
 struct Studio {
   Song song = LoadBuiltinSong("warm_up").value();
   DanceLibrary library = DanceLibrary::Make(DanceOf(song).value()).value();

@@ -48,7 +48,7 @@ inline Dance SmallDance() {
   return dance;
 }
 
-/// A session of a coach with the small dance, and of a player whose behaviour the test sets.
+/// A session of a coach with the small dance and a player whose behaviour the test sets.
 class SmallSession {
  public:
   explicit SmallSession(const CoachOptions& options = {}, const char* policy = "at-first-mistake",
@@ -60,7 +60,6 @@ class SmallSession {
     state_ = coach_.BeginDancing();
   }
 
-  /// The player's behaviour from now on.
   struct Player {
     bool seen = true;
     bool moves = true;
@@ -71,7 +70,7 @@ class SmallSession {
     bool moment = false;
   } player;
 
-  /// Plays `frames` frames, or until the coach decides an event of this kind; returns false if it did not.
+  /// Plays `frames` frames, or until the coach decides this event; returns false if it did not.
   bool Until(CoachEvent event, int frames = 3000) {
     for (int i = 0; i < frames; ++i) {
       Next();

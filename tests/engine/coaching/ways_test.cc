@@ -1,5 +1,5 @@
-// Every transition that a session of any song can need, by paper A's method (sections 3.5 and 4): from the end of every
-// window into every corrective act, from there into the slow demonstration, and from there back to the dance.
+// Every transition that a session can need, by paper A's method (sections 3.5 and 4): from the end of every window to
+// every corrective act, on to the slow demonstration, and back to the dance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,14 +16,14 @@
 namespace etude {
 namespace {
 
-constexpr int kWindowLag = 9;  // frames after the repetition, as coaches have it by default
+constexpr int kWindowLag = 9;  // frames after the repetition, the coaches' default
 constexpr double kWaitLimit_s = TransitionRequest{}.budget_s;
 
-/// What all those ways came to.
+/// Counts over all those transitions.
 struct Ways {
   int count = 0, through_in_betweens = 0, unmatched = 0;
   double longest_s = 0;
-  std::set<std::string> pairs;  ///< of what is left and what is entered
+  std::set<std::string> pairs;  ///< (clip left, clip entered)
 };
 
 void Add(const ShownPath& path, const std::string& pair, Ways& ways) {
@@ -68,21 +68,20 @@ TEST(Ways, NoneTakesLongerThanTheWaitAndTheLongestInBetween) {
   }
 }
 
-// Paper A's economy: nobody has to draw an in-between for any of these pairs, for bridge frames and one set of
-// in-betweens made of bridge frames join them all.
+// Paper A's saving: bridge frames, and one set of in-betweens between them, join all these pairs, so that nobody draws
+// an in-between for a pair.
 TEST(Ways, AreAllCarriedByBridgeFrames) {
   for (const std::string& song : BuiltinSongNames()) {
     const Ways ways = WaysOf(song, "fuzzy-bridge");
     RecordProperty(song + "_pairs", static_cast<int>(ways.pairs.size()));
     RecordProperty(song + "_through_in_betweens", ways.through_in_betweens);
-    EXPECT_GE(ways.pairs.size(), 56u) << song;  // seven for each of at least eight moves
+    EXPECT_GE(ways.pairs.size(), 56u) << song;  // seven pairs for each of at least eight moves
     EXPECT_EQ(ways.unmatched, 0) << song << ": of " << ways.count;
     EXPECT_LT(ways.through_in_betweens, ways.count) << song;
   }
 }
 
-// Whoever is to dance a repetition again is shown its beginning: the way back leads to what comes before it. Paper A's
-// finds no match there now and then.
+// The way back must lead to the frames before the repeated one. Paper A's choice sometimes finds no match there.
 TEST(Ways, BackLeadToBeforeTheRepetition) {
   for (const std::string& song : BuiltinSongNames()) {
     const DanceLibrary library = *DanceLibrary::Make(*DanceOf(*LoadBuiltinSong(song)));

@@ -8,7 +8,6 @@
 namespace etude {
 namespace {
 
-/// Reads every kind of key.
 Result<void> ReadEveryKind(const std::string& text) {
   const Result<Node> node = ParseYaml(text, "t.yaml");
   if (!node) return tl::unexpected(node.error());

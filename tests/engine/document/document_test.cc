@@ -85,7 +85,6 @@ TEST(Document, RefusesBrokenOrHostileText) {
   EXPECT_THAT(Complaint(std::string(2 << 20, 'x')), HasSubstr("allowed: at most 1048576"));
 }
 
-// What is nested by as many levels as allowed is read, and one level more is not.
 TEST(Document, ReadsThirtyTwoLevelsAndNotOneMore) {
   const auto keys = [](int levels) {
     std::string text;
@@ -97,7 +96,7 @@ TEST(Document, ReadsThirtyTwoLevelsAndNotOneMore) {
     for (int i = 0; i < levels; ++i) text += "- ";
     return text + "x\n";
   };
-  // A level that is closed again is none.
+  // A closed level does not count.
   const auto closed = [](int levels) {
     std::string text;
     for (int i = 0; i < levels; ++i) text += "- [{a: 1}]\n";

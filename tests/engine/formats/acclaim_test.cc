@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-// An arm of two bones along X, told in axes turned by 90° about Z; and a bone without channels.
+// An arm of two bones along X, given in axes turned by 90° about Z, and a bone without channels.
 constexpr const char* kSkeleton = R"(# a remark
 :version 1.10
 :name VICON
@@ -55,7 +55,7 @@ void ExpectAcclaimNear(const glm::dvec3& found, const glm::dvec3& wanted) {
 
 TEST(Acclaim, TurnsBonesInTheirOwnAxes) {
   ASSERT_OK(skeleton, ReadAcclaimSkeleton(kSkeleton, "a.asf"));
-  // Turns about the bone's own X, which is the world's Y: the arm swings level, from X to −Z.
+  // A turn about the bone's X, which is the world's Y: the arm swings level from X to −Z.
   const char* motion =
       "#!OML\n:FULLY-SPECIFIED\n:DEGREES\n1\nroot 5 0 0 0 0 0\nupper 90 0 0\n2\nroot 0 0 0 0 0 90\nupper 0 0 0\n";
   ASSERT_TRUE(IsAcclaimMotion(motion));
@@ -66,7 +66,7 @@ TEST(Acclaim, TurnsBonesInTheirOwnAxes) {
   ASSERT_TRUE(lower > 0 && end > 0 && clip->skeleton.joints[end].is_end_site);
   ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[lower].position, {5, 1, -2});
   ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[end].position, {5, 1, -5});
-  ExpectAcclaimNear(AcclaimGlobals(*clip, 1)[end].position, {0, 6, 0});  // the root turned all of it about Z
+  ExpectAcclaimNear(AcclaimGlobals(*clip, 1)[end].position, {0, 6, 0});  // the root turned everything about Z
 }
 
 TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
@@ -74,7 +74,7 @@ TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
   std::string radians = degrees;
   radians.replace(radians.find("angle deg"), 9, "angle rad");
   ASSERT_OK(wanted, ReadAcclaimMotion(frames, *ReadAcclaimSkeleton(degrees, "a.asf"), "a.amc"));
-  // A skeleton that states radians, and a motion that does, both with degrees.
+  // A skeleton or a motion that states radians, but has degrees.
   for (const auto& [asf, head] : {std::pair(radians, ""), {radians, ":DEGREES\n"}, {degrees, ":RADIANS\n"}}) {
     std::vector<std::string> remarks;
     ASSERT_OK(skeleton, ReadAcclaimSkeleton(asf, "a.asf"));
@@ -83,7 +83,7 @@ TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
     ASSERT_EQ(remarks.size(), 1u);
     EXPECT_NE(remarks[0].find("angles are taken as degrees"), std::string::npos);
   }
-  // Radians that are called degrees could be a body that hardly moves, so they are only said.
+  // Radians that are called degrees could be a nearly still body, so the reader only remarks on them.
   const auto said = [&](const std::string& motion) {
     std::vector<std::string> remarks;
     EXPECT_TRUE(ReadAcclaimMotion(motion, *ReadAcclaimSkeleton(degrees, "a.asf"), "a.amc", &remarks));

@@ -73,7 +73,7 @@ constexpr Broken kBroken[] = {
     {"beyond any double", "1 2 3 90", "1 2 1e999 90", 19, 5, "found '1e999'"},
     {"beyond sense", "1 2 3 90", "1 2 1e10 90", 19, 5, "a number within ±1e+09"},
 };
-// clang-format on
+// the control: the undamaged file is read
 
 TEST(BrokenBvh, IsRefusedWithLineColumnAndWhatIsAllowed) {
   ASSERT_TRUE(ReadBvh(kSmallBvh, "small.bvh"));  // the control: unbroken, it reads
@@ -87,7 +87,7 @@ TEST(BrokenBvh, IsRefusedWithLineColumnAndWhatIsAllowed) {
 }
 
 TEST(BrokenBvh, IsRefusedWhenItEndsAnywhereEarly) {
-  // Short of its last frame's last number; whatever is cut from there on is only the line's end.
+  // Anything before the last number of the last frame is needed; after it only the line's end.
   const std::size_t needed = kSmallBvh.find_last_of('0');
   for (std::size_t length = 0; length < needed; ++length) {
     EXPECT_FALSE(ReadBvh(kSmallBvh.substr(0, length), "cut.bvh")) << length;

@@ -1,4 +1,4 @@
-// Deviations from the format that exporters write; none of them may change the motion.
+// Deviations from the format that exporters write; none may change the motion.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -104,7 +104,7 @@ TEST(BvhHabits, IncludeOneNameForSeveralJointsWhichCanStillBeTold) {
 }
 
 TEST(BvhHabits, IncludeJointsWithoutOrWithFewChannels) {
-  // None at the arm, not even the word: it stands as it rests.
+  // An arm without channels, or the word CHANNELS, stays at rest.
   std::string text = Replaced(kSmallBvh, "    CHANNELS 3 Zrotation Yrotation Xrotation\n", "");
   text = ReplacedEverywhere(text, "1 2 3 0 0 0 90 0 0", "1 2 3 0 0 0");
   text = ReplacedEverywhere(text, "1 2 3 90 0 0 0 0 0", "1 2 3 90 0 0");
@@ -161,7 +161,7 @@ TEST(BvhHabits, IncludePlacesRelativeToTheOffset) {
   EXPECT_EQ(relative->frames[1][2].translation, glm::dvec3(5, 0, .1));
   EXPECT_EQ(remarks,
             (std::vector<std::string>{"the joints' positions are relative to their OFFSETs, which were added"}));
-  // The control: absolute places replace the OFFSETs, also those of a joint that moves a little.
+  // The control: absolute positions replace OFFSETs, also for a joint that moves a little.
   ASSERT_OK(absolute, ReadBvh(head + "1 2 3 0 10 0 5 0 0\n1 2 3 0 10.5 0 5 0 .1\n", "absolute.bvh", &remarks));
   EXPECT_EQ(absolute->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
   EXPECT_EQ(absolute->frames[1][2].translation, glm::dvec3(5, 0, .1));

@@ -1,4 +1,4 @@
-// Programs interpret OFFSET together with position channels in two ways. Two small readers, which share nothing with
+// Programs interpret OFFSET together with position channels in two ways. Two small readers, which share no code with
 // ours, must agree with it.
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 enum class Positions { kReplaceOffset, kAreAddedToOffset };
 
-/// The places of all joints in all frames, in the file's order. `text` is valid.
+/// Returns the positions of all joints in all frames, in the file's order. `text` is valid.
 std::vector<glm::dvec3> PlacesIn(const std::string& text, Positions positions) {
   struct ReadJoint {
     int parent = -1;

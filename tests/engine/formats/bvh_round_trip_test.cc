@@ -19,7 +19,7 @@ using testing::RandomClip;
 using testing::Resting;
 using testing::WorstDistance;
 
-// Half of the sixth decimal for each of three numbers.
+// Half of the sixth decimal, for three numbers.
 const double kPrintedLength = 0.5e-6 * std::sqrt(3.0) * (1 + 1e-6);
 const double kPrintedTurn = Radians(3 * 0.5e-6) * (1 + 1e-6);
 
@@ -29,14 +29,13 @@ Clip Again(const Clip& clip) {
   return read ? *read : Clip{};
 }
 
-/// The angle between two rotations, exact near zero.
 double TurnBetween(const glm::dquat& a, const glm::dquat& b) {
   const glm::dquat turn = glm::conjugate(a) * b;
   return 2 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
 }
 
-/// Where a joint rests that was written and read again: the root at the origin, a joint that leaves its rest pose's
-/// translation where the first frame has it.
+/// Returns a joint's rest position after writing and reading: the origin for the root; for a joint that leaves its rest
+/// translation, the first frame's.
 glm::dvec3 RestInBvh(const Clip& clip, std::size_t joint) {
   const glm::dvec3 rest = clip.skeleton.joints[joint].rest.translation;
   if (clip.skeleton.joints[joint].parent < 0) return glm::dvec3(0);
@@ -44,7 +43,7 @@ glm::dvec3 RestInBvh(const Clip& clip, std::size_t joint) {
   return std::ranges::any_of(clip.frames, leaves) ? clip.frames.front()[joint].translation : rest;
 }
 
-/// Joint by joint of the same name: neither moved nor turned by more than what six decimals leave out.
+/// Checks that joints of the same name differ by no more than six decimals.
 void ExpectTheSameToThePrintedPrecision(const Clip& clip, const Clip& again) {
   ASSERT_EQ(again.skeleton.joints.size(), clip.skeleton.joints.size());
   ASSERT_EQ(again.frames.size(), clip.frames.size());
@@ -94,7 +93,7 @@ TEST(BvhRoundTrip, KeepsJointsOfAnySceneWhereTheyAreAndWhatRestsWithoutMoving) {
                                         .moving_offsets = seed % 2 == 1,
                                         .scales = seed % 4 >= 2});
     const Clip again = Again(clip);
-    // A chain of ten joints of length 2 (4 when scaled), each turned by what six decimals leave out.
+    // Bound: a chain of ten joints of length 2 (4 if scaled), each turned by the rounding of six decimals.
     EXPECT_LT(WorstDistance(clip, again), 1e-5);
     const bool rests_as_before = seed % 2 == 0 && seed % 4 < 2 && seed % 3 == 0;
     Clip rooted = clip;
@@ -108,7 +107,7 @@ TEST(BvhRoundTrip, KeepsJointsOfAnySceneWhereTheyAreAndWhatRestsWithoutMoving) {
 
 TEST(BvhRoundTrip, WritesPositionsOnlyWhereTheyShow) {
   Clip clip = RandomClip(3);
-  clip.frames[1][4].translation.x += 1e-9;  // what single-precision files differ by
+  clip.frames[1][4].translation.x += 1e-9;  // the rounding of single-precision files
   const std::string text = WriteBvh(clip);
   EXPECT_EQ(text.find("CHANNELS 6"), text.rfind("CHANNELS 6"));
   clip.frames[1][4].translation.x += 2e-6;
@@ -153,7 +152,7 @@ TEST(BvhRoundTrip, TellsJointsOfOneNameApart) {
   for (const Joint& joint : again.skeleton.joints) names.insert(joint.name);
   EXPECT_EQ(names.size(), clip.skeleton.joints.size());
   for (const char* name : {"bone", "bone#2", "bone#3", "bone#10"}) EXPECT_TRUE(names.contains(name)) << name;
-  // The text itself is without doubles, for those who read it with other programs.
+  // The text itself has unique names, for other programs.
   const std::string text = WriteBvh(clip);
   EXPECT_EQ(text.find("JOINT bone\n"), text.rfind("JOINT bone\n"));
 }

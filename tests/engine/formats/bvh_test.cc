@@ -29,7 +29,7 @@ void ExpectBvhNear(const glm::dvec3& actual, const glm::dvec3& expected, double 
       << "(" << actual.x << ", " << actual.y << ", " << actual.z << ")";
 }
 
-/// Rotation by the textbook's matrix, the second implementation that quaternions are compared with.
+/// Rotation by the textbook's matrix, a second implementation for quaternions.
 glm::dmat3 AxisMatrix(char axis, double degrees) {
   const double c = std::cos(Radians(degrees)), s = std::sin(Radians(degrees));
   switch (axis) {
@@ -58,12 +58,12 @@ TEST(Bvh, ReadsTheTreeOfJointsAndEndSites) {
 
 TEST(Bvh, PlacesJointsWhereForwardKinematicsByHandDoes) {
   ASSERT_OK(clip, ReadBvh(kSmallBvh, "small.bvh"));
-  // The root turned by 90° about Z: up becomes −X, the arm's +X becomes up.
+  // The root is turned by 90° about Z: up becomes −X, and the arm's +X becomes up.
   const auto turned_root = Globals(*clip, 0);
   ExpectBvhNear(turned_root[0].position, {1, 2, 3});
   ExpectBvhNear(turned_root[1].position, {-9, 2, 3});
   ExpectBvhNear(turned_root[2].position, {-9, 7, 3});
-  // Only the arm turned.
+  // Only the arm is turned.
   const auto turned_arm = Globals(*clip, 1);
   ExpectBvhNear(turned_arm[1].position, {1, 12, 3});
   ExpectBvhNear(turned_arm[2].position, {1, 17, 3});
@@ -86,7 +86,7 @@ TEST(Bvh, MultipliesRotationsInTheOrderOfTheChannels) {
 }
 
 TEST(Bvh, KeepsTheChannelOrderOfEveryJoint) {
-  // Rotations before positions at the root, one single rotation at the arm.
+  // Rotations come before positions at the root; the arm has a single rotation.
   std::string text = Replaced(kSmallBvh, "Xposition Yposition Zposition Zrotation Xrotation Yrotation",
                               "Yrotation Zposition Xposition Xrotation Yposition Zrotation");
   text = Replaced(text, "CHANNELS 3 Zrotation Yrotation Xrotation", "CHANNELS 1 Zrotation");
@@ -96,7 +96,7 @@ TEST(Bvh, KeepsTheChannelOrderOfEveryJoint) {
   const auto globals = Globals(*clip, 0);
   ExpectBvhNear(globals[0].position, {1, 2, 3});
   ExpectBvhNear(globals[1].position, {1, 12, 3});  // about Y: up stays up
-  ExpectBvhNear(globals[2].position, {1, 17, 3});  // the arm's own turn about Z lifts its tip
+  ExpectBvhNear(globals[2].position, {1, 17, 3});  // the arm's own turn about Z raises its tip
 }
 
 TEST(Bvh, PositionChannelsReplaceTheOffsetOfAnyJoint) {
@@ -106,7 +106,7 @@ TEST(Bvh, PositionChannelsReplaceTheOffsetOfAnyJoint) {
   text = Replaced(text, "1 2 3 0 0 0 90 0 0", "1 2 3 0 0 0 0 0");
   ASSERT_OK(clip, ReadBvh(text, "positions.bvh"));
   ExpectBvhNear(clip->frames[0][0].translation, {1, 2, 3});
-  ExpectBvhNear(clip->frames[0][1].translation, {4, 10, 6});  // Y has no channel and keeps its offset
+  ExpectBvhNear(clip->frames[0][1].translation, {4, 10, 6});  // Y has no channel, so it keeps its offset
   ExpectBvhNear(clip->skeleton.joints[0].rest.translation, {7, 8, 9});
 }
 
@@ -119,7 +119,7 @@ TEST(Bvh, TakesAPrintedFrameTimeForTheWholeRateItMeans) {
   EXPECT_EQ(rate("0.008333"), 120);
   EXPECT_EQ(rate("0.033333"), 30);
   EXPECT_EQ(rate("+1e-2"), 100);
-  EXPECT_NEAR(rate("0.0333667"), 29.97, 1e-4);  // a rate of its own, not a badly printed 30
+  EXPECT_NEAR(rate("0.0333667"), 29.97, 1e-4);  // 29.97 Hz, not a rounded 30
 }
 
 TEST(Bvh, ReadsWindowsLineEndsTabsOddCaseAndAMissingLastNewline) {
@@ -166,7 +166,7 @@ TEST(Bvh, WritesAFileThatCanBeReadByEye) {
 }
 
 TEST(Bvh, WritesJointsDepthFirstWhateverTheirOrder) {
-  // Breadth first, as a skeleton built in code may stand: legs interleaved.
+  // Joints breadth first, so that the legs alternate.
   Skeleton skeleton;
   skeleton.joints = {{"root", -1, {}},
                      {"left", 0, {{1, 0, 0}}},

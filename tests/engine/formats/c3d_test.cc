@@ -103,7 +103,7 @@ TEST(C3d, TakesWhatIsNoNumberForAGap) {
 
 TEST(C3d, TakesNoMoreNamesThanThereArePoints) {
   std::string bytes = C3dWriter(kIntel, true).Write();
-  bytes[bytes.find("LABELS") + 9] = 7;  // dimensions, whose product is some 10¹⁰
+  bytes[bytes.find("LABELS") + 9] = 7;  // dimensions with a product of about 10¹⁰
   ASSERT_OK(read, ReadC3d(bytes, "a.c3d"));
   EXPECT_EQ(read->markers.names.size(), 2u);
 }
@@ -125,7 +125,7 @@ TEST(C3d, RefusesWhatIsDamaged) {
   for (std::size_t cut = 0; cut < good.size(); cut += 37) EXPECT_NE(C3dComplaint(good.substr(0, cut)), "(read)") << cut;
 }
 
-/// So many markers, of which every seventh is not seen in the second frame.
+/// Returns markers of which every seventh is unseen in the second frame.
 MarkerMotion SomeMarkers(std::size_t markers, std::size_t frames) {
   MarkerMotion motion{.rate_hz = 120, .names = {}, .frames = {}};
   for (std::size_t p = 0; p < markers; ++p) motion.names.push_back("marker" + std::to_string(p));
@@ -163,7 +163,7 @@ TEST(WriteC3d, IsReadBackWithItsGapsWhateverTheNumberOfMarkersAndFrames) {
   }
 }
 
-/// What stands where by the format's specification (c3d.org), told byte by byte.
+/// Positions and values by the format's specification (c3d.org), byte by byte.
 TEST(WriteC3d, HasTheHeaderThatTheFormatPrescribes) {
   const std::string bytes = WriteC3d(SomeMarkers(3, 5));
   const auto word = [&](std::size_t n) {
@@ -189,7 +189,7 @@ TEST(ReadC3d, TellsTheTimeOfItsFirstFrame) {
   std::string bytes = WriteC3d(SomeMarkers(3, 5));
   ASSERT_OK(read, ReadC3d(bytes, "a.c3d"));
   EXPECT_EQ(read->markers.start_s, 0);
-  // Frames 61 to 65. Behind a parameter's name stand its offset, type, dimensions, and two words.
+  // Frames 61 to 65. A parameter's name is followed by its offset, type, dimensions, and two words.
   for (const auto& [name, frame] : {std::pair<std::string, char>("ACTUAL_START_FIELD", 61), {"ACTUAL_END_FIELD", 65}}) {
     const std::size_t at = bytes.find(name);
     ASSERT_NE(at, std::string::npos);

@@ -31,13 +31,13 @@ using testing::SpoiltTexts;
 template <typename T>
 using Read = Result<T> (*)(std::string_view, const std::string&);
 
-/// `read` for texts that are all in a file of this name.
+/// Wraps `read` for texts that belong to a file of this name.
 template <typename T>
 auto From(const std::string& file, Read<T> read) {
   return [file, read](const std::string& text) { return read(text, file); };
 }
 
-/// What is read must be finite, and what is refused have a place.
+/// A result must be finite, and a refusal must have a place.
 Result<Clip> ReadBvhText(const std::string& text) {
   auto clip = ReadBvh(text, "a.bvh");
   std::vector<GlobalTransform> globals;

@@ -18,7 +18,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A frame that stands: no rotation at all.
 std::vector<double> Standing(double duration = 0.04) {
   std::vector<double> frame = {duration, 0.5, 0.9, -0.25};
   const auto add = [&](std::initializer_list<double> numbers) { frame.insert(frame.end(), numbers); };
@@ -71,9 +70,9 @@ TEST(DeepMimic, KneesBendBackwardsElbowsForwardsAndQuaternionsAreWxyz) {
   std::vector<double> frame = Standing();
   frame[20] = -kPi / 2;     // right knee
   frame[29] = kPi / 2;      // right elbow
-  frame[4] = frame[6] = 3;  // the root turned to the left; not of length 1
+  frame[4] = frame[6] = 3;  // the root turned to the left, with a quaternion not of length 1
   ASSERT_OK(clip, ReadDeepMimicMotion(Motion({frame}), "walk.txt"));
-  // Turned by 90° about +Y, what faced +X faces −Z, and the right hip is at +X.
+  // Turned by 90° about +Y, the front +X becomes −Z, and the right hip is at +X.
   const glm::dvec3 root(0.5, 0.9, -0.25);
   ExpectJointAt(PlaceOf(*clip, 0, "right_hip") - root, {0.084887, 0, 0});
   ExpectJointAt(PlaceOf(*clip, 0, "right_ankle") - PlaceOf(*clip, 0, "right_knee"), {0, 0, 0.409870});

@@ -58,7 +58,7 @@ TEST(JointCsv, TakesFewerJointsInAnyOrderAndMissingPlaces) {
   EXPECT_FALSE(read->frames[1][Index(Role::kHead)]);
   EXPECT_FALSE(read->frames[2][Index(Role::kHead)]);
   EXPECT_FALSE(read->frames[0][Index(Role::kSpine)]);
-  // A last value may be missing, too; a separator behind all values ends the line.
+  // The last value may be missing; a separator after all values ends the line.
   for (const char* separator : {",", ";", "\t"}) {
     std::string text = "head_x_m,head_y_m,head_z_m\n1,2,\n1,2,3\n1,2,3,\n";
     std::ranges::replace(text, ',', *separator);
@@ -104,7 +104,7 @@ TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
             "semicolons or tabs");
   EXPECT_EQ(read("head_x_m,head_y_m,head_z_m\n1,far,2\n"),
             "m.csv:2: head_y_m: 'far'; allowed: a number, or nan for a missing one");
-  // A hundred columns of texts are left out; more are no table of ours.
+  // A hundred text columns are ignored; with more, the table is refused.
   const auto texts = [&](int count) {
     std::string text = "head_x_m,head_y_m,head_z_m", row = "\n1,2,3";
     for (int i = 0; i < count; ++i) {

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// A row in which joint j is at (j + 1, 0.5, 2), with or without quaternions.
+/// Returns a row with joint j at (j + 1, 0.5, 2), with or without quaternions.
 std::string Row(int frame, bool with_quaternions, const char* separator = " ") {
   std::ostringstream row;
   for (int j = 0; j < 25; ++j) {
@@ -39,7 +39,7 @@ TEST(KinectText, ReadsPlacesWithAndWithoutOrientationsAndWithAnySeparator) {
 TEST(KinectText, GivesTheTwentyRolesOfAKinectV1) {
   ASSERT_OK(read, ReadKinectV2Text(Row(0, true), "k.txt"));
   const RolePositions places = PlacesOf((*read)[0]);
-  // By the numbers of the SDK's JointType.
+  // The roles by the SDK's JointType numbers.
   const std::pair<Role, int> expected[] = {{Role::kHipCentre, 0},       {Role::kSpine, 1},     {Role::kHead, 3},
                                            {Role::kShoulderCentre, 20}, {Role::kLeftHand, 7},  {Role::kRightElbow, 9},
                                            {Role::kLeftHip, 12},        {Role::kLeftFoot, 15}, {Role::kRightKnee, 17},

@@ -73,11 +73,11 @@ TEST(MotionBids, LatencyIsTheClockAndMissingValuesAreGaps) {
   }
   EXPECT_THAT(read->remark, HasSubstr("SamplingFrequency states 60 Hz, but the channel LATENCY runs at 50 Hz"));
   EXPECT_THAT(read->remark, HasSubstr("6 of 60 frames are missing"));
-  // A missing time is no time.
+  // A missing time is refused.
   rows.replace(rows.rfind('\t') + 1, 6, "-9999");
   EXPECT_THAT(testing::Refusal(ReadMotionBids(rows, channels, {.rate_hz = 60, .missing = "-9999"}, kFiles)),
               HasSubstr("m.tsv:54: no time, although other rows have one"));
-  // Zeros are missing only if all three are 0; a text that is no number stands for a gap, too.
+  // Zeros are missing only if all three are 0; a text may also mark a gap.
   const auto zero = ReadMotionBids("0\t0\t0\t1\n0\t100\t0\t1\n", kChannels, {50, "0"}, kFiles);
   EXPECT_FALSE(zero->frames[0][0]);
   EXPECT_EQ(zero->frames[1][0], glm::dvec3(0, 0, 1));

@@ -19,7 +19,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// An .npy file of the first or the second version, header and numbers.
+/// Returns an .npy file of format version 1 or 2.
 template <typename Number>
 std::string NpyOf(const std::string& type, const std::string& shape, const std::vector<Number>& numbers,
                   int version = 1, const std::string& fortran = "False") {
@@ -59,17 +59,17 @@ TEST(Npy, ReadsEveryKindOfNumber) {
 }
 
 TEST(Npy, ReadsHalfPrecisionAndBigEndianNumbers) {
-  // IEEE 754: 1, -2, the largest, the smallest normal and subnormal number, and an infinity.
+  // IEEE 754: 1, -2, the largest, the smallest normal and the smallest subnormal number, infinity.
   const auto half = ReadNpy(NpyOf<std::uint16_t>("<f2", "6,", {0x3c00, 0xc000, 0x7bff, 0x0400, 0x0001, 0xfc00}), "a.npy");
   EXPECT_THAT(half->values, ElementsAre(1, -2, 65504, std::ldexp(1, -14), std::ldexp(1, -24), -INFINITY));
   EXPECT_TRUE(std::isnan(ReadNpy(NpyOf<std::uint16_t>("<f2", "1,", {0x7e00}), "a.npy")->values[0]));
-  // 1.0 and 258, the most significant byte first.
+  // 1.0 and 258, most significant byte first.
   EXPECT_THAT(ReadNpy(NpyOf<std::uint8_t>(">f8", "1,", {0x3f, 0xf0, 0, 0, 0, 0, 0, 0}), "a.npy")->values, ElementsAre(1));
   EXPECT_THAT(ReadNpy(NpyOf<std::uint8_t>(">i2", "2,", {1, 2, 0xff, 0xff}), "a.npy")->values, ElementsAre(258, -1));
 }
 
 TEST(Npy, PutsFortransOrderRight) {
-  // Element (i, j, k) of 2 × 3 × 2 is 100 i + 10 j + k; Fortran's first index runs fastest.
+  // Element (i, j, k) of 2 × 3 × 2 is 100 i + 10 j + k; in Fortran order the first index varies fastest.
   std::vector<double> fortran, c;
   for (int k = 0; k < 2; ++k) {
     for (int j = 0; j < 3; ++j) {
@@ -128,14 +128,14 @@ TEST(Npz, ReadsWhatItWroteAndPassesTextsOver) {
   EXPECT_THAT(ToString(ReadNpz(bytes.substr(0, bytes.size() / 2), "a.npz").error()), HasSubstr("not a readable ZIP file"));
 }
 
-/// Two frames of SMPL's joints; the pelvis turned so that the body stands up along the file's Z.
+/// Returns two frames of SMPL's joints; the pelvis is turned so that the body stands along the file's Z.
 Npz SmallAmass(std::size_t width) {
   Npz npz;
   npz.arrays["poses"] = {{2, width}, std::vector<double>(2 * width)};
   npz.arrays["trans"] = {{2, 3}, {1, 2, 3, 4, 5, 6}};
   npz.arrays[width == 156 ? "mocap_framerate" : "mocap_frame_rate"] = {{}, {120}};
   for (const std::size_t frame : {0u, 1u}) npz.arrays["poses"].values[frame * width] = kPi / 2;
-  npz.arrays["poses"].values[width + 3 * 18 + 2] = kPi / 2;  // the left elbow of the second frame, about the body's Z
+  npz.arrays["poses"].values[width + 3 * 18 + 2] = kPi / 2;  // left elbow of the second frame, about the body's Z
   return npz;
 }
 
@@ -192,7 +192,6 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
               HasSubstr("poses of frame 1 rotates left_hip by 90 radians; allowed: at most 12.57 (4π); are they degrees?"));
 }
 
-/// A take as Motive exports it.
 std::string MotiveTake(const std::string& unit = "Centimeters", const std::string& type = "Bone") {
   return "Format Version,1.23,Take Name,t,Capture Frame Rate,120.0,Export Frame Rate,60.0,Length Units," + unit +
          ",Coordinate Space,Global\r\n\r\n" + ",Type," + type + "," + type + "," + type + "," + type +

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// A row in which target i is at (i, 2, 3) × `unit`, turned by `w`.
+/// Returns a row with target i at (i, 2, 3) × `unit`, turned by `w`.
 std::string TargetRow(double unit, double w = 1) {
   std::ostringstream row;
   for (int i = 0; i < 17; ++i) {

@@ -14,10 +14,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Where the only marker is at a time, on a curve.
 glm::dvec3 CurveAt(double time_s) { return {0.3 * std::sin(2 * time_s), 1 + 0.1 * std::cos(3 * time_s), time_s}; }
 
-/// Rows at these times, printed to multiples of `printed` if it is above 0.
+/// Returns rows at these times, rounded to multiples of `printed` if it is above 0.
 MarkerRows RowsAt(const std::vector<double>& times, double told_hz = 0, double printed = 0) {
   MarkerRows rows{.markers = {.rate_hz = 30, .names = {"A"}, .frames = {}}, .times_s = {}, .lines = {}};
   if (told_hz > 0) {
@@ -32,7 +31,7 @@ MarkerRows RowsAt(const std::vector<double>& times, double told_hz = 0, double p
   return rows;
 }
 
-/// `count` times at a rate, without those from `lost` to before `found`.
+/// Returns `count` times at a rate, without those from `lost` to before `found`.
 std::vector<double> TimesAt(double rate_hz, int count, int lost = 0, int found = 0) {
   std::vector<double> times;
   for (int k = 0; k < count; ++k) {
@@ -107,7 +106,7 @@ TEST(RowClock, TimesThatSeveralRowsShareByRoundingKeepTheirRate) {
       EXPECT_THAT(laid->remark, HasSubstr("its times are printed to 0.01 s, so several rows share one"));
     }
   }
-  // The control: at 100 Hz a time that stands twice is a row that was written twice.
+  // The control: at 100 Hz, a repeated time is a repeated row.
   std::vector<double> times = TimesAt(100, 60);
   times.insert(times.begin() + 30, times[30]);
   ASSERT_OK(twice, LayOnClock(RowsAt(times, 0, 0.01), "a"));
@@ -142,7 +141,7 @@ TEST(RowClock, ARowAtAWrongTimeChangesNoRate) {
 }
 
 TEST(RowClock, UnevenTimesAreInterpolatedAndTold) {
-  // A camera whose period changes by up to a third, and whose clock is right.
+  // A camera whose period varies by up to a third, with a correct clock.
   std::vector<double> times;
   for (int k = 0; k < 90; ++k) times.push_back(k / 30.0 + 0.01 * std::sin(1.7 * k) + 0.01);
   ASSERT_OK(laid, LayOnClock(RowsAt(times), "a"));
@@ -203,7 +202,7 @@ TEST(RowClock, FrameNumbersAreAClock) {
   expect({0, 0.5}, {});
 }
 
-/// A take of Motive's with one marker at 120 Hz and 30 rows lost.
+/// Returns a take of Motive with one marker at 120 Hz; 30 rows are missing.
 std::string MotiveTake(bool has_times) {
   std::string text =
       "Format Version,1.23,Export Frame Rate,120.000000,Total Exported Frames,240,Length Units,Meters,Coordinate "

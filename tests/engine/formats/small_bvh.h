@@ -4,7 +4,7 @@
 
 namespace etude::testing {
 
-/// A file with two joints, an end site and two frames; it is so small that tests know every line and column.
+/// A file with two joints, an end site and two frames, so small that tests know every line and column.
 inline constexpr std::string_view kSmallBvh = R"(HIERARCHY
 ROOT Hips
 {

@@ -17,15 +17,15 @@ inline std::vector<std::string> Parts(std::string_view text, char separator = '^
   return parts;
 }
 
-/// Returns variants of a text, each with one typical change: a number, a word or a line is replaced, missing, repeated
-/// or moved; or the text ends too early.
+/// Returns variants of a text, each with one typical change: a number, word or line is replaced, missing, repeated or
+/// moved, or the text ends early.
 inline std::vector<std::string> SpoiltTexts(std::string_view text, std::uint64_t seed, int count) {
   constexpr std::array<std::string_view, 14> kWords = {"0",   "-1", "1e9", "1.0000001e9", "nan", "inf", "x",
                                                        "1.5", "2",  "+3",  "0.0",         "{",   "}",   "1e-4"};
   constexpr std::string_view kCharacters = " \t\n\r{}:;,\"#/xX-.1\xff";
   Dice dice(seed);
   std::vector<std::string> spoilt;
-  // Returns the stretch of the text between separators around a position, and the separator after it.
+  // Returns the text between separators around a position, and the separator after it.
   const auto around = [&](std::string_view separators, std::size_t at) {
     const std::size_t before = text.find_last_of(separators, at);
     const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
@@ -64,7 +64,7 @@ inline std::vector<std::string> SpoiltTexts(std::string_view text, std::uint64_t
   return spoilt;
 }
 
-/// Returns variants of these bytes, each with a few bytes changed or missing, or with one byte too many.
+/// Returns variants of these bytes with a few bytes changed or missing, or one added.
 inline std::vector<std::string> SpoiltBytes(std::string_view bytes, std::uint64_t seed, int count) {
   constexpr std::string_view kBytes("\0\1\2\x7f\x80\xff@", 7);
   Dice dice(seed);

@@ -24,7 +24,7 @@ std::vector<std::string> SplitAtTabs(const std::string& line) {
   return parts;
 }
 
-/// Two frames in which joint i is at (i, i + 0.25, −i) metres, the second one higher by 1 mm.
+/// Returns two frames: joint i is at (i, i + 0.25, −i) metres, 1 mm higher in the second.
 BodyMotion Steps() {
   BodyMotion motion;
   for (int frame = 0; frame < 2; ++frame) {
@@ -37,7 +37,7 @@ BodyMotion Steps() {
   return motion;
 }
 
-// The layout that OpenSim reads: three lines about the file, two of headings, one empty, then frames.
+// The layout that OpenSim reads: three lines about the file, two of headings, an empty one, then frames.
 TEST(Trc, HasTheHeadingsAndColumnsThatOpenSimWants) {
   std::istringstream text(WriteTrc(Steps(), "steps"));
   std::vector<std::string> lines;
@@ -70,7 +70,7 @@ TEST(Trc, KeepsItsFirstLineWhateverTheName) {
       WriteTrc(Steps(), "a\nb\tc \xC3\xA9").starts_with("PathFileType\t4\t(X/Y/Z)\ta_b_c \xC3\xA9.trc\nDataRate"));
 }
 
-/// One marker that stands still for so many frames at 50 Hz, where DataRate says otherwise. `unit_s`: of the column Time.
+/// Returns a still marker at 50 Hz in a file whose DataRate is `data_rate`; `unit_s` is the unit of column Time.
 std::string AtFiftyHertz(int data_rate, int frames, double unit_s = 1) {
   std::string text = fmt::format(
       "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tNumFrames\tNumMarkers\tUnits\n{}\t{}\t1\tm\nFrame#\tTime\tA\n\n",

@@ -26,8 +26,8 @@ TEST(Defuzzify, GivesThePeakOfASymmetricTriangleByEveryMethod) {
   }
 }
 
-// Of a triangle (0, 0, 90): centre of gravity 30. Clipped at ½: a rectangle 0…45 of height ½ (area 22.5, centre 22.5)
-// and a triangle 45…90 (area 11.25, centre 60): (506.25 + 675) / 33.75 = 35.
+// The triangle (0, 0, 90) has its centre of gravity at 30. Clipped at ½, it is a rectangle 0…45 of height ½ (area 22.5,
+// centre 22.5) and a triangle 45…90 (area 11.25, centre 60): (506.25 + 675) / 33.75 = 35.
 TEST(Defuzzify, FindsTheCentreOfGravityOfOneClippedTriangle) {
   for (Defuzzification method : {kCentroid, kArea}) {
     EXPECT_NEAR(Value({{Triangular{0, 0, 90}, 1}}, method), 30, 1e-6);
@@ -37,10 +37,9 @@ TEST(Defuzzify, FindsTheCentreOfGravityOfOneClippedTriangle) {
   EXPECT_NEAR(Value({{Triangular{0, 0, 90}, 0.5}}, kHeight), 0, 1e-9) << "the peak";
 }
 
-// A = (0, 2, 4) to 0.5 and B = (2, 4, 6) to 1. A clipped: area 1.5, centre 2. B: area 2, centre 4. They overlap on 2…4:
-// min(A, B) is min(½, (x − 2)/2, (4 − x)/2), a triangle of height ½ at x = 3: area ½, centre 3. Hence
-// area = (1.5·2 + 2·4) / 3.5 = 22/7; centroid = (1.5·2 + 2·4 − ½·3) / (3.5 − ½) = 19/6; height = (½·2 + 4) / 1.5 =
-// 10/3.
+// A = (0, 2, 4) to 0.5 and B = (2, 4, 6) to 1. A clipped has area 1.5, centre 2; B has area 2, centre 4. On 2…4, min(A,
+// B) is min(½, (x − 2)/2, (4 − x)/2), a triangle of height ½ at x = 3 with area ½, centre 3. Hence area = (1.5·2 + 2·4)
+// / 3.5 = 22/7; centroid = (1.5·2 + 2·4 − ½·3) / (3.5 − ½) = 19/6; height = (½·2 + 4) / 1.5 = 10/3.
 TEST(Defuzzify, TellsTheFourMethodsApartOnTwoTriangles) {
   const std::vector<ActivatedTerm> terms = {{Triangular{0, 2, 4}, 0.5}, {Triangular{2, 4, 6}, 1}};
   EXPECT_NEAR(Value(terms, kMaximum, {0, 6}), 4, 1e-9);
@@ -50,7 +49,7 @@ TEST(Defuzzify, TellsTheFourMethodsApartOnTwoTriangles) {
 }
 
 TEST(Defuzzify, MeansSeveralMaximaByTheirLength) {
-  // 0…10 and 30…50 are maximal: (10·5 + 20·40) / 30.
+  // The maxima are 0…10 and 30…50: (10·5 + 20·40) / 30.
   const std::vector<ActivatedTerm> apart = {{Trapezoidal{0, 0, 10, 12}, 1}, {Trapezoidal{29, 30, 50, 51}, 1}};
   EXPECT_NEAR(Value(apart, kMaximum), 850.0 / 30, 1e-9);
   const std::vector<ActivatedTerm> points = {{Triangular{0, 10, 20}, 1}, {Triangular{20, 50, 80}, 1}};
@@ -59,7 +58,7 @@ TEST(Defuzzify, MeansSeveralMaximaByTheirLength) {
   EXPECT_NEAR(Value(overlapping, kMaximum), 7.5, 1e-9) << "what both cover counts once";
 }
 
-// Half a Gaussian from its mean on: its centre of gravity is sigma · sqrt(2/π) away.
+// Half a Gaussian from its mean on: its centre of gravity is at sigma · sqrt(2/π).
 TEST(Defuzzify, SumsUnderAGaussianFinelyEnough) {
   EXPECT_NEAR(Value({{Gaussian{0, 20}, 1}}, kCentroid), 20 * std::sqrt(2 / 3.14159265358979), 180 * 1e-4);
 }
@@ -87,7 +86,7 @@ TEST(Defuzzify, StaysInTheUniverseForEveryInputOfPaperA) {
       pose[feature] = input;
       for (Defuzzification method : AllDefuzzifications()) {
         const auto back = DefuzzifyFeature(Fuzzify(pose), feature, PaperMemberships(), method);
-        if (!back) continue;  // a straight elbow's grades at 0 … are never all 0, but a file's may be
+        if (!back) continue;  // no grade, so no value
         EXPECT_GE(*back, universe.low);
         EXPECT_LE(*back, universe.high);
         ++checked;
@@ -97,7 +96,7 @@ TEST(Defuzzify, StaysInTheUniverseForEveryInputOfPaperA) {
   EXPECT_GT(checked, 900);
 }
 
-// Posture's triangles stand side by side and sum to 1, so the height method gives the input itself.
+// Posture's triangles are adjacent and sum to 1, so the height method returns the input.
 TEST(Defuzzify, GivesTheHeightBackExactlyWhereGradesSumToOne) {
   for (double input : {0.0, 10.0, 40.0, 79.0, 103.5}) {
     PoseFeatures pose;

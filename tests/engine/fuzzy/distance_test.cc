@@ -20,7 +20,7 @@ double DistanceOf(const PosedBody& a, const PosedBody& b) {
 
 double WorstJointCm(const PosedBody& a, const PosedBody& b) { return 100 * WorstJointDistance(a.Pose(), b.Pose()); }
 
-/// One arm (the right one) or one leg (the right one) put somewhere.
+/// Returns a body with its right arm, or right leg, in these directions.
 PosedBody WithArm(const glm::dvec3& upper, const glm::dvec3& lower) {
   PosedBody body{.right_arm = {upper, lower}};
   return body;
@@ -44,9 +44,8 @@ struct BlindSpot {
   double stated_gap_cm;
 };
 
-// The eight pairs that were measured to fool the distance: poses far apart, d next to nothing. The
-// stated figures come from a body with other limb lengths, hence the tolerances (its shoulders, twisted,
-// were 11 cm off; these are broader).
+// The eight measured pairs that fool the distance: distant poses, d nearly zero. The figures come from a body with
+// other limb lengths, hence the tolerances (its twisted shoulders were 11 cm off; these are broader).
 TEST(FuzzyDistance, IsBlindToTheEightMeasuredPairs) {
   PosedBody twisted{.twist = Radians(60)};
   const BlindSpot pairs[] = {

@@ -42,7 +42,7 @@ TEST(Features, SeeTheTrunkBendAndNotTheArmsThatBendWithIt) {
   const BodyPose standing = PosedBody().Pose();
   BodyPose bent = standing;
   const glm::dvec3 hips = standing[Role::kHipCentre];
-  for (Role role : AllRoles()) {  // everything above the hips leans 40° forward
+  for (Role role : AllRoles()) {  // everything above the hips leans forward by 40°
     if (Index(role) == 0 || Index(role) >= Index(Role::kLeftHip)) continue;
     const glm::dvec3 v = standing[role] - hips;
     const double c = std::cos(Radians(40)), s = std::sin(Radians(40));

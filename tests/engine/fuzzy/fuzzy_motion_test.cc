@@ -35,7 +35,7 @@ TEST(FuzzyMotion, FollowsTheSystemThatItIsGiven) {
 
 using Motion = std::vector<Grades>;
 
-/// An arm that goes up and down, `frames` long; `most` degrees at its highest.
+/// Returns `frames` frames of an arm that rises to `most` degrees and falls.
 Motion ArmRaise(int frames, double most) {
   Motion motion;
   for (int i = 0; i < frames; ++i) {
@@ -53,7 +53,7 @@ double Similarity(const Motion& a, const Motion& b, const MotionSimilarityOption
   return similarity.value_or(-1);
 }
 
-/// The same by recursion over all warping paths, without a band: small motions only.
+/// A second implementation by recursion over all warping paths without a band, for small motions only.
 double BestPath(const Motion& a, const Motion& b, std::size_t i, std::size_t j) {
   const double cost = ComputeDistance(a[i], b[j], PaperWeights()).value;
   if (i == 0 && j == 0) return 2 * cost;
@@ -85,7 +85,7 @@ TEST(MotionSimilarity, ForgivesTempoButNotAnotherMovement) {
 }
 
 TEST(MotionSimilarity, IsOneHalfAtTheThreshold) {
-  // Two still poses, 0.4 apart: the same gap in one term of weight 1.
+  // Two still poses that differ by 0.4 in one term of weight 1.
   Grades a{}, b{};
   b[0] = kPaperThreshold;
   EXPECT_NEAR(Similarity(Motion(20, a), Motion(30, b)), 0.5, 1e-12);
@@ -99,7 +99,7 @@ TEST(MotionSimilarity, GivesUpOnlyBelowWhatIsAskedFor) {
 }
 
 TEST(MotionSimilarity, GivesUpWhereOnlyTheLastFramesDiffer) {
-  // The best path so far is free until its very end, where both frames must be paired.
+  // The best path costs nothing until the last frames, which must be paired.
   Motion a(20, Grades{}), b = a;
   b.back()[0] = kPaperThreshold;
   const double similarity = Similarity(a, b);

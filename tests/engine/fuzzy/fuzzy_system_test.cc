@@ -72,7 +72,7 @@ TEST(FuzzySystem, ScalesWeightsToSumToEight) {
   for (std::size_t k = 0; k < kFeatureCount; ++k) EXPECT_DOUBLE_EQ(system->weights[k], PaperWeights()[k]);
 }
 
-// Edits of the paper's file; those of limits come in pairs: what is just within is accepted.
+// Edits of the paper's file; limits are tested on both sides.
 TEST(FuzzySystem, ComplainsWhereItIsWrongAndSaysWhatIsAllowed) {
   const std::string paper = PaperText();
   EXPECT_TRUE(testing::AnswersAreKept("tests/engine/fuzzy/complaints.txt", [&](const std::string& edit) {

@@ -59,8 +59,7 @@ double GradeOf(Feature feature, std::string_view term, double input) {
   return -1;
 }
 
-// The paper's equations worked out by hand: both ends of every printed range, a point inside each
-// branch, and a point beyond each end.
+// The paper's equations by hand: both ends of every range, a point inside each branch, and a point beyond each end.
 TEST(Membership, FollowsEquations2To16AtBreakpointsAndBetweenThem) {
   using enum Feature;
   const Sample samples[] = {

@@ -11,8 +11,8 @@ namespace etude {
 // Directions of the world, named for a body that faces +Z.
 inline const glm::dvec3 kForward(0, 0, 1), kLeftwards(1, 0, 0), kUp(0, 1, 0), kDown(0, -1, 0);
 
-/// A standing body whose limbs are set to chosen angles, so that a test can write down a pose. Lengths are in metres;
-/// the hip joints are 0.9 above the floor.
+/// A standing body with limbs at chosen angles, so that a test can write down a pose. Lengths are in metres; the hip
+/// joints are 0.9 above the floor.
 struct PosedBody {
   struct Limb {
     glm::dvec3 upper{0, -1, 0};  ///< direction of upper arm or thigh
@@ -21,7 +21,7 @@ struct PosedBody {
   Limb left_arm, right_arm, left_leg, right_leg;
   double twist = 0;  ///< radians, of the shoulders about the trunk
 
-  /// Returns the direction of a limb that is raised by `degrees` from hanging, towards `towards` (horizontal, unit).
+  /// Returns the direction of a limb raised by `degrees` from hanging, towards `towards` (horizontal unit vector).
   static glm::dvec3 Raised(double degrees, const glm::dvec3& towards) {
     return std::cos(Radians(degrees)) * glm::dvec3(0, -1, 0) + std::sin(Radians(degrees)) * towards;
   }

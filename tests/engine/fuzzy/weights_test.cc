@@ -11,7 +11,7 @@ namespace {
 
 double Sum(const FeatureWeights& weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
 
-/// `close` of every 100 pairs with these gaps are close.
+/// Adds 100 pairs with these gaps; the first `close` are close.
 void AddPairs(std::vector<LabelledPair>& pairs, const PerFeature& gaps, int close) {
   for (int i = 0; i < 100; ++i) pairs.push_back({gaps, i < close});
 }
@@ -23,8 +23,8 @@ PerFeature OnlyGap(std::size_t feature, double gap) {
 }
 
 
-// A saturated model has a closed form: with one group of pairs per unknown, every group's fitted
-// chance is its share, so b = logit(share of the group without gaps), w_k = (b − logit(share_k)) / gap_k.
+// A saturated model has a closed form. With one group of pairs per unknown, each group's fitted probability is its
+// share: b = logit(share of the group without gaps), w_k = (b − logit(share_k)) / gap_k.
 TEST(FitWeights, MatchesTheClosedFormOfASaturatedModel) {
   std::vector<LabelledPair> pairs;
   AddPairs(pairs, PerFeature{}, 90);
@@ -49,7 +49,7 @@ TEST(FitWeights, ClipsAFeatureThatPointsTheWrongWay) {
   std::vector<LabelledPair> pairs;
   AddPairs(pairs, PerFeature{}, 50);
   AddPairs(pairs, OnlyGap(0, 1), 10);
-  AddPairs(pairs, OnlyGap(1, 1), 90);  // the larger the gap, the closer: no distance may say so
+  AddPairs(pairs, OnlyGap(1, 1), 90);  // larger gaps are closer here, which no distance may express
   const WeightFit fit = FitWeights(pairs);
   ASSERT_EQ(fit.status, WeightFitStatus::kFitted);
   EXPECT_EQ(fit.weights[1], 0);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kTakeFrames = 60;
 constexpr double kTakeRate = 30;
 
-/// One walker before some of the four cameras, and what keypoints make of it frame by frame.
+/// A walker in front of some of the four cameras, and its frame-by-frame recovery from keypoints.
 struct WalkedTake {
   std::vector<ProjectionMatrix> cameras;
   RecoveredPerson person;
@@ -39,7 +39,7 @@ struct WalkedTake {
   bool Adjust() { return AdjustPerson(cameras, person.people[0], {.rate_hz = kTakeRate}, person); }
 };
 
-/// The distances of all joints that landmarks show to the walker's, mm; of one frame on.
+/// Returns the distances (mm) of all joints with landmarks from the walker's, from one frame on.
 std::vector<double> JointErrorsMm(const RecoveredPerson& person, std::size_t first = 0) {
   constexpr double kMm = 1000;
   std::vector<double> errors;
@@ -85,7 +85,7 @@ TEST(AdjustPerson, ItsClipHasTheAdjustedJoints) {
   }
 }
 
-// A motion without accelerations would go on for ever.
+// Without the penalty on velocity, an unseen motion would continue for ever.
 TEST(AdjustPerson, WhatIsNoLongerSeenStaysAboutWhereItWas) {
   constexpr std::size_t kLast = 30;
   WalkedTake take(2, 1, [](std::vector<SeenPeople>& people) {

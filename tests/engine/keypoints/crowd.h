@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// Two people before four cameras. Their order changes; some keypoints are unsure, far off, or belong to the other
-/// side; some people are not seen for a while.
+/// Two people in front of four cameras. Their order changes; some keypoints are unsure, far off, or of the other side;
+/// some people are unseen for a while.
 struct Crowd {
   std::vector<Camera> cameras = Pinholes();
   std::vector<ProjectionMatrix> matrices = MatricesOf(cameras);

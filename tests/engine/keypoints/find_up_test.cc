@@ -1,5 +1,5 @@
-// Finds the up axis from people in every posture, seen by cameras as people set them up; the truth must lie within the
-// reported angle.
+// Finds the up axis from people in every posture, with usual camera set-ups; the truth must lie within the stated
+// angle.
 #include "engine/keypoints/find_up.h"
 
 #include <fmt/core.h>
@@ -31,16 +31,16 @@ glm::dmat3 AboutX(double radians) { return glm::mat3_cast(glm::angleAxis(radians
 glm::dmat3 AboutY(double radians) { return glm::mat3_cast(glm::angleAxis(radians, glm::dvec3(0, 1, 0))); }
 glm::dmat3 AboutZ(double radians) { return glm::mat3_cast(glm::angleAxis(radians, glm::dvec3(0, 0, 1))); }
 
-/// The angles of a posture, radians from straight down (limbs) or up (trunk) towards the front, z.
+/// A posture's angles, radians: limbs from straight down, trunk from up, both towards the front (z).
 struct Posture {
   double trunk = 0, thigh = 0, shank = 0, arm = 0;
-  double foot = 0;        ///< of the sole from level, the toes down
-  double roll = 0;        ///< of the whole body about its own long axis
-  double left_ahead = 0;  ///< how much farther the left leg is ahead
+  double foot = 0;        ///< angle of the sole from level, toes down
+  double roll = 0;        ///< angle of the body about its long axis
+  double left_ahead = 0;  ///< angle by which the left leg is ahead
 };
 
-/// Somebody of a stature, whose feet are shaped their own way, by forward kinematics; the lowest landmark's own height
-/// over the floor is that of the foot, the knee or the trunk.
+/// A person of random stature and foot shape, by forward kinematics. Each lowest landmark has its own height above the
+/// floor: foot, knee or trunk.
 class PosedPerson {
  public:
   explicit PosedPerson(Dice& dice) : stature(1.7 + 0.15 * dice.Signed()) {
@@ -91,7 +91,7 @@ class PosedPerson {
   double heel, toe, ankle;
 };
 
-/// Three seconds of a posture: the trunk sways, the arms swing, and who crawls goes on.
+/// Returns three seconds of a posture: the trunk sways, the arms swing, and a crawling person moves on.
 std::vector<LandmarkPositions> Motion(const std::string& kind, Dice& dice) {
   const PosedPerson body(dice);
   Posture base;
@@ -107,7 +107,7 @@ std::vector<LandmarkPositions> Motion(const std::string& kind, Dice& dice) {
             .arm = 0.1 * dice.Signed(),
             .foot = 1.2 + 0.3 * dice.Signed()};
   } else if (kind == "lies") {
-    const double turned = dice.Below(2) == 0 ? 1 : -1;  // supine or prone
+    const double turned = dice.Below(2) == 0 ? 1 : -1;  // on the back or on the belly
     base = {.trunk = turned * kPi / 2,
             .thigh = -turned * (kPi / 2 - 0.1),
             .shank = -turned * kPi / 2,
@@ -133,7 +133,7 @@ std::vector<LandmarkPositions> Motion(const std::string& kind, Dice& dice) {
     now.left_ahead = stride * std::sin(4 * t);
     frames.push_back(body.Posed(now, at + AboutY(yaw) * glm::dvec3(0, 0, stride * t), yaw));
     if (kind == "crawls") continue;
-    // The feet stay where they are: what sways is above them.
+    // The feet stay; only the rest sways.
     for (const Landmark foot :
          {kLeftAnkle, kRightAnkle, kLeftHeel, kRightHeel, kLeftBigToe, kRightBigToe, kLeftSmallToe, kRightSmallToe}) {
       frames.back()[Index(foot)] = frames.front()[Index(foot)];
@@ -142,7 +142,7 @@ std::vector<LandmarkPositions> Motion(const std::string& kind, Dice& dice) {
   return frames;
 }
 
-/// Cameras about the middle, as on tripods: level to 1.5° or so.
+/// Returns cameras around the middle, as on tripods that are level to about 1.5°.
 std::vector<NamedCamera> TripodCameras(int count, double roll_deg, Dice& dice) {
   std::vector<NamedCamera> cameras;
   const double first = kPi * dice.Signed();
@@ -151,18 +151,18 @@ std::vector<NamedCamera> TripodCameras(int count, double roll_deg, Dice& dice) {
     const double far = 4 + dice.Signed();
     const glm::dvec3 at(far * std::cos(angle), 1.5 + 0.8 * dice.Signed(), far * std::sin(angle));
     Camera camera = LookAt({1280, 720, 1000, 1000, 640, 360, 0}, at, {0, 0.7 + 0.2 * dice.Signed(), 0});
-    const double roll = roll_deg * (dice.Signed() + dice.Signed() + dice.Signed());  // deviation: that angle
+    const double roll = roll_deg * (dice.Signed() + dice.Signed() + dice.Signed());  // its deviation is roll_deg
     camera.R_CW = AboutZ(Radians(roll)) * camera.R_CW;
     cameras.push_back({"cam" + std::to_string(i + 1), camera});
   }
   return cameras;
 }
 
-/// What cameras make of a motion: keypoints off by `noise_px`, triangulated, in the frame of the first camera.
+/// A motion in cameras' keypoints with errors of `noise_px`, triangulated in the first camera's frame.
 struct Take {
   RigFile rig;
   std::vector<LandmarkPositions> points;
-  glm::dvec3 up{0};  ///< the truth
+  glm::dvec3 up{0};  ///< true up axis
 };
 
 Take FilmedTake(const std::vector<LandmarkPositions>& motion, const std::vector<NamedCamera>& cameras, double noise_px,
@@ -194,7 +194,6 @@ Take FilmedTake(const std::vector<LandmarkPositions>& motion, const std::vector<
   return take;
 }
 
-/// The take in the frame of its first camera.
 Take InFirstCamera(const std::vector<LandmarkPositions>& motion, const std::vector<NamedCamera>& cameras,
                    double noise_px, Dice& dice, bool only_ankles = false) {
   const Camera& first = cameras.front().camera;
@@ -206,7 +205,6 @@ struct Covered {
   double worst_deg = 0, sum_told_deg = 0;
 };
 
-/// Counts the takes whose truth is within the angle told.
 Covered Cover(int takes, std::uint64_t seed, double roll_deg, double noise_px) {
   Covered counted;
   for (int i = 0; i < takes; ++i) {
@@ -248,7 +246,7 @@ TEST(FindUp, HEAVY_TheTruthIsWithinTheAngleToldInNinetyFiveTakesOfAHundred) {
 }
 
 TEST(FindUp, AFilesOwnAxisIsKeptWhateverThePosture) {
-  // Pose2Sim's world is ours; in a world with Z up its axis is found, not the person's.
+  // Pose2Sim's world is ours. In a world with Z up, the file's axis is found, not the person's.
   for (std::size_t i = 0; i < kPostures.size(); ++i) {
     Dice dice(40 + i);
     const auto motion = Motion(kPostures[i], dice);
@@ -292,9 +290,9 @@ TEST(FindUp, AHandstandIsNotTurnedUpsideDownAndMayBeAskedFor) {
 }
 
 TEST(FindUp, JumpsTellGravityWhereFeetAndCamerasTellLittle) {
-  // One camera pair side by side, rolled by 4° both: only the flight says so.
+  // Two neighbouring cameras, both rolled by 4°: only the free flight shows gravity.
   Dice dice(12);
-  const auto standing = Motion("sits", dice);  // tucked in the air
+  const auto standing = Motion("sits", dice);  // legs tucked in the air
   std::vector<LandmarkPositions> motion;
   for (int k = 0; k < 60; ++k) {
     LandmarkPositions frame = standing.front();
@@ -314,7 +312,7 @@ TEST(FindUp, JumpsTellGravityWhereFeetAndCamerasTellLittle) {
   const FoundUp found = FindUp(take.rig.cameras, take.points, 60, 1.7, 1);
   EXPECT_THAT(found.by, HasSubstr("gravity in jumps"));
   EXPECT_LT(Degrees(AngleBetween(found.up, take.up)), Degrees(found.within));
-  // The control: the same without a jump.
+  // The control: without a jump.
   const FoundUp still = FindUp(take.rig.cameras, std::span(take.points).first(1), 60, 1.7, 1);
   EXPECT_THAT(still.by, ::testing::Not(HasSubstr("gravity")));
   EXPECT_LT(AngleBetween(found.up, take.up), 0.7 * AngleBetween(still.up, take.up));

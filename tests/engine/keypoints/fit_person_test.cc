@@ -27,7 +27,7 @@ std::vector<LandmarkPositions> Walk(double sigma_m) {
   return frames;
 }
 
-/// Σ |place − joint|² over the joints that landmarks tell of, m².
+/// Returns Σ |place − joint|² over the joints that have landmarks, m².
 double SquaresOff(const CaptureBody& body, const TreeState& state, const LandmarkPositions& landmarks) {
   const BodyPose pose = ToBodyPose(body, state);
   const RoleVectors joints = JointsOf(landmarks);

@@ -20,7 +20,7 @@ using ::testing::StartsWith;
 const glm::dvec2 kPicture(1280, 720);
 const std::vector<std::string> kFilms = {"cam1", "cam2", "cam3", "cam4"};
 
-/// A walker in pictures of some of four cameras that are what the rig says; their middles are not the pictures'.
+/// Returns a walker in the pictures of some of four cameras whose principal points are not the pictures' centres.
 std::vector<PictureOfFilm> FilmedWalker(std::size_t count = 4, double sigma_px = 0.2) {
   RandomStream dice = WalkersDice("pictures");
   std::vector<PictureOfFilm> films;
@@ -44,7 +44,7 @@ void ChangePixels(PictureOfFilm& film, const std::function<glm::dvec2(const glm:
   }
 }
 
-/// The largest distance of any keypoint to those of other films, pixels.
+/// Returns the largest distance of a keypoint from another film's, pixels.
 double FurthestPx(const std::vector<SeenPeople>& people, const std::vector<PictureOfFilm>& truth) {
   double furthest = 0;
   for (std::size_t c = 0; c < truth.size(); ++c) {
@@ -58,7 +58,7 @@ double FurthestPx(const std::vector<SeenPeople>& people, const std::vector<Pictu
   return furthest;
 }
 
-/// What the one person in these films says against the rig.
+/// Returns the doubts about the rig from the only person in these films.
 std::vector<std::string> Doubts(const std::vector<PictureOfFilm>& films) {
   MatchedPerson person{.seen = {}, .cameras = films.size()};
   std::vector<Camera> cameras;
@@ -70,7 +70,7 @@ std::vector<std::string> Doubts(const std::vector<PictureOfFilm>& films) {
   return RigWarnings(cameras, std::span(kFilms).first(films.size()), person, 0.1);
 }
 
-/// Two cameras side by side: rays of the other's pixels are rows of the picture.
+/// Two neighbouring cameras: rays through the other's pixels run along picture rows.
 std::vector<PictureOfFilm> SideBySide() {
   std::vector<PictureOfFilm> films = FilmedWalker(2, 0);
   RandomStream dice = WalkersDice("rows");
@@ -197,7 +197,7 @@ TEST(GuessSession, ReadsPosesOfOtherConventions) {
          "the rig's poses transform from its cameras to the world, and the cameras look along -z, y up: "}}) {
     auto films = FilmedWalker();
     for (PictureOfFilm& film : films) {
-      Camera& camera = film.camera;  // p_C = R p_F + t, as another convention has it
+      Camera& camera = film.camera;  // the other convention, p_C = R p_F + t
       glm::dmat3 R = camera.R_CW * R_WF;
       glm::dvec3 t = -(camera.R_CW * camera.p_WC);
       if (is_opengl) R = opengl * R, t = opengl * t;

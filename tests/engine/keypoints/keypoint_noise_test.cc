@@ -17,8 +17,8 @@ struct Planted {
   MatchedPerson person;
 };
 
-/// Makes keypoints of a point cloud that moves, with a deviation of `noise_px`, twice that for wrists. A share of
-/// `wrong` is 40 px off, and another tenth is missing.
+/// Makes keypoints of a moving point cloud with deviation `noise_px`, twice that for wrists. A share `wrong` is 40 px
+/// off, and a tenth is missing.
 Planted Plant(int cameras, double noise_px, double wrong = 0) {
   Planted planted;
   constexpr std::size_t kFrames = 100;

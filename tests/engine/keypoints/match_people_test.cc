@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Somebody 100 px high whose head is at (x, 0).
+/// Returns a person 100 px high with the head at (x, 0).
 SeenPerson Upright(double x, double confidence = 1) {
   SeenPerson person;
   person[Landmark::kHead] = {{x, 0}, confidence};
@@ -19,7 +19,7 @@ SeenPerson Upright(double x, double confidence = 1) {
   return person;
 }
 
-/// The tracks as "0:0 1:1 | 2:0": frame:entry.
+/// Returns the tracks as text, "0:0 1:1 | 2:0" with frame:entry.
 std::string TracksOf(const SeenPeople& people, const FollowOptions& options = {}) {
   std::string text;
   for (const PersonTrack& track : FollowPeople(people, options)) {
@@ -51,7 +51,7 @@ TEST(FollowPeople, ForgetsWhoWasAwayTooLong) {
 }
 
 TEST(FollowPeople, BeginsAnewWhereTwoAreAsNear) {
-  // 10 and 14 px are within half as much again; 10 and 16 are not.
+  // Two candidates are ambiguous if their distances differ by less than half: 10 and 14 px are, 10 and 16 px are not.
   EXPECT_EQ(TracksOf({{Upright(0)}, {Upright(10), Upright(-14)}}), " 0:0 | 1:0 | 1:1");
   EXPECT_EQ(TracksOf({{Upright(0)}, {Upright(10), Upright(-16)}}), " 0:0 1:0 | 1:1");
 }
@@ -102,7 +102,7 @@ TEST(FindFitMode, KnowsItsFourNames) {
 }
 
 TEST(PixelFit, TurnsClockwiseAndBack) {
-  // The top left pixel of 100 × 50 goes to the top right of 50 × 100, and so on round.
+  // The top left pixel of 100 × 50 moves to the top right of 50 × 100, and so on.
   const glm::dvec2 size(100, 50);
   const auto turned = [&](int turns, bool mirrored, glm::dvec2 p) {
     return PixelFit{.quarter_turns = turns, .is_mirrored = mirrored, .size = size}.ToFilm(p);

@@ -15,7 +15,7 @@ using ::testing::SizeIs;
 
 constexpr std::size_t kMendedFrames = 50;
 
-/// A walker whom some cameras see, and somebody else behind; `person` is the walker.
+/// A walker seen by some cameras, with another person behind; `person` is the walker.
 struct MendedTake {
   std::vector<ProjectionMatrix> cameras;
   std::vector<SeenPeople> people;
@@ -40,7 +40,7 @@ struct MendedTake {
 
   std::vector<Mend> Run() { return MendPerson(cameras, people, 0.1, person); }
 
-  /// The frames and cameras in which the person's keypoints are not the true ones.
+  /// Returns the number of frames and cameras in which the person's keypoints are wrong.
   std::size_t Wrong() const {
     std::size_t wrong = 0;
     for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -71,7 +71,7 @@ bool IsOfLegs(Landmark landmark) {
   return false;
 }
 
-/// Left and right exchanged, by the landmarks' names; of legs, of what is above, or of both.
+/// Returns the person with left and right exchanged: legs, the rest, or both.
 SeenPerson Exchanged(const SeenPerson& person, bool legs, bool arms) {
   SeenPerson other = person;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
@@ -109,7 +109,7 @@ TEST(MendPerson, SwapsBackWhatOneCameraExchangedForAWhile) {
   using enum Mend::Kind;
   for (const auto& [legs, arms, kind] :
        {std::tuple(true, true, kSwappedSides), {true, false, kSwappedLegs}, {false, true, kSwappedArms}}) {
-    for (const std::size_t cameras : {2u, 4u}) {  // of two cameras only facing tells which was wrong
+    for (const std::size_t cameras : {2u, 4u}) {  // with two cameras, only the facing shows which one was wrong
       for (const std::size_t camera : {0u, 1u}) {
         MendedTake take(cameras);
         for (std::size_t k = 20; k < 40; ++k) {
@@ -158,7 +158,7 @@ TEST(MendPerson, OfSeveralWhoFitMuchBetterTheBestIsTaken) {
   for (const bool is_first : {true, false}) {
     MendedTake take(4);
     for (std::size_t k = 10; k < 20; ++k) {
-      // A second detection of the walker, some pixels off.
+      // A second detection of the walker, some pixels away.
       auto& people = take.people[1][k];
       SeenPerson blurred = people[1];
       for (Keypoint& keypoint : blurred.keypoints) keypoint.pixel += glm::dvec2(4, 4);
@@ -197,7 +197,7 @@ TEST(OutlierLimit, IsEightDeviationsOfTheResidualsWithinItsBounds) {
     const MendedTake take(4, sigma_px);
     return OutlierLimit(take.cameras, take.person, 0.1, least, most);
   };
-  // The residual of four views is σ √(χ² / 4) of 8 − 3 degrees of freedom, whose median is 4.35.
+  // The residual of four views is σ √(χ² / 4) with 8 − 3 degrees of freedom, whose median is 4.35.
   for (const double sigma_px : {0.5, 2.0}) {
     EXPECT_NEAR(limit(sigma_px, 0, 200), 8 * 1.4826 * sigma_px * std::sqrt(4.35 / 4), 0.6 * sigma_px) << sigma_px;
   }

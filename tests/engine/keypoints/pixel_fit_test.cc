@@ -13,7 +13,7 @@ namespace etude {
 namespace {
 
 TEST(PixelFit, PutsALetterboxedPictureBetweenItsBars) {
-  // A picture of 1088 × 1920 in a film of 1080 × 1920: smaller by 0.9926, with bars of 7 pixels.
+  // A picture of 1088 × 1920 in a film of 1080 × 1920 is scaled by 0.9926, with bars of 7 pixels.
   ASSERT_OK(fit, FitPictures(FitMode::kLetterbox, {1088, 1920}, {1080, 1920}));
   EXPECT_NEAR(fit->scale.x, 0.99265, 1e-5);
   EXPECT_NEAR(fit->scale.y, 0.99265, 1e-5);
@@ -51,7 +51,7 @@ TEST(Agreement, ComparesMarkersOfOneNameFrameByFrame) {
   EXPECT_EQ(CompareAllMarkers(a, b).frames, 7u);
 }
 
-/// Two markers that move about, at so many frames a second; the second is unseen for a while.
+/// Returns two moving markers at a rate; the second is unseen for a while.
 MarkerMotion MovingMarkers(double rate_hz, std::size_t frames, double delay_s = 0) {
   MarkerMotion motion{.rate_hz = rate_hz, .names = {"LHip", "RHip"}, .frames = {}};
   for (std::size_t k = 0; k < frames; ++k) {

@@ -15,8 +15,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Somebody 1.7 m tall who stands about on the floor at height 0 for two seconds at a time, facing +z, and leans
-/// forwards; through a map into the file's world.
+/// Returns a person of 1.7 m who stands at several places on the floor (height 0), two seconds each, facing +z and
+/// leaning forwards, mapped into the file's world.
 template <class Map>
 std::vector<LandmarkPositions> Stander(const Map& to_file, double lean_deg = 0) {
   using enum Landmark;
@@ -24,7 +24,7 @@ std::vector<LandmarkPositions> Stander(const Map& to_file, double lean_deg = 0) 
   const double lean = Radians(lean_deg);
   for (int k = 0; k < 120; ++k) {
     LandmarkPositions places;
-    const double angle = 0.5 * (k / 20);  // steps to another place, then rests
+    const double angle = 0.5 * (k / 20);  // steps to the next place, then rests
     const glm::dvec3 at(0.8 * std::cos(3 * angle), 0, 0.6 * std::sin(2 * angle));
     const auto set = [&](Landmark landmark, double x, double y, double z) {
       places[Index(landmark)] = to_file(at + glm::dvec3(x, y, z));
@@ -48,7 +48,6 @@ std::vector<LandmarkPositions> Stander(const Map& to_file, double lean_deg = 0) 
   return frames;
 }
 
-/// A rig whose cameras are nobody's frame, told as it stands: the file's axes are ours.
 RigFile SomeRig() {
   RigFile rig;
   rig.cameras.push_back({"left", LookAt({}, {1, 2, 3}, {0, 1, 0})});
@@ -100,7 +99,7 @@ TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
 }
 
 TEST(PlaceRig, FindsTheAxisThatIsUpAndTheFloorUnderTheFeet) {
-  // Ours through Rᵀ, half a unit higher: R must come back, and the floor.
+  // The file's world is ours, turned and raised by half a unit: the turn and the floor must be found.
   for (const auto& [turn, name] : {std::pair(90.0, "z"), {-90.0, "-z"}, {180.0, "-y"}}) {
     const glm::dmat3 R = TurnAboutX(turn);
     const auto place =

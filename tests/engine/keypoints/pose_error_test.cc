@@ -44,7 +44,7 @@ std::vector<Camera> Rig(int count) {
   return cameras;
 }
 
-/// The standing pose with the trunk's joints where `JointsOf` puts them.
+/// Returns the standing pose with trunk joints as `JointsOf` places them.
 BodyPose Standing() {
   BodyPose pose = PoseOf(ReadyStance());
   pose[Role::kHipCentre] = 0.5 * (pose[Role::kLeftHip] + pose[Role::kRightHip]);
@@ -59,7 +59,7 @@ double Turn(const BodyPose& a, const BodyPose& b, const Bone& bone) {
   return 2 * std::asin(std::min(1.0, glm::length(u - v) / 2));
 }
 
-/// Compares the forecast with keypoints that are really triangulated and fitted.
+/// Compares the forecast with keypoints that are simulated, triangulated and fitted.
 void Compare(int cameras_count, const SightingErrors& errors, int trial) {
   const std::vector<Camera> cameras = Rig(cameras_count);
   const BodyPose pose = Standing();

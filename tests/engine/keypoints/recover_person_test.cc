@@ -21,7 +21,7 @@ constexpr std::size_t kPersonFrames = 60;
 constexpr double kRate = 30;
 constexpr double kFirstX = -0.5, kSecondX = 0.7;
 
-/// Two persons side by side, seen by some of the four cameras, in an order that changes from frame to frame.
+/// Returns two people side by side in some of the four cameras, in an order that changes per frame.
 std::vector<SeenPeople> TwoWalkers(const std::vector<Camera>& cameras, double sigma_px) {
   RandomStream dice = WalkersDice("errors");
   std::vector<SeenPeople> people(cameras.size(), SeenPeople(kPersonFrames));
@@ -38,7 +38,7 @@ std::vector<SeenPeople> TwoWalkers(const std::vector<Camera>& cameras, double si
 
 RecoverPersonOptions WalkOptions() { return {.rate_hz = kRate, .match = {}, .triangulate = {}}; }
 
-/// As a tool would: with the lenses undone.
+/// Recovers a person as a tool does, with the lenses undone.
 Result<RecoveredPerson> Recover(std::span<const Camera> cameras, std::span<const SeenPeople> people,
                                 const RecoverPersonOptions& options) {
   std::vector<SeenPeople> straight;
@@ -46,7 +46,7 @@ Result<RecoveredPerson> Recover(std::span<const Camera> cameras, std::span<const
   return RecoverPerson(MatricesOf({cameras.begin(), cameras.end()}), straight, options);
 }
 
-/// The largest distance of any landmark to a walker's, metres.
+/// Returns the largest distance of a landmark from the walker's, metres.
 double WorstOff(const std::vector<LandmarkPositions>& found, double x, double z, double later) {
   double worst = 0;
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -64,7 +64,7 @@ TEST(MatchPeople, TellsTwoPersonsApartInFourCamerasWhateverTheirOrder) {
   ASSERT_EQ(people.size(), 2u);
   for (const MatchedPerson& person : people) {
     EXPECT_EQ(person.cameras, 4u);
-    // Whoever it is, every keypoint lies on that walker and not on the other.
+    // Every keypoint must belong to the same walker.
     const auto truth = [&](double x, double z, double later) {
       double worst = 0;
       for (std::size_t c = 0; c < 4; ++c) {
@@ -125,7 +125,6 @@ TEST(RecoverPerson, GivesExactKeypointsPlacesBackThroughLenses) {
   EXPECT_EQ(person->clip.frames.size(), kPersonFrames);
 }
 
-/// One walker alone, in all four cameras.
 std::vector<SeenPeople> OneWalker(const std::vector<Camera>& cameras, double sigma_px) {
   RandomStream dice = WalkersDice("one");
   std::vector<SeenPeople> people(cameras.size(), SeenPeople(kPersonFrames));
@@ -136,7 +135,7 @@ std::vector<SeenPeople> OneWalker(const std::vector<Camera>& cameras, double sig
   return people;
 }
 
-/// The largest distance of any joint of the skeleton to the walker's, metres.
+/// Returns the largest distance of a skeleton's joint from the walker's, metres.
 double WorstJoint(const RecoveredPerson& person) {
   double worst = 0;
   for (std::size_t k = 0; k < kPersonFrames; ++k) {
@@ -186,7 +185,7 @@ TEST(RecoverPerson, ItsClipHasTheJointsWhereTheMotionHas) {
 TEST(RecoverPerson, RefusesWhatIsNoSession) {
   const std::vector<Camera> cameras = FourCameras();
   const auto people = TwoWalkers(cameras, 1);
-  // Two cameras, the second one nodding by 10° from where the rig says.
+  // The second of two cameras is tilted by 10° against the rig.
   std::vector<Camera> moved{cameras[0], cameras[1]};
   const double sine = std::sin(Radians(10)), cosine = std::cos(Radians(10));
   moved[1].R_CW = glm::transpose(glm::dmat3(1, 0, 0, 0, cosine, -sine, 0, sine, cosine)) * moved[1].R_CW;

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// One walker in films whose pixels went through `change`.
+/// Returns one walker in films whose pixels went through `change`.
 template <typename Change>
 std::vector<PictureOfFilm> Films(testing::Dice& dice, std::size_t count, double noise_px, const Change& change) {
   const Crowd crowd(dice, 30, noise_px, 0.02, 15);
@@ -88,7 +88,7 @@ TEST(RigWarnings, SaysWhatItSaid) {
       for (const auto& frame : film.people) seen.push_back(frame.empty() ? std::nullopt : std::optional(frame[0]));
     }
     lines.push_back(fmt::format("rig {}", k));
-    // Who is who is not always right, which leaves the median as it is.
+    // Some identities are wrong, which does not change the median.
     for (const std::string& doubt : RigWarnings(cameras, std::span(names).first(count), person, k % 2 ? 0.1 : 0.5))
       lines.push_back("  " + doubt);
   }

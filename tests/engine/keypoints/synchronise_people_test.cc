@@ -12,15 +12,15 @@ namespace etude {
 namespace {
 
 constexpr double kFilmRate = 30;
-const std::vector<double> kOffsets = {0, 3.4, -7.25, 11};  // frames
+const std::vector<double> kOffsets = {0, 3.4, -7.25, 11};  // offsets, frames
 
 struct Session {
   std::vector<ProjectionMatrix> cameras;
   std::vector<SeenPeople> people;
 };
 
-/// One or two people before four cameras whose clocks are off, in an order that changes; the second one unseen by the
-/// last camera. The films have different lengths, and may run at rates that are a little off.
+/// Returns one or two people in front of four cameras with clock offsets, in changing order; the last camera does not
+/// see the second one. Films differ in length, and possibly slightly in rate.
 Session Filmed(int persons, double sigma_px, const std::vector<double>& offsets = kOffsets, int luck = 0,
                const std::vector<double>& drifts = {0, 0, 0, 0}) {
   RandomStream dice = WalkersDice(fmt::format("clocks {}", luck).c_str());
@@ -51,7 +51,7 @@ TEST(SynchronisePeople, FindsHowLateEveryCameraIs) {
   }
 }
 
-// One throw of the dice may flatter: eight are judged together.
+// A single draw may be lucky, so eight are judged together.
 TEST(SynchronisePeople, FindsItRoughlyFromKeypointsThatErr) {
   constexpr int kThrows = 8;
   for (const int persons : {1, 2}) {
@@ -85,7 +85,7 @@ TEST(SynchronisePeople, TellsClocksThatAgree) {
 TEST(SynchronisePeople, SaysSoWhereNothingTellsTheTime) {
   Session session = Filmed(1, 4);
   for (SeenPeople& people : session.people) {
-    people.assign(people.size(), {});  // nobody
+    people.assign(people.size(), {});  // nobody is seen
   }
   std::vector<ClockOffset> found = EstimateOffsets(session.cameras, session.people);
   for (std::size_t c = 1; c < found.size(); ++c) {

@@ -18,14 +18,12 @@ inline std::vector<Camera> FourCameras() {
   return cameras;
 }
 
-/// Returns the matrices of cameras, without lens distortion.
 inline std::vector<ProjectionMatrix> MatricesOf(const std::vector<Camera>& cameras) {
   std::vector<ProjectionMatrix> matrices;
   for (const Camera& camera : cameras) matrices.push_back(MatrixOf(camera));
   return matrices;
 }
 
-/// Returns the four cameras without lens distortion.
 inline std::vector<Camera> Pinholes() {
   std::vector<Camera> cameras = FourCameras();
   for (Camera& camera : cameras) camera.distortion = {};

@@ -18,7 +18,7 @@ TEST(BodyTree, HasPaperBs29DegreesOfFreedomAndFourEffectors) {
   EXPECT_EQ(Body().effectors[3].name, "head");
 }
 
-// A root has no parent to stand away from: the state alone says where it is.
+// A root has no offset from a parent: only the state places it.
 TEST(BodyTree, StandsWhereItsStatePutsTheRoot) {
   EXPECT_EQ(Body().joints[0].parent, -1);
   EXPECT_EQ(Body().joints[0].p_PJ, glm::dvec3(0));
@@ -27,7 +27,7 @@ TEST(BodyTree, StandsWhereItsStatePutsTheRoot) {
   EXPECT_EQ(ComputeFrames(Body(), state).joints[0].position, glm::dvec3(1, 2, 3));
 }
 
-// Every limb's Z axis runs from its role to the next one's, in any pose.
+// In any pose, a limb's Z axis runs from its role to the next.
 TEST(BodyTree, LimbsRunFromRoleToRole) {
   ASSERT_EQ(Body().joints.size(), BodyTreeLimbs().size());
   for (int trial = 0; trial < 10; ++trial) {
@@ -54,7 +54,7 @@ TEST(BodyTree, StandsUprightFacingForwardWithHangingArms) {
   EXPECT_NEAR(glm::length(Facing(pose) - glm::dvec3(0, 0, 1)), 0, 1e-12);
 }
 
-// The signs of B6's limits: each joint's wider side is the way that joint really bends.
+// The signs of B6's limits: each joint bends further in its natural direction.
 TEST(BodyTree, BendsTheWayPeopleBend) {
   const TreeState standing = StandingState(Body());
   const auto bent = [&](BodyTreeJoint joint, int axis, double degrees) {

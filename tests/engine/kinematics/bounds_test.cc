@@ -36,7 +36,7 @@ TEST(OutOfReach, LeavesABillionthOfAMetreForRounding) {
   problem.targets[3].position_weight = 1;
   problem.targets[3].axis_weights = glm::dvec3(0);
   const LimbLengths l;
-  // From the toe up the left leg, across half the hips, up trunk and neck: the navel's joint and the head's.
+  // The chain from the toe up the left leg, across half the hips, up trunk and neck.
   const double reach = l.foot + l.shank + l.thigh + l.hip_width / 2 + l.trunk + l.neck;
   for (const double beyond : {5e-10, 2e-9}) {
     problem.targets[3].position = problem.start.root_position + glm::dvec3(0, reach + beyond, 0);
@@ -44,7 +44,6 @@ TEST(OutOfReach, LeavesABillionthOfAMetreForRounding) {
   }
 }
 
-// At a bound and a hair beyond it, and what is said then.
 TEST(Faults, BeginRightBeyondTheirBounds) {
   const KinematicTree sound_tree = Body();
   const IkProblem sound = DisturbedProblem(sound_tree, RandomPose(sound_tree, 1, 1), 1, 10);

@@ -14,7 +14,7 @@ namespace {
 
 using enum Role;
 
-// Angles of the fitted bodies are free: a share of their ranges that is about a radian.
+// Fitted bodies have free angles; this share of their ranges is about a radian.
 constexpr double kARadian = 0.1;
 
 std::vector<CaptureBody> FittedBodies() {
@@ -54,7 +54,7 @@ TEST(CaptureBody, ThatIsFittedStandsWithHangingArms) {
   }
 }
 
-// 18 limbs that point anywhere, and what turns about itself: pelvis, chest, upper arms, a thigh, the climbed shank.
+// 18 limbs point freely; pelvis, chest, upper arms, a thigh and the shank climbed from the foot also twist.
 TEST(CaptureBody, ThatIsFittedHasTwoDegreesOfFreedomAndThreeWhereTwistsAreSeen) {
   EXPECT_EQ(FittedBody(PlainRestBody())->tree.dof_count(), 2 * 18 + 6);
   const CaptureBody jointed = FittedBody(JointedRestBody()).value();
@@ -73,7 +73,7 @@ TEST(CaptureBody, AsksOfEveryEndWhatASingleLimbShows) {
   }
 }
 
-// What pictures of a pose of the body tell, asked of that very pose.
+// Targets from a pose's pictures are met by this pose.
 TEST(CaptureBody, IsAtItsTargetsInThePoseThatWasSeen) {
   for (const CaptureBody& body : FittedBodies()) {
     for (int trial = 0; trial < 10; ++trial) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kEndRightFoot = 0, kEndLeftHand = 1, kEndRightHand = 2, kEndHead = 3;  // effectors
 
-// The targets that a standing body meets, of which only `effectors` count, and only their positions.
+// Returns the problem of a standing body whose positions are met; only `effectors` count.
 IkProblem PositionsOf(std::initializer_list<int> effectors) {
   IkProblem problem = DisturbedProblem(Body(), StandingState(Body()), 0, 0);
   for (EffectorTarget& target : problem.targets) {
@@ -29,7 +29,7 @@ TEST(OutOfReach, NoPoseOfTheTreeIs) {
   }
 }
 
-// Toe, ankle, knee, hip, across to the navel, up to the neck, head.
+// The chain of toe, ankle, knee, hip, half the hips, neck, head.
 constexpr double kRootToHead = 0.18 + 0.42 + 0.43 + 0.09 + 0.50 + 0.25;
 
 TEST(OutOfReach, IsWhatLiesBeyondAllLimbsFromTheRoot) {
@@ -52,7 +52,7 @@ TEST(OutOfReach, CountsAWholeFramesLimbInItsOwnDirection) {
   EXPECT_TRUE(IsOutOfReach(Body(), problem)) << "the neck's base is asked to be beyond the head";
 }
 
-// Both arms and the line between the shoulders, which cannot bend.
+// Both arms and the line between the shoulders, which is rigid.
 constexpr double kHandToHand = 2 * (0.18 + 0.25 + 0.29) + 0.36;
 
 TEST(OutOfReach, AreHandsFartherFromEachOtherThanTheArmsAreLong) {
@@ -62,7 +62,7 @@ TEST(OutOfReach, AreHandsFartherFromEachOtherThanTheArmsAreLong) {
     problem.targets[kEndLeftHand].position = {-half, 1, 0};
     problem.targets[kEndRightHand].position = {half, 1, 0};
     EXPECT_EQ(IsOutOfReach(Body(), problem), beyond > 0);
-    // Either alone is near enough to the root.
+    // Each hand alone is within reach of the root.
     problem.targets[kEndRightHand].position_weight = 0;
     EXPECT_FALSE(IsOutOfReach(Body(), problem));
   }
@@ -73,7 +73,7 @@ TEST(AllowedRanges, AreTheLimitsAndTheToleranceAroundTheStart) {
   problem.start.angles.assign(29, 0.0);
   problem.limits.assign(29, {-0.5, 1.0});
   problem.start.angles[1] = 0.9;
-  problem.start.angles[2] = 1.4;  // out of its limits: the tolerance counts from their end
+  problem.start.angles[2] = 1.4;  // beyond its limit: the tolerance counts from the limit
   IkOptions options;
   const auto expect = [&](std::vector<AngleRange> expected) {
     const std::vector<AngleRange> ranges = AllowedRanges(problem, options);
@@ -93,7 +93,7 @@ TEST(WorstError, IsOfTheWorstSingleAxisNotOfTheMeanOfThree) {
   IkProblem problem = PositionsOf({kEndHead});
   std::vector<EffectorError> errors(4);
   errors[kEndHead] = {0.5e-3, {Radians(0.05), Radians(0.12), Radians(0.06)}};
-  errors[kEndLeftHand] = {7, glm::dvec3(7)};  // which nobody asked for
+  errors[kEndLeftHand] = {7, glm::dvec3(7)};  // not a target
   for (const int e : {kEndHead, kEndRightFoot}) problem.targets[e].axis_weights = glm::dvec3(1);
   EXPECT_EQ(FindWorst(errors, problem.targets).position, 0.5e-3);
   EXPECT_EQ(FindWorst(errors, problem.targets).axis, Radians(0.12));
@@ -127,7 +127,7 @@ TEST(WorstError, MayBeOfAnyEffector) {
 // The test vector: 4 cm off, axes off by 10°, 20°, 0°.
 EffectorWeights Weights(WeightRule rule) { return ComputeWeights(rule, 0.04, {Radians(10), Radians(20), 0}); }
 
-constexpr double kPerCm2 = 1e4;  // weights are kept per square metre
+constexpr double kPerCm2 = 1e4;  // weights are per square metre
 
 TEST(Weights, FixedOnesIgnoreTheErrors) {
   EXPECT_DOUBLE_EQ(Weights(WeightRule::kFixed).position, 1 * kPerCm2);

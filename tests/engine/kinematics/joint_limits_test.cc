@@ -18,15 +18,14 @@ namespace {
 constexpr std::array<LimitSet, 5> kSets = {LimitSet::kAaos, LimitSet::kKendall, LimitSet::kHoppenfeld, LimitSet::kAma,
                                            LimitSet::kAdult};
 
-// Where a movement takes the part of a limb that is farther from the trunk, as the nearer part sees it: where its far
-// end goes, or, when that stays (a turn about the limb), its front. Away: from the body's midline; in the middle of the
-// body, to the left.
+// The direction in which a movement takes the outer part of a limb, seen from the inner part: that of its far end or,
+// in a turn about the limb, of its front. Away means from the body's midline; for the trunk, to the left.
 enum class Way { kForward, kBackward, kUp, kDown, kAway, kInwards, kFrontAway, kFrontInwards, kNowhere };
 using enum Way;
 
-// Table 3.1 once more, typed from the paper; gaps filled from its first column, and behind the four columns `adult`
-// by movements. `right_axis`: about which axis of a body that stands facing +Z, its left at +X and its palms forward,
-// the movement turns the farther part of the right limb (right-hand rule).
+// A second copy of table 3.1, typed from the paper; gaps use its first column, and `adult` follows. `right_axis` is the
+// axis (right-hand rule) about which the movement turns the right limb's outer part, for a body that faces +Z with
+// palms forward.
 struct TableRow {
   std::string_view movement;
   BodyTreeJoint right, left;
@@ -63,7 +62,7 @@ const std::vector<TableRow>& PairedRows() {
   return rows;
 }
 
-// What only one joint of the tree can do; the trunk's upper part counts as the farther one.
+// Movements of a single joint; the trunk's upper part counts as the outer one.
 const std::vector<TableRow>& SingleRows() {
   static const std::vector<TableRow> rows = {
       {"inversion", kTreeRightAnkle, kTreeRightAnkle, kY, kInwards, {35, 35, 35, 30, 20}},
@@ -86,8 +85,7 @@ const std::vector<TableRow>& SingleRows() {
 
 bool IsClimbed(int joint) { return joint == kTreeLeftAnkle || joint == kTreeLeftKnee || joint == kTreeLeftHip; }
 
-// How the part of the limb farther from the trunk has turned against the nearer one since the body stood at rest, seen
-// from the nearer one.
+// Returns the rotation of a limb's outer part since rest, relative to the inner part.
 glm::dmat3 TurnedBy(const KinematicTree& body, int joint, const std::vector<double>& angles) {
   const TreeFrames rest = ComputeFrames(body, StandingState(body));
   TreeState state = StandingState(body);
@@ -99,7 +97,7 @@ glm::dmat3 TurnedBy(const KinematicTree& body, int joint, const std::vector<doub
   return glm::transpose(turn(nearer)) * turn(farther);
 }
 
-// How far `limits` let one angle of `joint` turn about `axis`, degrees; empty when no angle of it does that.
+// Returns how far `limits` let an angle of `joint` turn about `axis`, degrees; nothing if no angle does.
 std::optional<double> ReachAbout(int joint, const glm::dvec3& axis, const std::vector<AngleRange>& limits) {
   const KinematicTree body = MakeBodyTree({});
   for (int dof = body.joints[joint].first_dof, k = 0; k < body.joints[joint].dof_count; ++k, ++dof) {
@@ -121,7 +119,6 @@ std::optional<double> ReachAbout(int joint, const glm::dvec3& axis, const std::v
   return std::nullopt;
 }
 
-// A movement of the right limb, seen in a mirror between left and right.
 glm::dvec3 Mirrored(const glm::dvec3& axis) { return {axis.x, -axis.y, -axis.z}; }
 
 TEST(JointLimits, PosedBodiesMoveAsFarAsTheTableSaysOnBothSides) {
@@ -143,7 +140,7 @@ TEST(JointLimits, PosedBodiesMoveAsFarAsTheTableSaysOnBothSides) {
       checked += rows == &SingleRows() ? static_cast<int>(rows->size()) : 0;
     }
   }
-  // Both ends of 29 angles in five sets: nothing of any set is left unchecked.
+  // Both ends of 29 angles in five sets: every limit was checked.
   EXPECT_EQ(checked, 2 * 29 * 5);
 }
 
@@ -163,13 +160,13 @@ TEST(JointLimits, AreThoseOfTheTreeForAdults) {
   }
 }
 
-// Where the far end of the farther part of a limb has gone, or its front, when this angle alone is `radians`.
+// Returns where the outer part's far end (or front) goes if only this angle is `radians`.
 Way WayOf(const KinematicTree& body, int joint, int dof, double radians) {
   std::vector<double> angles(body.limits.size(), 0.0);
   angles[dof] = radians;
   const glm::dmat3 turned = TurnedBy(body, joint, angles);
   const TreeFrames rest = ComputeFrames(body, StandingState(body));
-  // A climbed limb runs towards the trunk.
+  // A climbed limb points towards the trunk.
   const glm::dvec3 limb =
       IsClimbed(joint) ? -rest.joints[body.joints[joint].parent].axes[2] : rest.joints[joint].axes[2];
   const bool is_right = joint == kTreeRightShoulder || joint == kTreeRightElbow || joint == kTreeRightWrist ||
@@ -185,9 +182,9 @@ Way WayOf(const KinematicTree& body, int joint, int dof, double radians) {
   return kNowhere;
 }
 
-// The movements of `limits` that do not go as far as column `column` says, by name; "?" for one that the table does not
-// have. Every degree of freedom is moved half-way towards both its limits, where even an arm that can be raised over
-// the head still points to the side from which it came; an end at zero is tried at 0.1 beyond.
+// Returns the movements whose range in `limits` differs from column `column`, by name; "?" for one that the table
+// lacks. Each angle is moved half-way to each limit, where a raised arm still points to its side; a limit of zero is
+// tried at 0.1.
 std::vector<std::string> Disagreements(const std::vector<AngleRange>& limits, std::size_t column, int& looked_at) {
   const KinematicTree body = MakeBodyTree({});
   std::vector<std::string> wrong;
@@ -223,7 +220,7 @@ TEST(JointLimits, LeadEveryLimbAsFarAsTheMovementThatItMakes) {
   }
 }
 
-// The control: whatever pair of unequal ranges is exchanged, it is seen, and nothing else.
+// The control: exchanging any two unequal ranges is noticed, and nothing else.
 TEST(JointLimits, ThatAreExchangedAreFlagged) {
   int exchanged = 0;
   for (std::size_t column = 0; column < kSets.size(); ++column) {
@@ -240,7 +237,7 @@ TEST(JointLimits, ThatAreExchangedAreFlagged) {
   EXPECT_GT(exchanged, 5 * 15);
 }
 
-// What `adult` had: the left hip's ab- and adduction, and the wrists' radial and ulnar deviation.
+// The errors of an earlier `adult`: the left hip's ab- and adduction, and the wrists' radial and ulnar deviation.
 TEST(JointLimits, OfAnEarlierAdultAreFlagged) {
   std::vector<AngleRange> earlier = JointLimits(LimitSet::kAdult);
   const KinematicTree body = MakeBodyTree({});

@@ -109,7 +109,7 @@ const std::vector<std::vector<Role>> kEndsLost = {{kLeftFoot},
                                                   {kLeftFoot, kRightFoot, kLeftHand, kRightHand},
                                                   {kLeftFoot, kRightFoot, kLeftHand, kRightHand, kHead}};
 
-// What is lacking comes from the very pose that was observed: then nothing is lost.
+// The missing ends are completed from the very pose that was observed, so nothing is lost.
 TEST(CompleteObservation, GivesThePoseBackThatItIsLike) {
   for (int trial = 0; trial < 10; ++trial) {
     const BodyPose truth = ToBodyPose(Body(), RandomPose(Body(), trial, 0.8));
@@ -122,13 +122,13 @@ TEST(CompleteObservation, GivesThePoseBackThatItIsLike) {
   }
 }
 
-// The body has moved and turned no limb but its whole: what is seen carries what is not.
+// The body moved as a whole: unseen ends move with the seen ones.
 TEST(CompleteObservation, MovesWhatWasNotSeenWithWhatWas) {
   const BodyPose like = ToBodyPose(Body(), RandomPose(Body(), 1, 0.8));
   BodyPose moved = like;
   for (glm::dvec3& joint : moved.joints) joint += glm::dvec3(0.5, 0.1, -0.3);
   for (const auto& lost : kEndsLost) {
-    if (lost.size() == 5) continue;  // then nothing tells of the move
+    if (lost.size() == 5) continue;  // nothing shows the move
     const auto whole = CompleteObservation(Without(Observe(moved), lost), {}, like, true);
     EXPECT_LT(WorstJointDistance(*FixLimbLengths(*whole, {}), moved), 1e-9) << "without " << lost.size() << " ends";
   }

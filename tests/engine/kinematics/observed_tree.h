@@ -19,7 +19,7 @@ inline LimbObservation Observe(const BodyPose& pose) {
   return observation;
 }
 
-/// Adds noise to an observation: to ends `metres` per axis, to directions `degrees` (standard deviations).
+/// Adds noise to an observation: ends by `metres` per axis, directions by `degrees` (standard deviations).
 inline LimbObservation Disturb(LimbObservation observation, int trial, double metres, double degrees) {
   RandomStream random({.suite_seed = 7, .scenario = "kinematics-test", .trial = trial}, "observation");
   for (glm::dvec3& end : observation.ends.joints) end += metres * random.Normal3();

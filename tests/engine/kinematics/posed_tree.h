@@ -31,7 +31,7 @@ inline TreeState RandomPose(const KinematicTree& tree, int trial, double share) 
   return state;
 }
 
-/// Returns the problem of finding `truth` from angles with noise of `noise_deg` (standard deviation).
+/// Returns the problem of finding `truth` from angles with noise of deviation `noise_deg`.
 inline IkProblem DisturbedProblem(const KinematicTree& tree, const TreeState& truth, int trial, double noise_deg) {
   RandomStream random({.suite_seed = 7, .scenario = "kinematics-test", .trial = trial}, "noise");
   IkProblem problem{truth, {}, tree.limits};

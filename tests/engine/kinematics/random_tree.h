@@ -5,8 +5,8 @@
 
 namespace etude {
 
-/// Returns a random tree of `joints` joints: branches, offsets and rest frames are random, joints have 0 to 3 degrees
-/// of freedom. It has four effectors, one of them near the root.
+/// Returns a random tree of `joints` joints with random branches, offsets and rest frames, 0 to 3 degrees of freedom
+/// per joint, and four effectors, one of them near the root.
 inline KinematicTree RandomTree(int trial, int joints) {
   RandomStream random({.suite_seed = 7, .scenario = "kinematics-test", .trial = trial}, "tree");
   const auto turn = [&] {

@@ -15,8 +15,8 @@ inline RestBody PlainRestBody() {
   return RestBodyOf(standing);
 }
 
-/// Returns the same body with the joints of mocap files: a hip joint that rotates nothing, a second spine joint from
-/// which collars and neck branch, a neck of two joints, and toes that bend.
+/// Returns the same body with the joints of mocap files: a hip joint that rotates nothing, a second spine joint with
+/// collars and neck, a neck of two joints, and toes that bend.
 inline RestBody JointedRestBody() {
   RestBody body = PlainRestBody();
   const auto add = [&](const char* name, int parent, const glm::dvec3& at) {
@@ -38,8 +38,8 @@ inline RestBody JointedRestBody() {
   return body;
 }
 
-/// Returns the same body with the joints of depth sensors: the trunk is one piece; hips and shoulders are attached to
-/// its middle by separate joints.
+/// Returns the same body with a depth sensor's joints: a rigid trunk; separate joints in its middle carry hips and
+/// shoulders.
 inline RestBody SensorRestBody() {
   using enum Role;
   const BodyPose rest = PlainRestBody().Pose();

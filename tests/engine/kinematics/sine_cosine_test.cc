@@ -27,7 +27,7 @@ TEST(SineCosine, IsTheLibrarysToTheLastBitsForAnglesOfAllSizes) {
 
 TEST(SineCosine, KeepsItsDigitsNextToItsZeros) {
   for (int quarters = -600000; quarters <= 600000; quarters += 7) {
-    const double angle = 0.5 * kPi * quarters;  // misses the zero by its own rounding
+    const double angle = 0.5 * kPi * quarters;  // rounding moves the angle off the exact zero
     const auto [sine, cosine] = ComputeSineCosine(angle);
     ASSERT_NEAR(sine, std::sin(angle), 2 * kEpsilon * std::abs(std::sin(angle))) << quarters;
     ASSERT_NEAR(cosine, std::cos(angle), 2 * kEpsilon * std::abs(std::cos(angle))) << quarters;

@@ -64,7 +64,7 @@ TEST(StartAngles, ASittingBodyBendsAtItsHips) {
 TEST(StartAngles, AnAngleBeyondHalfATurnIsClippedToTheNearerLimit) {
   const int raise = Body().joints[kTreeRightShoulder].first_dof;
   TreeState raised = StandingState(Body());
-  raised.angles[raise] = Radians(185);  // the arm straight up and a little back; Euler angles call it -175
+  raised.angles[raise] = Radians(185);  // the arm is up and slightly back, which Euler angles call -175°
   ASSERT_OK(start, FindStartState(Body(), ToBodyPose(Body(), raised), Body().limits));
   EXPECT_NEAR(Degrees(start->angles[raise]), 170, 1e-9);
 }

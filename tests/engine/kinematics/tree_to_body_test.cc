@@ -18,7 +18,7 @@ std::vector<TreeState> SomeStates(const KinematicTree& tree) {
   return states;
 }
 
-// Checks one frame of `clip` against `pose`; returns how many joints were compared.
+// Checks one frame of `clip` against `pose`; returns the number of compared joints.
 int ExpectPose(const Clip& clip, const LocalPose& frame, const BodyPose& pose, double tolerance) {
   const std::vector<std::pair<std::string, Role>> expected = {
       {"Hips", kHipCentre},         {"Spine", kSpine},

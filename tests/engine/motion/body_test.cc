@@ -48,14 +48,14 @@ TEST(Body, FacesWhereItIsTurnedAndComesBackToTheOrigin) {
     EXPECT_NEAR(AngleBetween(Facing(moved), {std::sin(yaw), 0, std::cos(yaw)}), 0, 1e-12);
     const BodyPose back = ToOrigin(moved).Apply(moved);
     for (Role role : AllRoles()) {
-      // Joints that the rest pose leaves at the origin move with it, so all twenty must come back.
+      // Joints at the origin of the rest pose move with it, so all twenty must come back.
       EXPECT_LT(glm::distance(back[role], rest[role]), 1e-12) << RoleName(role);
     }
   }
 }
 
 TEST(Body, FacesForwardWhereNothingTellsWhere) {
-  // All joints in one point; and lying on one side, with both rows of the torso upright.
+  // All joints at one point; then a body on its side, with both rows of the torso upright.
   EXPECT_EQ(Facing(BodyPose()), glm::dvec3(0, 0, 1));
   BodyPose lying;
   lying[kLeftHip] = lying[kLeftShoulder] = {0, 0.5, 0};

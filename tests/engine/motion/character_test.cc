@@ -69,22 +69,22 @@ TEST(Deform, BlendsTheTwoPlacesOfAVertexHalfWay) {
   arm.Add({1.5, 0, 0}, {0, 1, 0}, 0.5, 0.5);
   arm.pose[1].rotation = glm::angleAxis(kRightAngle, glm::dvec3(0, 0, 1));
   const DeformedMesh deformed = arm.Deformed();
-  // Linear blending: midway between (1.5, 0, 0) and (1, 0.5, 0), inside the true arc.
+  // Linear blending gives the middle of (1.5, 0, 0) and (1, 0.5, 0), inside the true arc.
   ExpectNear(deformed.positions[0], {1.25, 0.25, 0});
   ExpectNear(deformed.normals[0], glm::normalize(glm::dvec3(-1, 1, 0)));
 }
 
 TEST(Deform, KeepsNormalsUprightOnAStretchedSurface) {
   Arm arm;
-  // A slope: along (1, −1, 0), hence its normal.
+  // A slope along (1, −1, 0), hence its normal.
   arm.Add({0, 0, 0}, glm::normalize(glm::dvec3(1, 1, 0)), 1, 0);
-  arm.Add({0, 0, 0}, glm::normalize(glm::dvec3(1, 1, 0)), 0.5, 0.5);  // the blended way must agree
+  arm.Add({0, 0, 0}, glm::normalize(glm::dvec3(1, 1, 0)), 0.5, 0.5);  // the blended path must give the same
   arm.pose[0].scale = {3, 1, 1};
   arm.pose[1].translation = {1, 0, 0};
   const DeformedMesh deformed = arm.Deformed();
   for (const glm::dvec3& normal : deformed.normals) {
     ExpectNear(normal, glm::normalize(glm::dvec3(1, 3, 0)));
-    EXPECT_NEAR(glm::dot(normal, glm::dvec3(3, -1, 0)), 0, 1e-12);  // still upright on the stretched slope
+    EXPECT_NEAR(glm::dot(normal, glm::dvec3(3, -1, 0)), 0, 1e-12);  // still normal to the stretched slope
   }
 }
 

@@ -22,7 +22,7 @@ using testing::WorstDistance;
 
 // ---- Resample ----
 
-/// One joint that turns about `axis` at `speed` rad/s, every other frame told by the quaternion's other sign.
+/// Returns one joint that turns about `axis` at `speed` rad/s; every second frame has the quaternion's other sign.
 Clip Turning(const glm::dvec3& axis, double speed, int frames, double rate_hz) {
   Clip clip{.name = "turning", .skeleton = {}, .rate_hz = rate_hz, .frames = {}};
   clip.skeleton.joints.push_back({.name = "joint", .parent = -1, .rest = {}});
@@ -35,7 +35,7 @@ Clip Turning(const glm::dvec3& axis, double speed, int frames, double rate_hz) {
 
 TEST(Resample, KeepsAConstantTurnOnItsGreatCircleAtAnyRate) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -1, 2));
-  const double speed = 40;  // a third of a turn a frame
+  const double speed = 40;  // rad/s, a third of a turn per frame
   const Clip clip = Turning(axis, speed, 61, 20);
   for (const double rate : {7.0, 24.0, 29.97, 30.0, 60.0, 120.0, 1000.0}) {
     const Clip resampled = Resample(clip, rate);
@@ -110,7 +110,7 @@ TEST(Mirror, ReflectsEveryJointIntoTheOneOfTheOtherSide) {
       EXPECT_LT(glm::distance(after[twin].position, glm::dvec3(-1, 1, 1) * before[i].position), 1e-12) << name;
     }
   }
-  EXPECT_GT(WorstDistance(clip, mirrored), 10);  // the control: it is not the clip itself
+  EXPECT_GT(WorstDistance(clip, mirrored), 10);  // the control: mirroring changes the clip
 }
 
 TEST(Mirror, IsTheClipItselfWhenDoneTwice) {
@@ -124,7 +124,7 @@ TEST(Mirror, IsTheClipItselfWhenDoneTwice) {
 }
 
 TEST(Mirror, ReflectsWhatScalesDo) {
-  // Second implementation: the reflected matrices themselves.
+  // A second implementation: reflected matrices.
   const Clip clip = RandomClip(5, {.rest_rotations = true, .moving_offsets = true, .scales = true});
   const Clip mirrored = Mirror(clip);
   const glm::dmat3 reflection(-1, 0, 0, 0, 1, 0, 0, 0, 1);
@@ -171,7 +171,7 @@ TEST(WithoutScales, KeepsEveryJointWhereItIs) {
         EXPECT_NEAR(glm::length(local.rotation), 1, 1e-15);
       }
     }
-    // The control: scales left out without more ado are seen.
+    // The control: scales that are simply dropped change positions.
     Clip forgotten = clip;
     for (LocalPose& pose : forgotten.frames) {
       for (LocalTransform& local : pose) local.scale = glm::dvec3(1);
@@ -181,7 +181,7 @@ TEST(WithoutScales, KeepsEveryJointWhereItIs) {
 }
 
 TEST(WithoutScales, TurnsJointsAsTheirScaledAxesDo) {
-  // Closed form: sizes alone turn nothing, so rotations stay what they are.
+  // Closed form: uniform scales turn nothing, so rotations stay.
   Clip clip = RandomClip(7, {.rest_rotations = true});
   for (LocalPose& pose : clip.frames) {
     for (LocalTransform& local : pose) local.scale = glm::dvec3(1.7);
@@ -192,7 +192,7 @@ TEST(WithoutScales, TurnsJointsAsTheirScaledAxesDo) {
       EXPECT_NEAR(std::abs(glm::dot(unscaled.frames[f][i].rotation, clip.frames[f][i].rotation)), 1, 1e-14);
     }
   }
-  // Sheared axes: no rotation near by is nearer.
+  // With sheared axes, no rotation nearby is closer.
   const Clip sheared = RandomClip(8, {.rest_rotations = true, .scales = true});
   const Clip straight = WithoutScales(sheared);
   std::vector<GlobalTransform> axes, rotations;
@@ -224,7 +224,7 @@ TEST(WithoutScales, StandsJointsThatAreFlattenedOrMirrored) {
 }
 
 TEST(WithoutScales, StandsJointsWhoseOneAxisIsLongBeyondMeasure) {
-  // A joint turned under a stretched one, and stretched itself: its axes are sheared.
+  // A joint turned and stretched below a stretched one has sheared axes.
   Clip clip = Turning(glm::normalize(glm::dvec3(1, 2, 3)), 20, 2, 20);
   clip.skeleton.joints.push_back({.name = "child", .parent = 0, .rest = {}});
   const glm::dquat own = glm::angleAxis(1.0, glm::normalize(glm::dvec3(2, -1, 1)));
@@ -255,7 +255,7 @@ TEST(WithWorldAxesAtRest, LeavesNoRotationsAtRestAndEveryJointWhereItIs) {
     for (const Joint& joint : aligned.skeleton.joints) EXPECT_EQ(joint.rest.rotation, glm::dquat(1, 0, 0, 0));
     EXPECT_LT(WorstDistance(clip, aligned), 1e-12);
     EXPECT_LT(WorstDistance(Resting(clip), Resting(aligned)), 1e-12);
-    // A joint that turns in the world turns as much as before.
+    // A joint's rotation in the world stays the same.
     std::vector<GlobalTransform> before, after;
     for (std::size_t i = 0; i < clip.skeleton.joints.size(); ++i) {
       const auto turn = [i](const Clip& of, std::vector<GlobalTransform>& globals) {

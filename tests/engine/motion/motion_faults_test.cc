@@ -22,7 +22,7 @@ using ::testing::IsEmpty;
 
 constexpr double kGravity = 9.81, kFlight_s = 0.4, kStance_s = 0.5;
 
-/// The standing body with its hips at a height and its feet lifted, its knees bent as its legs need, arms at an angle.
+/// Returns the standing body with its hips at a height, its feet lifted, knees bent accordingly, and arms at an angle.
 BodyPose Posed(double hips, double lift, double sway, double arms) {
   constexpr double kBone = 0.4;
   BodyPose pose = Standing();
@@ -44,7 +44,7 @@ BodyPose Posed(double hips, double lift, double sway, double arms) {
   return pose;
 }
 
-/// A person who hops on the spot: flights of 0.4 s, stances of 0.5 s in which the knees bend.
+/// Returns a person who hops on the spot: flights of 0.4 s, stances of 0.5 s with bending knees.
 BodyMotion Hopping(double rate_hz, double seconds = 6) {
   constexpr double kStraight = 0.89, kCycle = kFlight_s + kStance_s, kTakeOff_m_s = kGravity * kFlight_s / 2;
   BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
@@ -57,7 +57,6 @@ BodyMotion Hopping(double rate_hz, double seconds = 6) {
   return motion;
 }
 
-/// A person who sways on both feet.
 BodyMotion Swaying(double rate_hz, double seconds = 6) {
   BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
   for (int f = 0; f < seconds * rate_hz; ++f) {
@@ -167,7 +166,7 @@ TEST(MotionFaults, AreJudgedOnAFloorThatIsFoundIfTheMotionIsFarFromZero) {
 }
 
 TEST(MotionFaults, ANarrowRampUpwardsIsAFloatAndAStepIsNone) {
-  // Without an edge, only height tells: 30 cm for two seconds, reached smoothly.
+  // Only the height shows this fault: 30 cm for two seconds, reached smoothly.
   const auto rise = [](double t) { return 0.3 * std::clamp(std::min(t, 3 - t) / 0.5, 0.0, 1.0); };
   const auto floats = WithChange(Swaying(30), 1, 4, [&](BodyPose& pose, double t) {
     MoveAll(pose, {0.6 * std::sin(4 * t), rise(t), 0});
@@ -175,7 +174,7 @@ TEST(MotionFaults, ANarrowRampUpwardsIsAFloatAndAStepIsNone) {
   bool is_told = false;
   for (const MotionFault& fault : FindMotionFaults(floats).faults) is_told |= fault.kind == FaultKind::kFloats;
   EXPECT_TRUE(is_told);
-  // Who stands still up there stands on something.
+  // A body that stands still up there stands on something.
   const auto stands = WithChange(Swaying(30), 1, 4, [&](BodyPose& pose, double t) { MoveAll(pose, {0, rise(t), 0}); });
   EXPECT_THAT(FindMotionFaults(stands).faults, IsEmpty());
 }
@@ -232,7 +231,7 @@ TEST(MotionFaults, ASecondInWhichNothingMovesIsAFreezeAndNotItsCatchingUp) {
     const MotionFault freezes = OneFault(motion, FaultKind::kFreezes);
     ExpectTime(freezes, 2, 3);
   }
-  // A pose that is reached and left gently may be held.
+  // A pose that is reached and left smoothly is no frozen motion.
   BodyMotion held{.rate_hz = 30, .poses = {}};
   for (int f = 0; f < 180; ++f) {
     const double t = std::clamp(f / 30.0, 2.0, 4.0) == f / 30.0 ? 2 : f < 60 ? f / 30.0 : f / 30.0 - 2;
@@ -278,7 +277,7 @@ TEST(MotionFaults, OfABodyThatIsTornNameTheJoint) {
       EXPECT_EQ(std::ranges::count(faults, FaultKind::kTorn, &MotionFault::kind), 1);
     }
   }
-  // A head that lies on the neck for a second.
+  // The head is at the neck for a second.
   const auto headless =
       WithChange(Swaying(30), 2, 3, [](BodyPose& pose, double) { pose[kHead] = pose[kShoulderCentre]; });
   const auto faults = FindMotionFaults(headless).faults;
@@ -321,7 +320,7 @@ TEST(MotionFaults, OfOneFootThatSkatesNameIt) {
 TEST(MotionFaults, OfJointsThatAreNotShownHaveTheirTime) {
   const BodyMotion motion = Swaying(30);
   FaultOptions options{.unseen = std::vector<JointSet>(motion.poses.size()), .lost_after_s = 2};
-  for (JointSet& joints : options.unseen) joints.set(Index(kSpine));  // never shown, which is no gap
+  for (JointSet& joints : options.unseen) joints.set(Index(kSpine));  // a joint that is never seen has no gap
   for (int f = 60; f < 90; ++f) options.unseen[f].set(Index(kHead));
   options.unseen[150].set(Index(kHead));
   const auto faults = FindMotionFaults(motion, options).faults;
@@ -331,7 +330,7 @@ TEST(MotionFaults, OfJointsThatAreNotShownHaveTheirTime) {
   EXPECT_NEAR(faults[0].size, 1, 1e-9);
   ExpectTime(faults[0], 2, 3);
   ExpectTime(faults[1], 6, 8);
-  // A gap before the first frame begins with the file.
+  // A gap before the first frame belongs to the file's beginning.
   const auto late = FindMotionFaults(motion, {.begin_s = 1.5, .lost_before_s = 1}).faults;
   ASSERT_EQ(late.size(), 1u) << ::testing::PrintToString(FaultSentences(late));
   ExpectTime(late[0], 0.5, 1.5);
@@ -355,7 +354,7 @@ TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
   EXPECT_NEAR(bends.size, 30, 1);
   ExpectTime(bends, 1.5, 3.5, 0.15);
   EXPECT_THAT(FaultSentences(FindMotionFaults(bent(15)).faults), IsEmpty()) << "some knees overextend";
-  // Without toes, the line of the hips is the hinge.
+  // Without toes, the hinge is parallel to the line of the hips.
   for (const double degrees : {15, 30}) {
     const BodyMotion motion = bent(degrees);
     FaultOptions options{.unseen = std::vector<JointSet>(motion.poses.size())};
@@ -366,7 +365,7 @@ TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
 
 TEST(MotionFaults, OfAnArmThroughChestOrHeadNameTheWrist) {
   const auto reach = [](double y, double z) {
-    // The forearm is as long as before; the elbow gives way.
+    // The forearm keeps its length; the elbow changes.
     return WithChange(Swaying(60), 1, 5, [y, z](BodyPose& pose, double t) {
       const double part = std::clamp(std::min(t, 4 - t), 0.0, 1.0);
       const glm::dvec3 elbow = pose[kRightElbow], hand = pose[kRightHand] - pose[kRightWrist];

@@ -27,7 +27,7 @@ TEST(AccelerationAt, IsExactForAParabolaUpToBothEnds) {
 }
 
 TEST(ZeroMomentPoint, IsWhereAPendulumStands) {
-  // x − p = x₀ cosh(ωt), ω² = g/h, solves the linear inverted pendulum about p.
+  // x − p = x₀ cosh(ωt) with ω² = g/h solves the linear inverted pendulum about p.
   constexpr double kHeight = 0.9, kStart = 0.05;
   const glm::dvec2 pivot(0.3, -0.2);
   const double omega = std::sqrt(kG / kHeight);
@@ -46,7 +46,7 @@ TEST(ZeroMomentPoint, IsWhereAPendulumStands) {
 }
 
 TEST(ZeroMomentOffset, LiesAheadOfABodyThatBrakes) {
-  // At 3 m/s² and a height of 1 m the point lies 3/9.81 m ahead of the mass, which is above the bearing foot.
+  // At 3 m/s² and a height of 1 m the point is 3/9.81 m in front of the mass, which is above the bearing foot.
   const BodyPose pose = Standing();
   const glm::dvec3 foot = pose[Role::kLeftFoot];
   const auto centres = Centres(9, [&](double t) {

@@ -5,7 +5,6 @@
 namespace etude {
 namespace {
 
-/// One joint that moves along X by a metre a frame.
 RawMotion Striding(double rate_hz, std::size_t frames) {
   RawMotion motion{.rate_hz = rate_hz, .joints = {"a"}};
   for (std::size_t f = 0; f < frames; ++f) motion.positions.emplace_back(static_cast<double>(f), 0, 0);
@@ -29,7 +28,7 @@ TEST(Sampled, ShowsNothingOutsideTheMotionOrBesideAGap) {
   RawMotion walk = Striding(10, 4);
   walk.positions[2] = NotSeen();
   const RawMotion sampled = Sampled(walk, 20, -0.05, 10);
-  // Frames −0.5, 0, 0.5, … 4: seen up to frame 1 and again at frame 3.
+  // Frames −0.5, 0, 0.5, … 4: the joint is seen up to frame 1, and at frame 3.
   const bool seen[] = {false, true, true, true, false, false, false, true, false, false};
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(IsSeen(sampled.At(i, 0)), seen[i]) << i;
 }

@@ -7,7 +7,7 @@ namespace {
 
 using enum Role;
 
-// All limbs point up, each 0.1 m long, and longer by 0.02 m in the second pose; the hips lie aside.
+// Returns limbs that point up, 0.1 m long, 0.02 m longer in the second pose; the hips are apart.
 BodyPose Stretched(double length) {
   BodyPose pose;
   for (const Bone& bone : AllBones()) {

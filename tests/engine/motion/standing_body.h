@@ -7,7 +7,6 @@
 
 namespace etude {
 
-/// Returns a body with round lengths that stands on the floor.
 inline BodyPose Standing() {
   using enum Role;
   BodyPose pose;

@@ -14,7 +14,7 @@ namespace {
 
 using enum Role;
 
-/// `change(pose, seconds)` alters the standing body of each frame.
+/// Returns the standing body per frame, altered by `change(pose, seconds)`.
 template <typename Change>
 BodyMotion Moving(int frames, Change change, double rate_hz = 30) {
   BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
@@ -33,7 +33,7 @@ void Shift(BodyPose& pose, const glm::dvec3& by) {
 TEST(Stature, IsTheWayAlongTheLimbsOverItsShare) {
   BodyPose pose = Standing();
   EXPECT_NEAR(Stature(pose), (0.8 + 0.7) / 0.92, 1e-12);
-  // A body that sits down is as tall as before.
+  // Sitting down does not change the stature.
   pose[kLeftKnee] = pose[kLeftHip] + glm::dvec3(0, 0, 0.4);
   pose[kLeftAnkle] = pose[kLeftKnee] - glm::dvec3(0, 0.4, 0);
   EXPECT_NEAR(Stature(pose), (0.8 + 0.7) / 0.92, 1e-12);
@@ -53,7 +53,7 @@ TEST(ComputeStatistics, MeasuresABodyThatIsCarriedAlong) {
 }
 
 TEST(ComputeStatistics, NamesTheFastestJointAndOrdersTheSpeeds) {
-  // The hand's speed grows by 0.1 m/s a frame, from 0.1 to 10.
+  // The hand's speed rises by 0.1 m/s per frame, from 0.1 to 10 m/s.
   const MotionStatistics found = ComputeStatistics(Moving(101, [](BodyPose& pose, double t) {
     const double f = std::round(30 * t);
     pose[kRightHand].y += 0.1 / 30 * f * (f + 1) / 2;
@@ -117,7 +117,7 @@ TEST(FootSlide, IsNothingWhereFeetStandWhileTheBodyMoves) {
 }
 
 TEST(FootSlide, CountsNoFlight) {
-  // Two metres a second forward, in the air for the middle third of the time.
+  // 2 m/s forward, in the air for the middle third of the time.
   const FootSlide slide = MeasureFootSlide(Moving(90, [](BodyPose& pose, double t) {
     const double flown = std::clamp(t - 1, 0.0, 1.0);
     Shift(pose, {0, 0.5 * std::sin(kPi * flown), 2 * flown});
@@ -126,8 +126,7 @@ TEST(FootSlide, CountsNoFlight) {
   EXPECT_NEAR(slide.stance_share[0], 2.0 / 3, 0.05);
 }
 
-/// A foot that swings forward by 0.6 m and 0.15 m high in every first half second, and stands in the second; the
-/// other half a second later.
+/// Each foot swings forward by 0.6 m and up by 0.15 m in half a second, and stands in the next; the feet alternate.
 void Walk(BodyPose& pose, double t) {
   const auto way = [](double seconds) {
     const double step = std::floor(seconds);
@@ -144,7 +143,7 @@ void Walk(BodyPose& pose, double t) {
 
 TEST(FootSlide, IsSmallInAWalkAndGrowsBySlidingOfTheWhole) {
   const BodyMotion walk = Moving(121, Walk);
-  // Feet move while they leave the floor: some cm/s of a walk of 60 cm/s.
+  // Feet move while they leave the floor: some cm/s, of a walk of 60 cm/s.
   EXPECT_LT(MeasureFootSlide(walk).mean.value(), 0.03);
   EXPECT_GT(MeasureFootSlide(walk).stance_share[0], 0.4);
   BodyMotion sliding = walk;

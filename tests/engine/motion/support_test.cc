@@ -17,7 +17,7 @@ using enum Role;
 using Poses = std::vector<BodyPose>;
 
 constexpr double kRate = 30;
-constexpr int kFrames = 90, kPoint = 40, kEnd = 80;  // of every clip; a transition's first and last frame
+constexpr int kFrames = 90, kPoint = 40, kEnd = 80;  // frames of every clip; a transition's first and last frame
 
 JointSet Set(std::initializer_list<Role> roles) {
   JointSet joints;
@@ -31,7 +31,7 @@ void Carry(BodyPose& pose, const glm::dvec3& by) {
   for (glm::dvec3& joint : pose.joints) joint += by;
 }
 
-/// `pose` for so many frames, altered by `change(pose, frame)`.
+/// Returns `pose` for kFrames frames, altered by `change(pose, frame)`.
 template <typename Change>
 Poses ClipOf(const BodyPose& pose, Change change, int frames = kFrames) {
   Poses poses(static_cast<std::size_t>(frames), pose);
@@ -42,13 +42,13 @@ Poses Still(const BodyPose& pose) {
   return ClipOf(pose, [](BodyPose&, int) {});
 }
 
-/// Both feet drawn up by so much, the hips where they were.
+/// Draws both feet up by `up`; the hips stay.
 void Tuck(BodyPose& pose, double up) {
   for (Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) pose[role].y += up;
   for (Role role : {kLeftKnee, kRightKnee}) pose[role] += glm::dvec3(0, up / 2, up / 2);
 }
 
-/// Turned about the line through the origin along X, so that a standing body comes to lie on its back, or on its hands.
+/// Turns the body about the X axis through the origin, so that it comes to lie on its back or its hands.
 BodyPose Tilted(BodyPose pose, double angle) {
   for (glm::dvec3& j : pose.joints) {
     j = {j.x, j.y * std::cos(angle) - j.z * std::sin(angle), j.y * std::sin(angle) + j.z * std::cos(angle)};
@@ -59,7 +59,7 @@ BodyPose Tilted(BodyPose pose, double angle) {
   return pose;
 }
 
-/// The most frames in a row that nothing holds up, of `shown` between two clips, which it leaves and enters at kPoint.
+/// Returns the longest run of unsupported frames of `shown`, which leaves one clip and enters the other at kPoint.
 int Floating(const Poses& shown, const Poses& left, const Poses& wanted) {
   const std::vector clips = {SupportingClip{.poses = left, .begin = 0, .left_at = kPoint},
                              SupportingClip{.poses = wanted, .begin = kPoint}};
@@ -72,7 +72,7 @@ int Floating(const Poses& shown, const Poses& left, const Poses& wanted) {
 }
 int Floating(const Poses& shown, const Poses& clip) { return Floating(shown, clip, clip); }
 
-/// 0 before frame `begin`, 1 from `end` on, smooth in between.
+/// Rises smoothly from 0 before frame `begin` to 1 from `end` on.
 double Ramp(int frame, int begin, int end) {
   return Smootherstep(std::clamp((frame - begin) / double(end - begin), 0., 1.));
 }
@@ -82,7 +82,7 @@ TEST(FindFootContacts, SeesAStepOfOneFoot) {
       Standing(), [](BodyPose& pose, int f) { pose[kLeftFoot].y = f >= 20 && f < 40 ? 0.2 : 0.0; }, 60);
   const FootContacts contacts = FindFootContacts(steps, kRate);
   for (int f = 0; f < 60; ++f) {
-    EXPECT_EQ(contacts[0][f], f < 19 || f > 40) << f;  // frames 19 and 40 are on their way
+    EXPECT_EQ(contacts[0][f], f < 19 || f > 40) << f;  // frames 19 and 40 are moving
     EXPECT_TRUE(contacts[1][f]);
   }
 }
@@ -109,7 +109,7 @@ TEST(MassCentre, MovesByEachSegmentsShare) {
   pose[kHead].y = 1;
   EXPECT_NEAR(MassCentre(pose).y, 0.081, 1e-12);
   pose = {};
-  pose[kLeftKnee].x = 1;  // the end of the thigh, the beginning of the shank
+  pose[kLeftKnee].x = 1;  // moves the thigh's end and the shank's beginning
   EXPECT_NEAR(MassCentre(pose).x, 0.100 * 0.433 + 0.0465 * (1 - 0.433), 1e-12);
   pose = {};
   pose[kRightHand].z = 1;
@@ -133,7 +133,7 @@ TEST(JointVelocities, AreCentralAndOneSidedAtTheEnds) {
 TEST(FindBearing, TakesTheLowestJointsThatRest) {
   EXPECT_EQ(FindBearing(Still(Standing()), kRate)[10].rests, kFeet);
   BodyPose stork = Standing();
-  stork[kLeftFoot].y = stork[kLeftAnkle].y = 0.5;  // held still, on nothing
+  stork[kLeftFoot].y = stork[kLeftAnkle].y = 0.5;  // at rest, but on nothing
   EXPECT_EQ(FindBearing(Still(stork), kRate)[10].rests, Set({kRightAnkle, kRightFoot}));
   const BodyPose lying = Tilted(Standing(), -kPi / 2);
   EXPECT_TRUE(FindBearing(Still(lying), kRate)[10].rests[Index(kHead)]);
@@ -173,14 +173,14 @@ TEST(FindSupport, HoldsBodiesThatLieKneelOrStandOnTheirHands) {
   for (Role role : {kLeftHand, kRightHand}) hands[role] = {hands[role].x, 1.9, 0};
   for (const BodyPose& pose : {kneeling, Tilted(Standing(), -kPi / 2), Tilted(hands, kPi)}) {
     const Poses clip = Still(pose);
-    // It sways, as no clip shows it, on what bears it.
+    // The body sways, as in no clip, but stays on the joints that bear it.
     const Poses sways = ClipOf(pose, [](BodyPose& p, int f) { Carry(p, {0.02 * std::sin(f / 5.0), 0, 0}); });
     EXPECT_EQ(Floating(sways, clip), 0);
     EXPECT_GE(Floating(ClipOf(pose, [](BodyPose& p, int f) { Carry(p, {0, f > kPoint ? 0.05 : 0.0, 0}); }), clip), 30);
   }
 }
 
-// The controls: each must be seen, whichever way it begins.
+// The controls: each fault must be seen, in either direction.
 TEST(FindSupport, SeesABodyThatIsLifted) {
   const Poses clip = Still(Standing());
   for (const double lift : {0.05, 0.08}) {
@@ -217,7 +217,7 @@ TEST(FindSupport, SeesABodyThatSquatsInMidAirAndFeetThatAreTuckedAtOnce) {
   EXPECT_GE(Floating(tucks, clip), 10);
 }
 
-/// A crouch, and the push out of it with which a body leaves the floor at frame 45 at so many metres per second.
+/// Crouches, then takes off at frame 45 with this speed, m/s.
 void Push(BodyPose& pose, int f, double speed) {
   constexpr double kPush = 0.8 * 9.81;
   const double before = (45 - f) / kRate, takes = speed / kPush, depth = 0.5 * speed * takes;
@@ -229,7 +229,7 @@ void Push(BodyPose& pose, int f, double speed) {
 }
 
 TEST(FindSupport, LetsABodyJumpAsGravityDoesAndNotOtherwise) {
-  // Off the floor at frame 45, back at 60: half a second, 30 cm high.
+  // In the air from frame 45 to 60: half a second, 30 cm high.
   const auto jump = [](double gravity, bool is_thrown = true) {
     return ClipOf(Standing(), [=](BodyPose& pose, int f) {
       const double t = (f - 45) / kRate, whole = 15 / kRate;
@@ -249,7 +249,7 @@ TEST(FindSupport, LetsABodyJumpAsGravityDoesAndNotOtherwise) {
 }
 
 TEST(FindSupport, TakesTheTopOfAJumpForNoFloor) {
-  // Slow for three frames, the jump's feet are 30 cm up: who stays there, or waits there for it, rests on nothing.
+  // At the top of the jump the feet are slow for three frames, 30 cm up. A body that stays there rests on nothing.
   constexpr int kTop = kPoint;
   const Poses jump = ClipOf(Standing(), [](BodyPose& pose, int f) {
     const double t = (f - kTop) / kRate, half = 7.5 / kRate;
@@ -277,7 +277,7 @@ TEST(FindSupport, GivesWhoWalksOnTheSpotAFloorToStopOn) {
   };
   EXPECT_EQ(Floating(stops(0), walks, Still(high)), 0);
   EXPECT_GE(Floating(stops(0.05), walks, Still(high)), 30);
-  // Who flies where he is left does not stand there, however long ago he trod.
+  // A body that floats at the transition point is not supported by floor on which it stood earlier.
   const Poses flies = ClipOf(Standing(), [&](BodyPose& pose, int f) {
     pose = walks[f];
     Carry(pose, {0, f < 20 ? 0.0 : 0.1, 0});
@@ -299,7 +299,7 @@ TEST(FindSupport, AsksOfAFlightThatItIsOneParabolaWithATakeOff) {
   EXPECT_EQ(Floating(flies(0.003), clip), 0);
   EXPECT_GE(Floating(flies(0.03), clip), 10) << "it swims in the air";
   const Poses dropped = ClipOf(Standing(), [](BodyPose& pose, int f) {
-    const double t = std::max(f - kPoint, 0) / kRate;  // a third of a second
+    const double t = std::max(f - kPoint, 0) / kRate;  // time constant: a third of a second
     Carry(pose, {0, std::max(9.81 / 18 - 9.81 / 2 * t * t, 0.0), 0});
   });
   EXPECT_GE(Floating(dropped, clip), 9) << "from where nothing held it";
@@ -308,7 +308,7 @@ TEST(FindSupport, AsksOfAFlightThatItIsOneParabolaWithATakeOff) {
 TEST(FindSupport, IsNotFoundInAFootThatSwingsWhileTheOtherShouldBear) {
   const auto swings = [](double right_foot) {
     return ClipOf(Standing(), [=](BodyPose& pose, int f) {
-      const double z = 0.4 * std::sin(f / 5.0);  // up to 2.4 m/s, close to the floor
+      const double z = 0.4 * std::sin(f / 5.0);  // up to 2.4 m/s near the floor
       for (Role role : {kLeftAnkle, kLeftFoot}) pose[role] += glm::dvec3(0, 0.02, z);
       for (Role role : {kRightAnkle, kRightFoot}) pose[role].y += f > kPoint ? right_foot : 0;
     });
@@ -329,7 +329,7 @@ TEST(FindSupport, LetsABodyFollowAClipThatFliesAsNoBodyCan) {
 }
 
 TEST(FindSupport, NeedsNoLevelFloorAndNoToesAtZero) {
-  // It walks up a slope of one in five, one foot after the other, with toes 9 cm above the floor of the file.
+  // It walks up a slope of one in five; the toes are 9 cm above the file's floor.
   const Poses climbs = ClipOf(Standing(), [](BodyPose& pose, int f) {
     constexpr int kStep = 15;
     const auto along = [](double step) { return 0.5 * step; };
@@ -353,7 +353,7 @@ TEST(FindSupport, NeedsNoLevelFloorAndNoToesAtZero) {
 }
 
 TEST(FindSupport, TellsAStepFromToesThatAreRaised) {
-  // The toes go up while the heel bears: they rest on nothing up there.
+  // The toes are raised while the heel bears, so the toes rest on nothing.
   const Poses taps = ClipOf(Standing(), [](BodyPose& pose, int f) {
     for (Role role : {kLeftFoot, kRightFoot}) pose[role].y += f % 20 < 10 ? 0.06 : 0;
   });
@@ -370,7 +370,7 @@ TEST(BalanceOffset, IsTheDistanceFromTheHullOfWhatBears) {
     return *BalanceOffset(pose, Set(roles));
   };
   BodyPose spine;                 // the mass centre stays at the origin
-  spine[kSpine] = {0.3, 0, 0.4};  // no segment ends there
+  spine[kSpine] = {0.3, 0, 0.4};  // no segment ends at this joint
   EXPECT_NEAR(with(spine, {kSpine}), 0.5, 1e-12);
   EXPECT_NEAR(with(spine, {kSpine, kHead}), 0, 1e-12) << "a corner of the hull";
   BodyPose standing = Standing();

@@ -21,7 +21,7 @@ BodyMotion NoisyMove(const std::string& name, double noise) {
   return motion;
 }
 
-/// Moves with and without noise; one lying, one gliding, one walking away.
+/// Returns moves with and without noise; one lying, one gliding, one walking away.
 std::vector<BodyMotion> SomeMotions() {
   std::vector<BodyMotion> motions;
   for (const char* name : {"jump", "side_kick", "aerobic", "sway", "boxing"}) {
@@ -47,7 +47,7 @@ JointSet MirrorImage(const JointSet& joints) {
   return image;
 }
 
-/// The motion a quarter turn about the vertical, elsewhere and half a metre higher.
+/// Returns the motion turned by 90° about the vertical, elsewhere and half a metre higher.
 BodyMotion Elsewhere(BodyMotion motion) {
   for (BodyPose& pose : motion.poses) {
     for (glm::dvec3& joint : pose.joints) joint = {joint.z + 2, joint.y + 0.5, -joint.x - 1};
@@ -88,7 +88,7 @@ TEST(ComputeStatistics, OfAMirrorImageAndOfABodyElsewhereAreTheSame) {
       EXPECT_NEAR(found.speed_p95_m_s, own.speed_p95_m_s, 1e-9);
       EXPECT_NEAR(found.speed_peak_m_s, own.speed_peak_m_s, 1e-9);
       EXPECT_NEAR(found.lowest_foot_m, own.lowest_foot_m + lift, 1e-9);
-      for (const std::size_t foot : {0, 1}) {  // the mirror image's left one is the right one
+      for (const std::size_t foot : {0, 1}) {  // the mirror image exchanges left and right
         const double share = own.foot_slide.stance_share[lift > 0 ? foot : 1 - foot];
         EXPECT_NEAR(found.foot_slide.stance_share[foot], share, 1e-9);
       }

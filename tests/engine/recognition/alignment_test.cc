@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// A pose whose every part lies at `x`: two of them are (a − b)² apart.
+/// Returns a pose with every part at `x`; the gap of two such poses is (a − b)².
 PoseVector At(double x) {
   PoseVector pose;
   pose.parts.fill({x, 0, 0});
@@ -26,7 +26,7 @@ std::vector<PoseVector> Steps(const std::vector<double>& values) {
   return steps;
 }
 
-/// The definition, by trying every path backwards from (t, j).
+/// A second implementation of the definition: tries every path backwards from (t, j).
 double BestCost(const std::vector<double>& seen, const std::vector<double>& pattern, int t, int j, int end,
                 int longest) {
   if (t < 0 || end - t >= longest) return kFar;
@@ -102,7 +102,6 @@ TEST(SubsequenceAligner, TakesNoPathThatIsTooLong) {
   EXPECT_GT(hasty.Cost(), 0);
 }
 
-/// The worst part between two poses.
 double Apart(const PoseVector& a, const PoseVector& b) {
   double worst = 0;
   for (std::size_t i = 0; i < kPosePartCount; ++i) worst = std::max(worst, glm::distance(a.parts[i], b.parts[i]));

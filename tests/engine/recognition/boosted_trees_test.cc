@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// So many bags of one performance each, whose measures are as if thrown; a third are right, by two measures and luck.
+/// Returns bags of one performance each with random measures; a third are right, depending on two measures and chance.
 std::vector<LabelledBag> SomeBags(int count) {
   std::vector<LabelledBag> bags;
   for (int i = 0; i < count; ++i) {
@@ -25,8 +25,8 @@ std::vector<LabelledBag> SomeBags(int count) {
   return bags;
 }
 
-/// Newton's boosting by the definition: every cut of every measure is tried by summing over all members. Holds trees
-/// against that, one after the other; of several questions that gain as much any will do.
+/// A second implementation of Newton boosting: tries every split of every measure by summing over all members, and
+/// checks trees against it. Of equal gains any split is accepted.
 class PlainBoosting {
  public:
   PlainBoosting(const std::vector<LabelledBag>& bags, const BoostingOptions& options)
@@ -45,7 +45,8 @@ class PlainBoosting {
 
   double Measure(std::size_t i, std::size_t m) const { return bags_[i].performances[0][m]; }
 
-  /// Minus the summed gradient, and the summed curvature and the ridge, of the loss of bags that weigh alike by kind.
+  /// Returns the negative gradient and the curvature plus ridge of the loss, summed over members; both kinds of bags
+  /// have equal weight.
   std::pair<double, double> Pull(const Members& members, const std::vector<double>& log_odds) const {
     double pull = 0, stiffness = options_.ridge;
     const auto count = static_cast<double>(bags_.size());
@@ -64,7 +65,7 @@ class PlainBoosting {
     return halves;
   }
 
-  /// What the question gains; nothing where too few are left on a side.
+  /// Returns the gain of a split; 0 if a side has too few members.
   double Gain(const Members& members, std::size_t m, double limit, const std::vector<double>& log_odds) const {
     const auto [yes, no] = Halves(members, m, limit);
     if (static_cast<int>(std::min(yes.size(), no.size())) < options_.min_per_leaf) return 0;

@@ -48,8 +48,8 @@ TEST(HoltFilter, WidensBothRadiiForAnInferredJoint) {
 }
 
 TEST(HoltFilter, IsPlainDoubleExponentialSmoothingWithoutItsRadii) {
-  // The textbook recursion s = a·x + (1−a)(s + b), b = g·(s − s_previous) + (1−g)·b, on a ramp of 10 cm per frame,
-  // tracks the ramp without lag once settled.
+  // On a ramp of 10 cm per frame, the textbook's recursion s = a·x + (1−a)(s + b), b = g·(s − s_previous) + (1−g)·b
+  // settles without lag.
   HoltFilter filter{{.smoothing = 0.5,
                      .correction = 0.5,
                      .prediction_frames = 0,
@@ -69,7 +69,7 @@ TEST(HoltFilter, StaysWithinItsRadiusOfTheRawData) {
 }
 
 TEST(OneEuroFilter, FollowsThePapersAlgorithmOnAVectorWorkedByHand) {
-  // rate 30 Hz, min cut-off 1 Hz, beta 0: weight a = 1 / (1 + 30/2π); a step from 0 to 1 gives 1 − (1−a)^n.
+  // 30 Hz, minimum cut-off 1 Hz, beta 0: weight a = 1 / (1 + 30/2π); a step from 0 to 1 gives 1 − (1−a)^n.
   OneEuroFilter filter({.min_cutoff_hz = 1, .beta_per_m = 0, .derivative_cutoff_hz = 1}, 30);
   const double weight = 1.0 / (1.0 + 30.0 / (2 * kPi));
   filter.Update({0, 0, 0});
@@ -79,7 +79,7 @@ TEST(OneEuroFilter, FollowsThePapersAlgorithmOnAVectorWorkedByHand) {
 }
 
 TEST(OneEuroFilter, RaisesItsCutOffWithTheSmoothedSpeed) {
-  // First step of height 1 with beta 1: slope 30 m/s, smoothed a·30, cut-off 1 + 30a.
+  // A first step of height 1 with beta 1: slope 30 m/s, smoothed a·30, cut-off 1 + 30a.
   OneEuroFilter filter({.min_cutoff_hz = 1, .beta_per_m = 1, .derivative_cutoff_hz = 1}, 30);
   const double a = 1.0 / (1.0 + 30.0 / (2 * kPi));
   const double cutoff = 1 + 30 * a;
@@ -110,9 +110,9 @@ TEST(Smooth, StartsAnewAfterAJointWasNotTracked) {
     SkeletonStream stream = StreamOf({0, 0, 0, 0, 2, 2, 2});
     stream.frames[3][Role::kHead].state = TrackingState::kNotTracked;
     const SkeletonStream smoothed = Smooth(stream, {.kind = FilterOf(name)});
-    EXPECT_EQ(HeightAt(smoothed, 3), 0.0) << name;                        // passed through
-    EXPECT_NEAR(HeightAt(smoothed, 4), 2.0, kExact) << name;              // no memory of the floor
-    EXPECT_LT(smoothed.frames[4][Role::kSpine].position.y, 2.0) << name;  // control: this joint was never lost
+    EXPECT_EQ(HeightAt(smoothed, 3), 0.0) << name;                        // unfiltered
+    EXPECT_NEAR(HeightAt(smoothed, 4), 2.0, kExact) << name;              // the filter forgot the floor
+    EXPECT_LT(smoothed.frames[4][Role::kSpine].position.y, 2.0) << name;  // the control: this joint was never lost
   }
 }
 

@@ -14,8 +14,8 @@ namespace {
 using testing::Dice;
 using testing::Fingerprint;
 
-// The motions one after the other as a sensor off by `noise` metres tells them, which guesses some joints, loses
-// others and now and then the whole body.
+// Returns the motions in sequence as a sensor with errors of `noise` metres reports them; it guesses some joints, and
+// loses others and sometimes the whole body.
 SkeletonStream Noisy(const std::vector<BodyMotion>& motions, std::uint64_t seed, double noise, double rate_hz = 30) {
   SkeletonStream stream = Then(motions);
   stream.rate_hz = rate_hz;
@@ -40,7 +40,7 @@ SkeletonStream NoisyDance(std::uint64_t seed, double rate_hz = 30) {
                seed, 0.02, rate_hz);
 }
 
-// Three moves, of which the first two have so many examples.
+// Returns three moves; the first two have `people` examples.
 std::vector<TaughtMove> NoisyMoves(int people) {
   std::vector<TaughtMove> moves = {
       {.name = "left", .poses = {{{{Feature::kLH, 60, 25}, {Feature::kRH, 0, 30}}}, {{{Feature::kLH, 140, 30}}}}},
@@ -74,7 +74,7 @@ TEST(Recognition, GoldenEvidenceOfEveryRecogniser) {
       for (const NumberSetting& setting : kind.settings) {
         options.settings.push_back(setting.is_whole ? 1.0 + setup : setting.fallback * (1 - 0.2 * setup));
       }
-      // Three people teach all moves, or one, or one a single move.
+      // Three people teach all moves, one person does, or one person teaches one move.
       std::vector<TaughtMove> taught = NoisyMoves(setup == 0 ? 3 : 1);
       if (setup == 2) taught.resize(1);
       const auto recogniser = *MakeRecogniser(options, taught);

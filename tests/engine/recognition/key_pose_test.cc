@@ -37,7 +37,7 @@ TEST(MatchOf, GoesByTheWorstOfTheAnglesWanted) {
   EXPECT_DOUBLE_EQ(MatchOf(frame, four, {}, {.pose_share = 0.75}), 1.0) << "three of four will do";
 }
 
-/// Both arms up; the left one is at 0°, thus wrong, and seen as `state`.
+/// Both arms should be up. The left one is at 0°, which is wrong, and has the tracking state `state`.
 double MatchWithWrongLeftArm(TrackingState state, const TrackingWeights& weights) {
   const TaughtPose both{{{Feature::kRH, 180, 20}, {Feature::kLH, 180, 20}}};
   FeatureFrame frame = ArmAt(180);
@@ -60,7 +60,7 @@ TEST(Weights, NeverMakeAPoseOfNothingSeen) {
   EXPECT_EQ(MatchOf(unseen, kArmUp, {.weighting = Weighting::kFixed}, {}), 1.0);
 }
 
-/// How well each frame matches two poses.
+/// The match of each frame with two poses.
 using Matches = std::vector<std::array<double, 2>>;
 
 struct Passage {
@@ -78,8 +78,8 @@ Passage Pass(const Matches& matches, int hold_frames, int span_frames) {
   return passage;
 }
 
-/// The definition by brute force: the best pair of stretches of `hold` frames in order, by its worst frame; the first
-/// ends at or after `from`, the second at or before `to`, where it ends exactly there if `ends` says so.
+/// Brute force over the definition: the best pair of stretches of `hold` frames in order, by its worst frame. The first
+/// ends at or after `from`, the second at or before `to`, or exactly at `to` if `ends`.
 double BestPair(const Matches& matches, int hold, int from, int to, bool ends) {
   const auto held = [&](int end, std::size_t pose) {
     double worst = 1;

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Right exactly where measure 5 is small and measure 9 is not; the rest is of no matter.
+/// A bag is right if measure 5 is small and measure 9 is not; other measures do not matter.
 std::vector<LabelledBag> Planted() {
   std::vector<LabelledBag> bags;
   for (int i = 0; i < 400; ++i) {

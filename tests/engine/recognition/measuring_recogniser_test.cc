@@ -15,7 +15,7 @@ std::vector<TaughtMove> ArmsUpAndLeftUp() {
           {.name = "left", .span_s = 4, .examples = {StreamOf(Swing(2, 0, 1))}}};
 }
 
-/// What is measured where each of these is asked for in its own two and a half seconds: the nearest of each window.
+/// Returns the measures for each move requested in its window of 2.5 s: the nearest performance of each window.
 std::vector<PerformanceMeasures> NearestMeasures(const std::vector<std::pair<std::size_t, BodyMotion>>& performances) {
   std::vector<PerformanceMeasures> nearest;
   const auto recogniser = MakeMeasuringRecogniser(
@@ -36,7 +36,7 @@ std::vector<PerformanceMeasures> NearestMeasures(const std::vector<std::pair<std
   return nearest;
 }
 
-/// Standing still for so long before.
+/// Returns the motion after standing still for `seconds`.
 BodyMotion Lagging(BodyMotion motion, double seconds) {
   const BodyMotion rest = Rest(seconds);
   motion.poses.insert(motion.poses.begin(), rest.poses.begin(), rest.poses.end());
@@ -44,7 +44,7 @@ BodyMotion Lagging(BodyMotion motion, double seconds) {
 }
 
 TEST(MeasuringRecogniser, LaysAPerformanceOnTheExampleAtItsPaceAndLag) {
-  // A seventh longer and 0.4 s late; then in time, but with an arm that stays down; then as taught.
+  // A seventh longer and 0.4 s late; then in time with one arm down; then as taught.
   const auto measured =
       NearestMeasures({{0, Lagging(Swing(2, 2, 2.3), 0.4)}, {0, Swing(2, 0, 2)}, {0, Swing(2, 2, 2)}});
   const auto rigid = [&](std::size_t i, std::size_t which) { return measured[i][kRigidSlice.first + which]; };

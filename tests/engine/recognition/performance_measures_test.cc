@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kSteps = 40;
 
-/// One limb that turns on and on, so that every moment is unlike all others.
+/// Returns one limb that turns steadily, so that all moments differ.
 PoseVector Turned(double step) {
   PoseVector pose;
   pose.weights.fill(1);
@@ -24,7 +24,7 @@ std::vector<PoseVector> TurningPattern() {
   return pattern;
 }
 
-/// What is measured of a performance that shows `step_at(k)` of the example in its k-th step.
+/// Returns the measures of a performance that shows `step_at(k)` of the example in step k.
 template <typename StepAt>
 ClockMeasures Measured(const StepAt& step_at, double usual_s = 0) {
   const std::vector<PoseVector> pattern = TurningPattern();
@@ -57,7 +57,7 @@ TEST(ClockComparison, CountsFromWhatIsUsualOfThePerson) {
 }
 
 TEST(ClockComparison, TellsWhoHurriesFromWhoIsLate) {
-  // In time at the beginning and six steps early at the end.
+  // In time at the beginning, six steps early at the end.
   const ClockMeasures hurried = Measured([](int k) { return k * (1 + 6.0 / kSteps); });
   const ClockMeasures late = Measured([](int k) { return k - 6; });
   EXPECT_LT(hurried.drift, -1 / kStepsPerSecond);

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kHeadPart = 0, kLeftWristPart = 5, kRightUpperArmPart = 4, kHipLift = 11;
 
-/// The last step of a stream, weighed by what was seen.
 PoseVector Described(const SkeletonStream& stream, PoseParts parts) {
   LiveSight sight({}, stream.rate_hz);
   StepDescriber describer(parts, {.weighting = Weighting::kAdaptive}, stream.rate_hz);
@@ -33,7 +32,7 @@ double FurthestPart(const PoseVector& a, const PoseVector& b) {
 TEST(PoseVector, HasJointsFromTheHipsWithATrunkOfHalfAMetreAndLimbsOfLengthOne) {
   const BodyPose pose = ArmsRaised(0.4, 1.1);
   const PoseVector joints = Described(pose, PoseParts::kJoints), limbs = Described(pose, PoseParts::kLimbs);
-  // The trunk is 0.5 m already.
+  // The trunk is 0.5 m long, so nothing is scaled.
   EXPECT_LT(glm::distance(joints.parts[kHeadPart], glm::dvec3(0, 0.75, 0)), 1e-9);
   const glm::dvec3 wrist = pose[Role::kLeftWrist] - pose[Role::kHipCentre];
   EXPECT_LT(glm::distance(joints.parts[kLeftWristPart], wrist), 1e-9);

@@ -14,11 +14,11 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr int kFrames = 90;  // three seconds
+constexpr int kFrames = 90;  // frames, three seconds
 constexpr int kUp = 30, kDown = 60;
 
-/// A standing body whose right arm hangs (RH 0°), is raised (180°) in the frames from kUp, and hangs again from kDown;
-/// every joint tracked. Before it, `lost` frames in which no body is seen.
+/// A standing body whose right arm hangs (RH 0°), is up (180°) from kUp on, and hangs again from kDown on; all joints
+/// are tracked. Before it there are `lost` frames without a body.
 SkeletonStream RaisedArm(int lost = 0) {
   SkeletonStream stream;
   stream.frames.resize(static_cast<std::size_t>(lost + kFrames));
@@ -43,10 +43,10 @@ const std::vector<TaughtMove> kTaught = {RaisedTo("hang", 0), RaisedTo("raise", 
 
 struct Recognition {
   std::vector<Judgement> judgements;
-  std::vector<std::string> told;  ///< every detection, as "raise 32"
+  std::vector<std::string> told;  ///< detections, such as "raise 32"
 };
 
-/// The moves asked for in their order of time; a detection may follow the last at once.
+/// Recognises moves that are requested in the order of time; detections may follow each other at once.
 Recognition RecogniseIn(const SkeletonStream& stream, const std::vector<AskedMove>& asked,
                         const std::vector<TaughtMove>& taught = kTaught, const RecogniserOptions& options = {}) {
   const SeenStream seen = SeeStream(stream, {});
@@ -131,9 +131,9 @@ TEST(Recognise, AnswersInTheThirdFrameOfThePoseCountedFromTheWindowsFirst) {
 TEST(Recognise, DoesNotFindAPoseThatIsNotInTheWindowOrTooShort) {
   const auto judgements = RecogniseIn(RaisedArm(), {{kRaise, {31, 33}}, {kRaise, {kDown, kFrames}}}).judgements;
   EXPECT_EQ(judgements[0].recognised_at, std::nullopt);
-  EXPECT_EQ(judgements[0].score, 0);  // two frames hold nothing for three
+  EXPECT_EQ(judgements[0].score, 0);  // two frames do not contain three held ones
   EXPECT_EQ(judgements[1].recognised_at, std::nullopt);
-  EXPECT_NEAR(judgements[1].score, 1.0 / (1 + 9 * 9), 1e-12);  // 180° off, of a tolerance of 20°
+  EXPECT_NEAR(judgements[1].score, 1.0 / (1 + 9 * 9), 1e-12);  // 180° off, with a tolerance of 20°
 }
 
 TEST(Recognise, LooksForEveryMoveTaughtWhateverIsAskedFor) {
@@ -146,7 +146,7 @@ TEST(Recognise, LooksForEveryMoveTaughtWhateverIsAskedFor) {
 
 TEST(Recognise, FindsNoMoveThatTookLongerThanItsSpan) {
   TaughtMove swing{.name = "swing", .poses = {RaisedTo("", 0).poses[0], RaisedTo("", 180).poses[0]}};
-  // Hangs until frame 29, held high in frame 32.
+  // The arm hangs until frame 29 and is held high in frame 32.
   swing.span_s = 0.1;
   EXPECT_THAT(RecogniseIn(RaisedArm(), {}, {swing}).told, ElementsAre("swing 32"));
   swing.span_s = 0.05;
@@ -171,7 +171,7 @@ TEST(Recognise, AnswersLaterByTheFramesInWhichNobodyWasSeen) {
 TEST(Recognise, GoesByItsOptions) {
   const RecogniserOptions quick{.settings = {1, 0.8, 1}};
   EXPECT_EQ(RecogniseIn(RaisedArm(), {{kRaise, {15, 75}}}, kTaught, quick).judgements[0].recognised_at, kUp - 15);
-  // The arm is up as asked, the left elbow, which is not tracked, is not: adaptive weights let it pass.
+  // The arm is up as requested, but the untracked left elbow is not; adaptive weights ignore it.
   TaughtMove both = RaisedTo("both", 180);
   both.poses[0].targets.push_back({Feature::kLHE, 150, 20});
   SkeletonStream stream = RaisedArm();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRight = std::numbers::pi / 2, kHigh = 2.6;
 
-/// Two moves that every recogniser can be taught: both arms out to the sides, and the left one up high.
+/// Two moves that every recogniser can learn: both arms out to the sides, and the left arm up.
 std::vector<TaughtMove> Taught() {
   return {{.name = "both",
            .poses = {{{{Feature::kRH, 90, 20}, {Feature::kLH, 90, 20}}}},
@@ -33,7 +33,7 @@ bool IsTrained(const RecogniserKind& kind) {
 
 class AnyRecogniser : public ::testing::TestWithParam<const RecogniserKind*> {
  protected:
-  /// The evidence at the end of a window in which "left" was asked for.
+  /// Returns the evidence at the end of a window in which "left" was requested.
   double Asked(const BodyMotion& danced, const TrackingWeights& weights = {}) const {
     const SkeletonStream stream = Then({Rest(1), danced, Rest(1)});
     return Trace(stream, weights).asked[static_cast<std::size_t>(End(stream)) - 1];
@@ -42,7 +42,7 @@ class AnyRecogniser : public ::testing::TestWithParam<const RecogniserKind*> {
     const auto recogniser = *MakeRecogniser({.kind = GetParam(), .weights = weights}, Taught());
     return *FollowStream(*recogniser, 2, SeeStream(stream, {}), {{AskedMove{1, {30, End(stream)}}}});
   }
-  /// What it learnt of dances it may only rank elsewhere: its scale is not these moves'.
+  /// Recognisers trained on other dances only rank; their scale does not fit these moves.
   static bool IsLearnt() { return IsTrained(*GetParam()); }
   static int End(const SkeletonStream& stream) { return static_cast<int>(stream.frames.size()) - 15; }
 };
@@ -132,7 +132,8 @@ TEST(RuleStrength, IsOneWhereTaughtAndTheLeastOverlapElsewhere) {
   frame.features[Feature::kRH] = 90;
   frame.features[Feature::kLH] = 20;
   EXPECT_DOUBLE_EQ(RuleStrength(frame, pose, {}, PaperMemberships()), 1.0);
-  // At 55°: down (90 − 55) / 70 = ½, mid (55 − 20) / 70 = ½; at 90° mid 1, down 0: ½ of 1 + ½.
+  // Grades at 55°: down (90 − 55) / 70 = ½, mid (55 − 20) / 70 = ½; at 90°: mid 1. The smaller grades sum to ½, the
+  // larger ones to 1 + ½.
   frame.features[Feature::kRH] = 55;
   EXPECT_NEAR(RuleStrength(frame, pose, {}, PaperMemberships()), 0.5 / 1.5, 1e-12);
   frame.features[Feature::kLH] = 90;

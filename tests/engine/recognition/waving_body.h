@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Returns a standing body that raises its arms sideways: `left` and `right` are radians from hanging, elbows are
-/// straight. `size` scales the body, `move` moves it.
+/// Returns a standing body with straight arms raised sideways; `left` and `right` are radians from hanging. `size`
+/// scales the body, `move` moves it.
 inline BodyPose ArmsRaised(double left, double right, double size = 1, const FloorMove& move = {}) {
   using enum Role;
   BodyPose pose;
@@ -48,12 +48,10 @@ inline BodyMotion Swing(double left, double right, double seconds, double size =
   return motion;
 }
 
-/// Returns a motion that stands still.
 inline BodyMotion Rest(double seconds, double size = 1, const FloorMove& move = {}) {
   return Swing(0, 0, seconds, size, move);
 }
 
-/// Returns a recording of the motions, one after the other.
 inline SkeletonStream Then(const std::vector<BodyMotion>& motions) {
   BodyMotion all;
   for (const BodyMotion& motion : motions) all.poses.insert(all.poses.end(), motion.poses.begin(), motion.poses.end());

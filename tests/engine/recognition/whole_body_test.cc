@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// The left arm up, both arms up, the left one half-way: each by so many people, who differ in size, height and tempo.
+/// Returns moves by `people` people of different size and tempo: the left arm up, both arms up, the left arm half-way.
 std::vector<TaughtMove> ArmMoves(int people) {
   std::vector<TaughtMove> moves(3);
   const char* const names[] = {"left", "both", "low"};
@@ -32,7 +32,7 @@ std::unique_ptr<Recogniser> MadeRecogniser(const char* name, const std::vector<T
   return *MakeRecogniser({.kind = FindRecogniser(name)}, taught);
 }
 
-/// What is asked for is the first move, from the first frame on.
+/// The first move is requested from the first frame on.
 EvidenceTrace TraceOf(const char* name, const std::vector<TaughtMove>& taught, const SkeletonStream& stream) {
   const auto recogniser = MadeRecogniser(name, taught);
   const int frames = static_cast<int>(stream.frames.size());
@@ -60,7 +60,7 @@ TEST(WholeBody, NamesAPerformanceOfWhichBeginningAndEndAreTold) {
 
 TEST(WholeBody, OneOddExampleDoesNotNameAMove) {
   auto taught = ArmMoves(3);
-  taught[1].examples.push_back(StreamOf(Swing(2.45, 0, 2)));  // both arms, labelled wrong
+  taught[1].examples.push_back(StreamOf(Swing(2.45, 0, 2)));  // the left arm, wrongly labelled as both arms
   EXPECT_EQ(WholeOfStream("whole-body", taught, Swing(2.45, 0, 2)), 0u);
 }
 
@@ -77,7 +77,7 @@ TEST(WholeBody, TheWrongSideTakesAwayWhatTheJudgeGives) {
 
 TEST(WholeBody, AMoveThatIsItsOwnImageHasNoSides) {
   auto taught = ArmMoves(3);
-  std::swap(taught[0], taught[1]);  // both arms are asked for
+  std::swap(taught[0], taught[1]);  // requests both arms
   for (const BodyMotion& performed : {Swing(2.5, 2.3, 2), Swing(2.3, 2.5, 2), Swing(0, 2.5, 2)}) {
     const SkeletonStream stream = Then({performed, Rest(1)});
     EXPECT_EQ(TraceOf("whole-body", taught, stream).asked, TraceOf("learnt", taught, stream).asked);
@@ -95,7 +95,7 @@ TEST(WholeBody, SpotsByDistanceWhereThreePeopleTaughtAndAsTheJudgeElse) {
   EXPECT_TRUE(found[1].frame > 200 && found[1].frame < 270) << found[1].frame;
 }
 
-/// The cost of symmetric dynamic time warping, cell by cell.
+/// Returns the cost of symmetric dynamic time warping by recursion.
 double WarpedWhole(const std::vector<double>& gaps, std::size_t i, std::size_t j, std::size_t columns) {
   const double gap = gaps[i * columns + j];
   if (i == 0 && j == 0) return 2 * gap;
@@ -107,7 +107,7 @@ double WarpedWhole(const std::vector<double>& gaps, std::size_t i, std::size_t j
 }
 
 TEST(WholeBody, NamesTheMoveThatWarpingBySearchOfAllWaysFindsNearest) {
-  // Five steps each, so that all ways can be walked.
+  // Five steps each, so that all paths can be tried.
   const BodyMotion seen = Swing(1.9, 0.7, 1.0 / 3);
   std::vector<TaughtMove> taught;
   std::vector<double> costs;

@@ -13,7 +13,6 @@ namespace {
 
 using enum Role;
 
-/// The person, none of whose joints has a name that says anything.
 Skeleton Nameless(Skeleton skeleton = testing::PersonSkeleton()) {
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) skeleton.joints[i].name = "Q" + std::to_string(i);
   return skeleton;
@@ -30,7 +29,7 @@ TEST(Anatomy, FindsThePersonWithoutAnyName) {
   EXPECT_GE(map->confidence, 0.9);
   BodyPose body = testing::BodyAtRest(Nameless(), *map);
   EXPECT_THAT(map->composed, ::testing::ElementsAre(kShoulderCentre));
-  body[kShoulderCentre] = {0, 140, 0};  // composed between the shoulders
+  body[kShoulderCentre] = {0, 140, 0};  // composed: midway between the shoulders
   testing::ExpectThePersonsPlaces(body);
 }
 
@@ -59,12 +58,12 @@ TEST(Anatomy, IsNotSureOfWhatIsNoPersonOrDoesNotTellItsSides) {
   EXPECT_LT(ProposalFor(toeless).confidence, kMinAnatomyConfidence);
   EXPECT_GT(ProposalFor(toeless).confidence, 0.3) << "but it is one";
 
-  Skeleton dog = Nameless();  // on all fours: the arms hang down like the legs, from a level trunk
+  Skeleton dog = Nameless();  // on all fours: arms and legs hang from a level trunk
   for (Joint& joint : dog.joints) {
     const glm::dvec3 at = joint.rest.translation;
     const bool is_trunk = at.x == 0 && at.z == 0 && at.y > 0;
     if (is_trunk) joint.rest.translation = {0, 0, at.y};
-    if (std::abs(at.x) == 4) joint.rest.translation.y = 0;  // the collar bones
+    if (std::abs(at.x) == 4) joint.rest.translation.y = 0;  // collar bones
     if (std::abs(at.x) > 15) joint.rest.translation = {0, -std::abs(at.x), 0};
   }
   EXPECT_LT(ProposalFor(dog).confidence, 0.1);
@@ -83,7 +82,7 @@ TEST(Anatomy, IsNotSureOfWhatIsNoPersonOrDoesNotTellItsSides) {
 }
 
 TEST(Anatomy, DoesNotOverruleNames) {
-  Skeleton crossed = testing::PersonSkeleton();  // whose left arm is called the right one, and an elbow nothing
+  Skeleton crossed = testing::PersonSkeleton();  // a left arm called right, and an elbow with a meaningless name
   for (Joint& joint : crossed.joints) {
     if (joint.name == "LeftForeArm") joint.name = "Q";
     if (joint.name == "LeftArm")

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// A small generator of its own, so that every run sees the same skeletons.
+/// A small generator, so that every machine makes the same skeletons.
 class Dice {
  public:
   std::uint32_t Below(std::uint32_t end) {
@@ -28,7 +28,7 @@ constexpr std::array kNames = {"Hips",         "LeftUpLeg", "LeftLeg", "LeftFoot
                                "RightFoot",    "Spine",     "LeftArm", "LeftForeArm", "LeftHand",   "RightArm",
                                "RightForeArm", "RightHand", "Neck",    "Head",        "rig:Neck",   "Head_End"};
 
-/// Joints of known names, mostly in their order and hanging from one of the last few, of any size, also none.
+/// Returns joints with known names, mostly in a usual order, each below one of the last few, of any number, also none.
 Clip AnyClip(Dice& dice) {
   Clip clip{.name = "any", .skeleton = {}, .rate_hz = 30, .frames = {}};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
@@ -81,7 +81,7 @@ TEST(AnySkeleton, IsRefusedOrGivesAFiniteBodyAndAMapThatReadsBack) {
       for (const glm::dvec3& joint : pose.joints) ASSERT_TRUE(std::isfinite(glm::length(joint)));
     }
   }
-  // All three ways were really taken.
+  // All three ways occurred.
   EXPECT_GT(understood, 100);
   EXPECT_GT(unmapped, 100);
   EXPECT_GT(refused, 100);

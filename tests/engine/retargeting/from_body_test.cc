@@ -10,7 +10,6 @@
 namespace etude {
 namespace {
 
-/// Limbs that turn and stretch from frame to frame.
 BodyMotion Rubber() {
   BodyMotion motion;
   for (int frame = 0; frame < 3; ++frame) {

@@ -39,8 +39,8 @@ void RemoveJoint(Skeleton& skeleton, const std::string& name) {
   for (Joint& joint : skeleton.joints) joint.parent -= joint.parent > gone;
 }
 
-/// A person as rigs have them: of any unit, up, names and build, some with fingers, some without tips or neck, some
-/// with a knee that is not there, their left for their right, or built like nobody.
+/// Returns a person as rigs have them: any unit, up axis, names and proportions; some have fingers, some lack tips or
+/// neck; some lack a knee, exchange left and right, or have impossible proportions.
 Skeleton OddPerson(testing::Dice& dice) {
   Skeleton person = testing::PersonSkeleton();
   const auto one_of = [&](int count) { return dice.Below(static_cast<std::size_t>(count)) == 0; };
@@ -69,7 +69,7 @@ Skeleton OddPerson(testing::Dice& dice) {
   if (one_of(6)) hang("LeftTwist", "LeftArm", {9, 0, 0}, false);
   for (const char* loose : {"RightForeArm", "RightFoot", "LeftLeg", "LeftHand"}) {
     if (!one_of(15)) continue;
-    Joint& joint = person.joints[person.Find(loose)];  // moved by a control of its own
+    Joint& joint = person.joints[person.Find(loose)];  // moved by a control joint of its own
     joint.rest.translation += unit * glm::dvec3(joint.name[0] == 'L' ? 20 : -20, 50, 0);
     joint.parent = 0;
   }
@@ -97,7 +97,7 @@ Skeleton OddPerson(testing::Dice& dice) {
   return person;
 }
 
-/// Somebody who walks about and swings every limb; who may begin in a T-pose, lie, or grow.
+/// Returns a person who walks and swings every limb, and may begin in a T-pose, lie, or grow.
 Clip OddClip(testing::Dice& dice) {
   const Skeleton skeleton = OddPerson(dice);
   constexpr std::array kRates = {30.0, 24.0, 120.0, 59.94};
@@ -173,7 +173,7 @@ TEST(RetargetingGolden, OfOddPeople) {
   EXPECT_TRUE(testing::AreKept(told, "tests/engine/retargeting/odd_people.txt"));
 }
 
-/// A move that has gaps, as markers of a set.
+/// Returns a move with gaps as markers of a set.
 MarkerMotion MarkersOfSet(const MarkerSet& set, const BodyMotion& motion, testing::Dice& dice, double unit) {
   MarkerMotion take{
       .rate_hz = 20, .names = {}, .frames = std::vector<std::vector<std::optional<glm::dvec3>>>(motion.poses.size())};

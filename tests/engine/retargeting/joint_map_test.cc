@@ -31,7 +31,7 @@ Skeleton Without(Skeleton skeleton, const std::string& name) {
   return skeleton;
 }
 
-/// Puts a joint before `child`, at the place of the child's parent.
+/// Inserts a joint above `child`, at the place of the child's parent.
 void InsertAbove(Skeleton& skeleton, const std::string& child, const std::string& name) {
   const int at = skeleton.Find(child);
   const int parent = skeleton.joints[at].parent;
@@ -45,7 +45,7 @@ void InsertAbove(Skeleton& skeleton, const std::string& child, const std::string
 TEST(JointMap, TakesCmusShoulderForTheCollarBoneAndItsSecondNeckForTheNeck) {
   Skeleton cmu = testing::PersonSkeleton();
   cmu.joints[cmu.Find("Neck")].name = "Neck1";
-  InsertAbove(cmu, "Neck1", "Neck");  // where collars and chest meet
+  InsertAbove(cmu, "Neck1", "Neck");  // between collars and chest
   InsertAbove(cmu, "LeftUpLeg", "LHipJoint");
   InsertAbove(cmu, "RightUpLeg", "RHipJoint");
   testing::ExpectThePerson(cmu);
@@ -61,7 +61,7 @@ TEST(JointMap, TakesTheFirstOfTwoNecksThatStandAboveTheChest) {
 
 TEST(JointMap, RefusesAClipWithTheListOfMissingRolesAndOfItsJoints) {
   Skeleton horse = testing::PersonSkeleton();
-  horse.joints[horse.Find("LeftForeArm")].rest.translation *= 2;  // nor is it built like a person
+  horse.joints[horse.Find("LeftForeArm")].rest.translation *= 2;  // also, its proportions are not a person's
   horse.joints[horse.Find("LeftForeArm")].name = "LeftForeHoof";
   for (const char* name : {"RightUpLeg", "RightLeg", "RightFoot"}) horse.joints[horse.Find(name)].name = "Wheel";
   const auto map = FindJointMap(horse, "horse.bvh");
@@ -124,15 +124,15 @@ TEST(JointMap, ComposesTipsThatTheFileHasAtUnbelievableDistances) {
   mass.joints[mass.Find("Head_End")].rest.translation = {0, 0, 0};
   ASSERT_OK(map, FindJointMap(mass, "mass.bvh"));
   EXPECT_THAT(map->composed, ElementsAre(kLeftHand, kRightHand, kHead));
-  // In the person's own proportions they come to where the end sites were.
+  // In the person's proportions, the composed points are at the former end sites.
   const BodyPose body = BodyAtRest(mass, *map);
   ExpectNear(body[kLeftHand], {90, 137, 0});
   ExpectNear(body[kRightHand], {-90, 137, 0});
   ExpectNear(body[kHead], {0, 165, 0});
 }
 
-/// Hangs chains of one joint and its end site from both hands of the person, whose own ends they replace: names without
-/// the side, and places of the ends from the left wrist.
+/// Replaces the ends of both hands by chains of one joint and an end site. `fingers` are names without the side, and
+/// end positions from the left wrist.
 Skeleton WithFingers(const std::vector<std::pair<std::string, glm::dvec3>>& fingers) {
   Skeleton person = Without(Without(testing::PersonSkeleton(), "LeftHand_End"), "RightHand_End");
   for (const auto& [side, sign] : {std::pair("Left", 1.0), std::pair("Right", -1.0)}) {
@@ -146,7 +146,7 @@ Skeleton WithFingers(const std::vector<std::pair<std::string, glm::dvec3>>& fing
   return person;
 }
 
-/// What plays the hands, without the side; "" when a point is composed.
+/// Returns the joints that play the hands, without the side; "" for a composed point.
 std::pair<std::string, std::string> TipsOf(const Skeleton& skeleton) {
   const auto map = FindJointMap(skeleton, "person.bvh");
   EXPECT_TRUE(map) << ToString(map.error());
@@ -170,7 +170,7 @@ TEST(JointMap, TakesNoThumbForTheTipOfAHand) {
 TEST(JointMap, ChoosesAmongEquallyFarTipsAlikeOnBothSides) {
   using Both = std::pair<std::string, std::string>;
   const glm::dvec3 straight(18, 0, 0), aside(18 * 0.6, 0, 18 * 0.8);
-  // Rounding as six decimals in metres leave it, the other way round on the right.
+  // The rounding of six decimals in metres, with opposite signs on both sides.
   const auto choose = [&](const std::string& a, const std::string& b, double rounding) {
     Skeleton person = WithFingers({{a, straight}, {b, aside}});
     person.joints[person.Find("Left" + a)].rest.translation.x += rounding;
@@ -198,12 +198,12 @@ TEST(JointMap, TakesNoEyeForTheCrownOfTheHead) {
   ASSERT_OK(map, FindJointMap(daz, "daz.bvh"));
   EXPECT_EQ((*map)[Role::kHead].joint, head);
   EXPECT_THAT(map->composed, ::testing::Contains(Role::kHead));
-  // The control: straight on from the trunk it is the crown.
+  // The control: in line with the trunk the joint is the crown.
   daz.joints[crown].rest.translation = {0, 15, 0};
   EXPECT_EQ((*FindJointMap(daz, "daz.bvh"))[Role::kHead].joint, crown);
 }
 
-/// A person whose head and left foot rest turned away, and are turned back in every frame.
+/// Returns a person whose head and left foot are turned away at rest, and turned back in every frame.
 Clip TurnedAtRest(const glm::dquat& head, const glm::dquat& foot) {
   Clip clip = testing::AtRest(testing::PersonSkeleton(), 4);
   for (const auto& [joint, tip, turn] : {std::tuple("Head", "Head_End", head), {"LeftToeBase", "LeftToeBase_End", foot}}) {
@@ -229,7 +229,7 @@ TEST(JointMap, JudgesTipsInMotionWhereTheRestPoseIsNone) {
   ASSERT_OK(map, FindJointMap(clip.skeleton, "turned.bvh", nullptr, clip.frames));
   EXPECT_THAT(map->composed, ElementsAre());
   testing::ExpectThePersonsPlaces(BodyInMotion(clip, *map), 1, 1e-9);
-  // The control: by the rest pose alone the head is composed, and lies elsewhere in motion.
+  // The control: from the rest pose alone the head is composed, and is wrong in motion.
   ASSERT_OK(at_rest, FindJointMap(clip.skeleton, "turned.bvh"));
   EXPECT_GT(glm::distance(BodyInMotion(clip, *at_rest)[kHead], {0, 165, 0}), 20);
 }
@@ -245,7 +245,7 @@ TEST(JointMap, ComposesInMotionWhatTheRestPosePointsElsewhere) {
 }
 
 TEST(JointMap, IsOneForASkeletonWhoseTipsAreEndSitesOrNodes) {
-  // As CMU's converters have it: the neck lies at the chest, and nothing is called a head.
+  // As CMU's converters write it: the neck is at the chest, and no joint is called a head.
   Skeleton sites = testing::PersonSkeleton();
   sites.joints[sites.Find("Head_End")].name = "Neck1_End";
   sites.joints[sites.Find("Head")].name = "Neck1";
@@ -264,7 +264,7 @@ TEST(JointMap, IsOneForASkeletonWhoseTipsAreEndSitesOrNodes) {
 }
 
 TEST(JointMap, TakesAStandingFrameForARestPoseThatIsNone) {
-  // At rest all limbs are folded up beside the trunk; every frame unfolds them.
+  // At rest all limbs are folded beside the trunk; every frame unfolds them.
   Clip clip = testing::AtRest(testing::PersonSkeleton(), 3);
   for (const char* name : {"LeftUpLeg", "RightUpLeg"}) {
     for (const char* below : {"Leg"}) {
@@ -286,7 +286,7 @@ TEST(JointMap, ComposesFeetForwardAndASpineHalfWayWhenThereAreNone) {
   Skeleton bare = testing::PersonSkeleton();
   for (const char* name : {"LeftToeBase_End", "LeftToeBase", "RightToeBase_End", "RightToeBase"})
     bare = Without(bare, name);
-  // The chest goes: neck and collars hang from the hips.
+  // Without the chest, neck and collars hang from the hips.
   const int spine = bare.Find("Spine");
   for (Joint& joint : bare.joints) {
     if (joint.parent == spine) joint = {joint.name, 0, {.translation = joint.rest.translation + glm::dvec3(0, 20, 0)}};
@@ -310,15 +310,14 @@ TEST(JointMap, ComposedPointsTurnWithTheirJoint) {
   ExpectNear(Evaluate(*map, globals)[kLeftHand], {72, 155, 0});
 }
 
-/// The shortest turn that takes +X to `direction`.
 glm::dquat FromX(const glm::dvec3& direction) {
   const glm::dvec3 to = glm::normalize(direction);
   if (to.x < -0.999) return testing::Turn(std::numbers::pi, {0, 0, 1});
   return glm::normalize(glm::dquat(1 + to.x, glm::cross(glm::dvec3(1, 0, 0), to)));
 }
 
-/// The person in the same pose, but every joint's frame has its X along the bone to its first child:
-/// with all rotations zero, limbs lie on top of each other (LAFAN1's files are like that).
+/// Returns the person with X of every joint's frame along the bone to its first child. At zero rotations the limbs
+/// coincide, as in LAFAN1's files.
 Clip FoldedAtRest() {
   Clip clip = testing::AtRest(testing::PersonSkeleton());
   std::vector<Joint>& joints = clip.skeleton.joints;
@@ -343,7 +342,7 @@ TEST(JointMap, FindsThePersonWhoseRestPoseIsFoldedUp) {
   ExpectNear(body[kRightHand], {-90, 137, 0});
   ExpectNear(body[kLeftAnkle], {9, 5, 0});
   ExpectNear(body[kLeftFoot], {9, 0, 18});
-  // The control: at rest it really is folded, the ankle is nowhere near the floor.
+  // The control: the rest pose is folded, with the ankle far above the floor.
   EXPECT_GT(BodyAtRest(folded.skeleton, *map)[kLeftAnkle].y, 40);
 }
 
@@ -357,8 +356,8 @@ TEST(JointMap, KeepsTheHipCentreMidwayWhenTheHipsThemselvesMove) {
   ExpectNear(Evaluate(*map, globals)[kHipCentre], {1, 90, 2});
 }
 
-/// The same skeleton in the same rest pose, as exporters of glTF write it: joints' frames are turned anyhow, sizes come
-/// from a node above, meshes are nodes as well and may bear a joint's name, and there is a second root.
+/// Returns the skeleton in the same rest pose as glTF exporters write it: arbitrary joint frames, a scale in a node
+/// above, meshes as nodes that may have a joint's name, and a second root.
 Skeleton AsGltfNodes(const Skeleton& person, double scale) {
   Skeleton nodes;
   nodes.joints.push_back({.name = "Camera", .parent = -1, .rest = {}});
@@ -367,11 +366,11 @@ Skeleton AsGltfNodes(const Skeleton& person, double scale) {
                           .rest = {.translation = {0, 0, 0},
                                    .rotation = testing::Turn(-std::numbers::pi / 2, {1, 0, 0}),
                                    .scale = glm::dvec3(scale)}});
-  nodes.joints.push_back({.name = "LeftArm", .parent = 1, .rest = {}});  // a mesh
+  nodes.joints.push_back({.name = "LeftArm", .parent = 1, .rest = {}});  // a mesh node
   nodes.joints.push_back({.name = "Head", .parent = 0, .rest = {}});
   const int first = static_cast<int>(nodes.joints.size());
   const glm::dquat armature = nodes.joints[1].rest.rotation;
-  std::vector<glm::dquat> axes;  // of every joint, in the world
+  std::vector<glm::dquat> axes;  // every joint's axes in the world
   for (std::size_t i = 0; i < person.joints.size(); ++i) {
     const Joint& joint = person.joints[i];
     const glm::dquat above = joint.parent < 0 ? armature : axes[joint.parent];
@@ -405,7 +404,7 @@ TEST(JointMap, ComposesPointsInTheFrameOfTurnedAndScaledJoints) {
   ExpectNear(body[kLeftHand], {0.90, 1.37, 0});
   ExpectNear(body[kRightFoot], {-0.09, 0.05, 0.18});
   ExpectNear(body[kShoulderCentre], {0, 1.37, 0});
-  ExpectNear(body[kHead], {0, 1.37 + 0.235, 0});  // half a trunk above
+  ExpectNear(body[kHead], {0, 1.37 + 0.235, 0});  // half a trunk's length above
   ExpectNear(body[kSpine], {0, 1.15, 0});
 }
 
@@ -428,7 +427,7 @@ TEST(JointMap, TakesFeetThatHangFromControlsInsteadOfTheLegs) {
   EXPECT_THAT(map->composed, ElementsAre(kLeftFoot, kRightFoot)) << "what hangs from a control is no foot";
   ExpectNear(BodyAtRest(rig, *map)[kLeftAnkle], {9, 5, 0});
   ExpectNear(BodyAtRest(rig, *map)[kLeftFoot], {9, 5, 18});
-  // The control: another leg is no control.
+  // The control: an exchanged leg is not accepted.
   Skeleton crossed = testing::PersonSkeleton();
   crossed.joints[crossed.Find("RightFoot")].parent = crossed.Find("LeftLeg");
   EXPECT_EQ(testing::Message(FindJointMap(crossed, "crossed.glb")),
@@ -453,7 +452,7 @@ TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
 
 TEST(JointMap, RefusesATaughtHeadOrSpineThatIsPartOfALimb) {
   Skeleton person = testing::PersonSkeleton();
-  person.joints[person.Find("Neck")].name = "Giraffe";  // without it, no neck is there for the head to hang from
+  person.joints[person.Find("Neck")].name = "Giraffe";  // the head needs a neck to hang from
   for (const auto& [role, joint] : {std::pair(kHead, "RightLeg"), std::pair(kSpine, "LeftUpLeg")}) {
     const JointMapOverrides taught{{{role, {joint, {}}}}};
     EXPECT_EQ(testing::Message(FindJointMap(person, "person.bvh", &taught)),

@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-/// Two arms of two joints on a root, and the rest transform of the first one's tip.
+/// Returns two arms of two joints on a root; `tip` is the rest transform of the first arm's tip.
 Skeleton TwoArms(const LocalTransform& tip = {}) {
   Skeleton skeleton;
   for (const auto& [name, parent] : {std::pair{"root", -1}, {"a", 0}, {"a tip", 1}, {"b", 0}, {"b tip", 3}}) {
@@ -30,7 +30,7 @@ TEST(SkeletonTree, KnowsWhoHangsFromWhom) {
 }
 
 TEST(SkeletonTree, GivesPointsInTheFrameOfAJoint) {
-  // The tip stands at (1, 2, 0) + (2, 0, 0), turned by a quarter about Z, twice as large along its own X.
+  // The tip is at (1, 2, 0) + (2, 0, 0), turned by 90° about Z, and scaled by 2 along its own X.
   const LocalTransform tip{.translation = {2, 0, 0},
                            .rotation = glm::angleAxis(0.5 * 3.14159265358979, glm::dvec3(0, 0, 1)),
                            .scale = {2, 1, 1}};

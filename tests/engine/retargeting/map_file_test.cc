@@ -31,7 +31,6 @@ TEST(JointMapFile, MayTellUnitUpAndRateAlone) {
   EXPECT_EQ(ReadJointMapFile("unit: 0.25\n", "map.yaml")->metres_per_unit, 0.25);
 }
 
-// What is said of a file, or of its map of a person's joints.
 TEST(JointMapFile, ComplainsWhereItIsWrong) {
   const auto map = [](const std::string& text) -> Result<JointMap> {
     ASSIGN_OR_RETURN(const auto taught, ReadJointMapFile(text, "map.yaml"));

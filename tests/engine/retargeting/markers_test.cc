@@ -17,7 +17,7 @@ using ::testing::Not;
 
 constexpr std::size_t kTakeFrames = 40;
 
-/// Somebody who stands, facing +Z, and sways; metres, Y up.
+/// Returns a person who stands, faces +Z and sways; metres, Y up.
 BodyPose StandingAt(std::size_t frame) {
   const double sway = 0.01 * static_cast<double>(frame);
   BodyPose pose;
@@ -40,7 +40,7 @@ BodyPose StandingAt(std::size_t frame) {
   return pose;
 }
 
-/// A marker: its name, and its place beside that of a role.
+/// A marker: its name, and its offset from a role's position.
 struct Placed {
   std::string name;
   Role role;
@@ -56,7 +56,7 @@ MarkerMotion Take(const std::vector<Placed>& markers) {
   return take;
 }
 
-/// The same with a right twin, "R…", of every left marker, "L…".
+/// Returns the take with a right twin, "R…", of every left marker, "L…".
 MarkerMotion TakeOfBothSides(std::vector<Placed> markers) {
   for (std::size_t i = 0, count = markers.size(); i < count; ++i) {
     const auto [name, role, off] = markers[i];
@@ -89,7 +89,7 @@ TEST(Markers, OfOurOwnNamesAreTheJointsAsTheyWereWritten) {
   EXPECT_EQ(bodies->front().motion.poses.size(), kTakeFrames);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the floor included";
   EXPECT_EQ(bodies->front().Note(), "Etude's joints");
-  // Half a metre off the floor and more is moved, and said; --keep-floor leaves it.
+  // A body half a metre or more above the floor is moved, with a note; --keep-floor keeps it.
   MarkerMotion take = OwnJoints();
   for (auto& frame : take.frames) {
     for (auto& place : frame) place->y += 0.7;
@@ -100,7 +100,7 @@ TEST(Markers, OfOurOwnNamesAreTheJointsAsTheyWereWritten) {
   EXPECT_NEAR(kept->front().motion.poses[0][Role::kHipCentre].y, 1.6, 1e-12);
 }
 
-/// The markers of a pose estimator for a motion; `turn` brings Y up to the file's axis.
+/// Returns a pose estimator's markers for a motion; `turn` maps Y up to the file's axis.
 MarkerMotion Keypoints(
     const std::vector<BodyPose>& poses,
     const std::function<glm::dvec3(glm::dvec3)>& turn = [](glm::dvec3 p) { return p; }) {
@@ -120,7 +120,7 @@ MarkerMotion Keypoints(
   return take;
 }
 
-/// Moves joints about a little, as people who rest do.
+/// Moves joints slightly, as in people at rest.
 BodyPose Stirred(BodyPose pose, std::size_t frame) {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     pose.joints[i].x += 0.01 * std::sin(0.2 * static_cast<double>(frame) + static_cast<double>(i));
@@ -128,7 +128,7 @@ BodyPose Stirred(BodyPose pose, std::size_t frame) {
   return pose;
 }
 
-/// On the back, the head along −Z, the heels on the floor and the knees a little bent.
+/// On the back, head along −Z, heels on the floor, knees slightly bent.
 BodyPose Lying(std::size_t frame) {
   BodyPose pose = StandingAt(0);
   for (glm::dvec3& joint : pose.joints) joint = {joint.x, 0.1 + joint.z, -joint.y};
@@ -139,7 +139,6 @@ BodyPose Lying(std::size_t frame) {
   return Stirred(pose, frame);
 }
 
-/// On hands and knees, along +Z.
 BodyPose Crawling(std::size_t frame) {
   using enum Role;
   BodyPose pose;
@@ -175,10 +174,9 @@ BodyPose OnHands(std::size_t frame) {
   return Stirred(pose, frame);
 }
 
-/// Walks along X: the feet take turns to stand.
 BodyPose Walking(std::size_t frame) {
   BodyPose pose = StandingAt(0);
-  const double t = 0.05 * static_cast<double>(frame);  // steps
+  const double t = 0.05 * static_cast<double>(frame);  // position in the walk, steps
   for (glm::dvec3& joint : pose.joints) joint = {joint.z, joint.y, -joint.x};
   for (glm::dvec3& joint : pose.joints) joint.x += 0.6 * t;
   for (const bool is_left : {true, false}) {
@@ -202,7 +200,7 @@ std::vector<BodyPose> Frames(BodyPose (*posture)(std::size_t), std::size_t count
 glm::dvec3 ZUp(glm::dvec3 p) { return {p.x, -p.z, p.y}; }
 glm::dvec3 YUp(glm::dvec3 p) { return p; }
 
-/// The farthest that hips and head are off, heights above the lowest joint.
+/// Returns the largest height error of hips and head, above the lowest joint.
 double OffUp(const MarkerBody& body, const std::vector<BodyPose>& wanted) {
   double off = 0;
   for (std::size_t t = 0; t < wanted.size(); ++t) {
@@ -238,7 +236,7 @@ TEST(MarkersUp, OfPeopleWhoLieCrawlOrStandOnTheirHandsIsTheFormatsAxis) {
 }
 
 TEST(MarkersUp, OfPeopleWithRaisedArmsInAFileWhoseAxesPointDownIsNotThatOfAHandstand) {
-  // Arms wave above the head: if Y was up, neither hands nor anything else would stay on a floor.
+  // The arms wave above the head: if Y were up, nothing would stay on a floor.
   const auto waving = [](std::size_t t) {
     BodyPose pose = StandingAt(t);
     const glm::dvec3 up(0.1 * std::sin(0.3 * static_cast<double>(t)), 0.25, 0);
@@ -265,7 +263,7 @@ TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
   EXPECT_THAT(control, Not(HasSubstr("as far away")));
   EXPECT_THAT(control, Not(HasSubstr("several")));
   EXPECT_THAT(control, Not(HasSubstr("backwards")));
-  // A number such as -9999 that stands for a gap must not move the floor.
+  // A gap marked by a number such as -9999 must not move the floor.
   MarkerMotion far = markers;
   for (std::size_t t = 10; t < 14; ++t) far.frames[t].front() = glm::dvec3(-9999);
   EXPECT_THAT(changes(far), HasSubstr("4 positions a hundred times as far away as the others taken as gaps"));
@@ -352,7 +350,7 @@ TEST(MarkersUp, OfPeopleWhoLieAndThenStandIsTheAxisThatKeepsTheFloor) {
   std::vector<BodyPose> poses = Frames(Lying, 80);
   for (std::size_t t = 0; t < 20; ++t) poses.push_back(StandingAt(0));
   const auto trc = FindMarkerBodies(Keypoints(poses), "a.trc", {.up = TrcUp()});
-  // With Z up the head lies along −Y, so that nothing but the floor tells.
+  // With Z up the head lies along −Y, so only the floor shows the axis.
   const auto turned = [](glm::dvec3 p) { return ZUp({-p.x, p.y, -p.z}); };
   const auto zup = FindMarkerBodies(Keypoints(poses, turned), "a.trc", {.up = TrcUp()});
   ASSERT_TRUE(trc && zup);
@@ -410,7 +408,7 @@ TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
   }
   for (const auto& [role, name] : markers) {
     take.names.emplace_back(name);
-    // The shoulders' markers sit above them, by 13.5 % of the length from marker to elbow.
+    // Shoulder markers are above the joints, by 13.5 % of the length from marker to elbow.
     const double above = role == kLeftShoulder || role == kRightShoulder ? 0.0469 : 0;
     for (std::size_t t = 0; t < poses.size(); ++t)
       take.frames[t].emplace_back(poses[t][role] + glm::dvec3(0, above, 0));
@@ -477,7 +475,7 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
 }
 
 TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
-  // Front markers at (±a, h, f), back markers at (±b, h, −f): the regression of Harrington et al. by hand.
+  // Front markers at (±a, h, f), back markers at (±b, h, −f): Harrington's regression by hand.
   using enum Role;
   const double a = 0.12, f = 0.07, h = 0.0829, back = -0.0265;
   MarkerMotion take = TakeOfBothSides({{"LFHD", kHead, {0.07, 0, 0.09}},

@@ -14,7 +14,7 @@ namespace {
 
 using enum Role;
 
-/// The person of person.h in centimetres, whose elbows, knees and second neck joint move, and nothing else.
+/// Returns the person of person.h in centimetres; only elbows, knees and the second neck joint move.
 Clip Moving() {
   Clip clip = testing::AtRest(testing::PersonSkeleton(), 20);
   for (std::size_t k = 0; k < clip.frames.size(); ++k) {
@@ -70,13 +70,13 @@ TEST(MeasureBody, IsMadeOfTheRolesWhereTheyDoNotHangOnTheHips) {
   auto map = FindJointMap(clip.skeleton, "person.bvh");
   ASSERT_OK(conversion, ToBodyMotion(clip, *map, "person.bvh"));
   EXPECT_EQ(MeasureBody(clip, *map, *conversion).joints.front().name, "Hips");
-  map->points[Index(kHipCentre)].joint = clip.skeleton.Find("LeftLeg");  // hips that carry a shank, and nothing else
+  map->points[Index(kHipCentre)].joint = clip.skeleton.Find("LeftLeg");  // hips that carry only a shank
   const RestBody roles = MeasureBody(clip, *map, *conversion);
   EXPECT_EQ(roles.joints.front().name, "hip_centre");
   EXPECT_EQ(roles.joints.size(), RestBodyOf(conversion->motion.poses).joints.size());
 }
 
-// A joint that is always bent by the same angle is no joint, and the body at rest is bent there.
+// A joint whose angle never changes is rigid, and the measured body keeps this angle.
 TEST(MeasureBody, KeepsWhatAlwaysStaysAsItIs) {
   Clip clip = Moving();
   const int toe = clip.skeleton.Find("LeftToeBase");

@@ -18,7 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// What a scheme calls PersonSkeleton's joints, and how it writes whose side they are on.
+/// A scheme's names for PersonSkeleton's joints, and its notation of the side.
 struct Scheme {
   std::string scheme;
   std::string middle, left, right;     ///< '*' stands for the name
@@ -29,7 +29,6 @@ struct Scheme {
 
 std::string Filled(std::string pattern, const std::string& name) { return pattern.replace(pattern.find('*'), 1, name); }
 
-/// PersonSkeleton under other names.
 Skeleton Named(const Scheme& scheme) {
   Skeleton person = testing::PersonSkeleton();
   const auto rename = [&](const std::string& from, const std::string& to) {
@@ -38,7 +37,7 @@ Skeleton Named(const Scheme& scheme) {
       if (joint.name == from + "_End") joint.name = to + "_End";
     }
   };
-  // Through numbers, since one scheme's names are another's for other joints.
+  // First to numbers, because a scheme may use another scheme's name for a different joint.
   constexpr std::array kTrunk = {"Hips", "Spine", "Neck", "Head"};
   constexpr std::array kArm = {"Shoulder", "Arm", "ForeArm", "Hand"};
   constexpr std::array kLeg = {"UpLeg", "Leg", "Foot", "ToeBase"};
@@ -84,7 +83,7 @@ TEST_P(NamingSchemes, AreRefusedWithoutAKneeWhereTheBuildDoesNotTellIt) {
   EXPECT_THAT(testing::Message(map), ::testing::HasSubstr("'Stump'"));
 }
 
-// Scheme by scheme, sixteen words each, in the order of `Scheme`.
+// The schemes: sixteen words each, in the order of `Scheme`.
 constexpr std::string_view kSchemes =
     R"(MmdInEnglish|*|*_L|*_R|center|upper body|neck|head|shoulder|arm|elbow|wrist|leg|knee|ankle|toe
 HelpersNamedHipAndShoulder|*|Left*|Right*|Pelvis|Chest|Neck|Head|Shoulder|UpperArm|Elbow|Wrist|Thigh|Knee|Ankle|Toe

@@ -27,7 +27,7 @@ namespace {
 using enum Role;
 using ::testing::HasSubstr;
 
-/// The values of each row of a .mot, by the names of its columns.
+/// Returns the values of each row of a .mot by column name.
 std::vector<std::map<std::string, double>> RowsOf(const std::string& mot) {
   std::istringstream text(mot.substr(mot.find("\nendheader\n") + 11));
   std::string line, word;
@@ -112,7 +112,7 @@ TEST(OpenSimMotion, RowsThatAreMissingAreGapsOfTheirLength) {
   ASSERT_OK(move, LoadBuiltinMove("boxing"));
   std::istringstream text(WriteOpenSimMotion(move->motion, StandingPose(), "boxing"));
   std::string all;
-  int row = -1;  // 0 is the line of headings
+  int row = -1;  // row 0 holds the headings
   for (std::string line; std::getline(text, line);) {
     if (row >= 0 || line.starts_with("time")) ++row;
     if (row <= 20 || row > 35) all += line + "\n";
@@ -122,7 +122,7 @@ TEST(OpenSimMotion, RowsThatAreMissingAreGapsOfTheirLength) {
   ASSERT_EQ(read->poses.size(), move->motion.poses.size());
   EXPECT_THAT(note, HasSubstr("by their times, 15 of"));
   EXPECT_LT(glm::distance(read->poses[40][kLeftWrist], move->motion.poses[40][kLeftWrist]), 1e-5);
-  // In the gap joints go straight.
+  // Within a gap, joints move linearly.
   const glm::dvec3 a = move->motion.poses[19][kLeftWrist], b = move->motion.poses[35][kLeftWrist];
   EXPECT_LT(glm::distance(read->poses[27][kLeftWrist], 0.5 * (a + b)), 1e-5);
 }
@@ -144,7 +144,7 @@ TEST(BodyNpz, ReadsBackWhereTheJointsWere) {
   ASSERT_OK(read, BodyOf(ReadRawNpz(*arrays, "a.npz").value()));
   EXPECT_EQ(read->rate_hz, move->motion.rate_hz);
   EXPECT_LT(WorstJointDistance(*read, move->motion), 1e-12);
-  // The turns and translations lead to the same places, parent by parent.
+  // The rotations and translations give the same positions, parent by parent.
   const auto& turns = arrays->arrays.at("rotations").values;
   const auto& shifts = arrays->arrays.at("translations").values;
   for (std::size_t f = 0; f < read->poses.size(); f += 9) {
@@ -245,7 +245,7 @@ TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
   EXPECT_EQ(moved.values[2], -3);
   EXPECT_EQ(std::vector<double>(&moved.values[213], &moved.values[216]), (std::vector<double>{1.25, -0.5, -4}));
   EXPECT_FALSE(JointsOfSam({}));
-  // The same joints as a bare array: the body stands on its head, unless Y is told to be up.
+  // The same joints as a bare array: the body stands on its head unless Y is declared up.
   NumberArray bare{.shape = {4, 70, 3}, .values = std::vector<double>(840, 0.0)};
   for (std::size_t i = 0; i < 280; ++i) {
     const auto joint = JointsOfLayout("mhr70", 70)[i % 70];
@@ -257,7 +257,7 @@ TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
   EXPECT_EQ((*turned->frames[2][5]), glm::dvec3(0, 1.4, -3));
   EXPECT_THAT(note, HasSubstr("as in a camera's frame"));
   EXPECT_EQ((*JointsOfArray(bare, std::nullopt, "a.npy", note, UpAxis::kY)->frames[2][5]), glm::dvec3(0, -1.4, 3));
-  // The layouts' places, as their authors list them.
+  // The joints' indices as the layouts' authors list them.
   const auto keypoints = JointsOfLayout("mhr70", 70), whole = JointsOfLayout("mhr", 127);
   EXPECT_EQ(keypoints[15] + keypoints[50] + keypoints[41] + keypoints[69], "left_footleft_handright_wristshoulder_centre");
   EXPECT_EQ(whole[2] + whole[20] + whole[42] + whole[126], "left_hipright_ankleright_wristhead");
@@ -285,7 +285,7 @@ TEST(BodyNpz, TakesJointsByTheirNamesInAnyOrder) {
 TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
   const Npz metres = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();
-  /// The positions in another unit, turned from Y up to Z up if asked.
+  /// Returns the positions in another unit, with Z up if asked.
   const auto written = [&](double unit, bool is_z_up, const std::string& unit_text, const std::string& up) {
     Npz arrays = metres;
     std::vector<double>& values = arrays.arrays.at("positions").values;
@@ -306,13 +306,13 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   };
   EXPECT_LT(off(metres), 1e-12);
   EXPECT_THAT(ReadRawNpz(metres, "a.npz")->notes, ::testing::IsEmpty());
-  // The file's keys.
+  // The unit is a key of the file.
   for (const auto& [text, unit] : {std::pair("cm", 0.01), {"mm", 0.001}, {"in", 0.0254}, {"0.5", 0.5}}) {
     EXPECT_LT(off(written(unit, false, text, "")), 1e-9) << text;
     EXPECT_LT(off(written(unit, true, text, "Z")), 1e-9) << text;
     EXPECT_LT(off(written(unit, true, "", ""), {.metres_per_unit = unit, .up = UpAxis::kZ}), 1e-9) << text;
   }
-  // Without them, a body of 170 m is one in centimetres, and that is said; 17 m is refused.
+  // Without a key, a body of 170 m is read as centimetres, with a note; 17 m is refused.
   for (const double unit : {0.01, 0.001}) {
     for (const char* said : {"", "m"}) {
       const Npz arrays = written(unit, false, said, "");
@@ -324,12 +324,12 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   EXPECT_THAT(testing::Refusal(ReadRawNpz(written(0.1, false, "", ""), "a.npz")), HasSubstr("allowed: at most 4"));
   EXPECT_THAT(testing::Refusal(ReadRawNpz(written(1, false, "ell", ""), "a.npz")), HasSubstr("'ell' is not a unit"));
   EXPECT_THAT(testing::Refusal(ReadRawNpz(written(1, false, "", "x"), "a.npz")), HasSubstr("allowed: y, z"));
-  // A missing rate.
+  // The rate is missing.
   Npz timeless = metres;
   timeless.arrays.erase("rate_hz");
   EXPECT_THAT(testing::Refusal(ReadRawNpz(timeless, "a.npz")), HasSubstr("without rate_hz, the frames per second"));
   EXPECT_EQ(ReadRawNpz(timeless, "a.npz", {.rate_hz = 50})->rate_hz, 50);
-  // A camera's frame: Y down, Z forwards.
+  // A camera's axes: Y down, Z forward.
   Npz seen = metres;
   for (std::size_t i = 0; i < seen.arrays.at("positions").values.size(); ++i) {
     if (i % 3 != 0) seen.arrays.at("positions").values[i] *= -1;
@@ -338,14 +338,14 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   EXPECT_LT(off(seen), 1e-12);
   EXPECT_THAT(ReadRawNpz(seen, "a.npz")->notes, ::testing::ElementsAre(HasSubstr("as in a camera's frame")));
   EXPECT_THAT(ReadRawNpz(seen, "a.npz", {.up = UpAxis::kY})->notes, ::testing::IsEmpty());
-  // An axis along which the body lies or stands on its head is doubted, though the file tells it.
+  // A declared up axis along which the body lies or stands on its head is doubted.
   for (const auto& [up, said] : {std::pair("z", "lies along the floor"), {"y", "lies along the floor"}}) {
     EXPECT_THAT(ReadRawNpz(written(1, *up == 'y', "", up), "a.npz")->notes,
                 ::testing::Contains(HasSubstr(fmt::format("by the file's `up: {}`, the body {}", up, said))));
   }
   seen.texts["up"] = {"y"};
   EXPECT_THAT(ReadRawNpz(seen, "a.npz")->notes, ::testing::ElementsAre(HasSubstr("stands on its head")));
-  // Z up, which nobody tells: it may lie.
+  // Z up, undeclared: the body may lie.
   EXPECT_THAT(ReadRawNpz(written(1, true, "", ""), "a.npz")->notes, ::testing::ElementsAre(HasSubstr("lies along Z")));
 }
 
@@ -357,7 +357,7 @@ TEST(BodyNpz, IsMeasuredWithoutABallAndLeftInNoUnitThatMakesItTiny) {
   EXPECT_LT(WorstJointDistance(*BodyOf(*tiny), motion), 1e-12);
   EXPECT_THAT(tiny->notes,
               ::testing::ElementsAre(HasSubstr("1 unit = 100 cm: in units of 0.1 m the joints extend 0.1")));
-  // A ball five metres away is no part of the body.
+  // A ball five metres away does not belong to the body.
   arrays.texts.erase("unit");
   NumberArray& positions = arrays.arrays.at("positions");
   NumberArray with_ball{.shape = {positions.shape[0], kRoleCount + 1, 3}, .values = {}};
@@ -371,7 +371,7 @@ TEST(BodyNpz, IsMeasuredWithoutABallAndLeftInNoUnitThatMakesItTiny) {
   ASSERT_OK(raw, ReadRawNpz(arrays, "a.npz"));
   EXPECT_THAT(raw->notes, ::testing::IsEmpty());
   EXPECT_EQ(raw->At(0, kRoleCount), glm::dvec3(5, 0.1, 5));
-  // Two hands of 42 points together do not make head and feet strays.
+  // Two hands with 42 points in one place do not make head and feet outliers.
   std::vector<glm::dvec3> hands;
   for (int i = 0; i < 42; ++i) hands.emplace_back(0.001 * i, 1, 0.3);
   for (int i = 0; i < 28; ++i) hands.emplace_back(0, 1.7 * i / 27, 0);
@@ -400,7 +400,7 @@ TEST(BodyNpz, OnItsHandsStaysAHandstandAndAFootAlwaysAtZeroIsNotSeen) {
   const auto joints = JointsOfArray(arrays.arrays.at("positions"), std::nullopt, "a.npy", note);
   EXPECT_LT(glm::distance(*joints->frames[3][0], motion.poses[3].joints[0]), 1e-12);
   EXPECT_THAT(note, HasSubstr("on its hands"));
-  // A foot at 0, 0, 0.
+  // One foot is at (0, 0, 0), which marks a gap.
   std::vector<double>& values = arrays.arrays.at("positions").values;
   for (std::size_t at = 3 * Index(kLeftFoot); at < values.size(); at += 3 * kRoleCount) {
     for (std::size_t axis = 0; axis < 3; ++axis) values[at + axis] = 0;
@@ -430,7 +430,7 @@ TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   Npz twice = arrays;
   twice.texts["names"][3] = twice.texts["names"][2];
   EXPECT_THAT(testing::Refusal(ReadRawNpz(twice, "a.npz")), HasSubstr("twice"));
-  // Names that cannot be read are not the twenty.
+  // Unreadable names are not the twenty roles.
   Npz pickled = arrays;
   pickled.texts.erase("names");
   std::erase(pickled.skipped, "names");

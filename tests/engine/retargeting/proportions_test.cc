@@ -19,7 +19,7 @@ namespace {
 
 using enum Role;
 
-/// Longer legs, shorter arms, a short trunk: nobody's uniform scaling.
+/// Longer legs, shorter arms and a short trunk: not a uniform scale.
 BodyPose Lanky() {
   const BodyPose standing = StandingPose();
   BodyPose body;
@@ -53,8 +53,8 @@ double WorstLength(const BodyMotion& motion, const BodyPose& body) {
   return worst;
 }
 
-/// Metres that the fastest joint moves into the frame. Hands aside: those of files end anywhere from wrist to finger
-/// tips, so that a new hand can be three times as long and fast.
+/// Returns the distance (m) of the fastest joint's step into a frame, without hands: files end hands anywhere from
+/// wrist to finger tips, so a new hand may be three times as long and fast.
 double FastestStep(const BodyMotion& motion, std::size_t frame) {
   double fastest = 0;
   for (const Role role : AllRoles()) {
@@ -64,8 +64,8 @@ double FastestStep(const BodyMotion& motion, std::size_t frame) {
   return fastest;
 }
 
-/// Metres that toes near the floor travel along it, both feet, all frames. Heights as shares of `stature`, so that
-/// bodies of any size are asked about the same moments.
+/// Returns the distance (m) that toes near the floor travel along it, over both feet and all frames. Heights are shares
+/// of `stature`, so that bodies of any size use the same moments.
 double Slide(const BodyMotion& motion, double stature) {
   double slide = 0;
   for (const Role foot : {kLeftFoot, kRightFoot}) {

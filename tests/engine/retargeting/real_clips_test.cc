@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 struct RealClip {
-  const char* file;  // of Debian's assimp-testmodels
+  const char* file;  // from Debian's assimp-testmodels
   std::size_t frames;
   double rate_hz;
   double metres_per_unit;
@@ -61,7 +61,7 @@ TEST_P(RealClips, ComeBackFromWritingToThePrintedPrecision) {
                                 std::min(glm::length(a.rotation - b.rotation), glm::length(a.rotation + b.rotation)));
     }
   }
-  // Half a unit of the sixth decimal per number, three numbers; degrees become half radians.
+  // Half a unit of the sixth decimal for three numbers; degrees become half radians.
   EXPECT_LT(worst_translation, 0.9e-6);
   EXPECT_LT(worst_rotation, 3 * 0.5e-6 * (std::numbers::pi / 180) / 2);
 }
@@ -79,7 +79,7 @@ TEST_P(RealClips, BecomePeopleOfCommonHeightWithTheirFeetOnTheFloor) {
     EXPECT_GT(lowest, -0.08);
     if (lowest < 0.06) ++on_floor;
   }
-  // 01_03 climbs for half of its time.
+  // In 01_03 the person climbs half of the time.
   EXPECT_GT(on_floor, body->motion.poses.size() / 3);
 }
 
@@ -92,7 +92,7 @@ TEST_P(RealClips, KeepLeftLeft) {
     EXPECT_LT(own[kRightHip].x, -0.01);
     toes_forward += (own[kLeftFoot] - own[kLeftAnkle]).z + (own[kRightFoot] - own[kRightAnkle]).z;
   }
-  // Facing is made of hips and shoulders alone; toes are the witness that it is not mirrored.
+  // Facing comes from hips and shoulders only; toes confirm that it is not mirrored.
   EXPECT_GT(toes_forward / static_cast<double>(body->motion.poses.size()), 0.1);
 }
 

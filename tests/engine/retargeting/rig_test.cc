@@ -64,7 +64,7 @@ TEST(PoseRig, TurnsOnlyTheRootWhenTheWholeBodyMoves) {
 
 struct Hinge {
   Role joint;
-  glm::dvec3 axis;  // of the bend that elbows and knees can make
+  glm::dvec3 axis;  // axis about which elbows and knees bend
 };
 class PoseRigAtAHinge : public ::testing::TestWithParam<Hinge> {};
 
@@ -113,7 +113,7 @@ TEST_P(PoseRigAlongAMove, PutsEveryJointWhereThePoseHasIt) {
   ASSERT_OK(move, LoadBuiltinMove(GetParam()));
   for (BodyPose pose : move->motion.poses) {
     EXPECT_LT(WorstJoint(rest, pose), 1e-12);
-    // A child's limbs, unlike the rest pose's.
+    // A child's limb lengths, different from the rest pose's.
     for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] *= 0.6 + 0.01 * static_cast<double>(i);
     EXPECT_LT(WorstJoint(rest, pose), 1e-12);
   }

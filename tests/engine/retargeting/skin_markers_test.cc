@@ -13,20 +13,20 @@ namespace {
 using enum Role;
 using ::testing::HasSubstr;
 
-/// A limb in a plane: its hinge turns about `axis`, which points to the body's left.
+/// A limb in a plane; its hinge axis `axis` points to the body's left.
 struct Bent {
   glm::dvec3 upper, lower;
 };
 Bent BentBy(double swing, double bend, double sign) {
-  // Hanging, swung forward, and bent forward (arms, sign 1) or backward (legs, −1).
+  // Hanging, swung forward by an angle, then bent forward (arms, sign 1) or backward (legs, −1).
   const auto at = [](double angle) { return glm::dvec3(0, -std::cos(angle), std::sin(angle)); };
   return {at(swing), at(swing + sign * bend)};
 }
 
-/// Where the markers sit on the elbows.
+/// The place of the elbow markers.
 enum class ElbowMarker { kOutside, kPoint };
 
-/// A person who walks on the spot; the joints' centres.
+/// Returns the joint centres of a person who walks on the spot.
 JointPositions Centres(std::size_t frame) {
   const double t = 0.2 * static_cast<double>(frame);
   JointPositions at;
@@ -46,7 +46,7 @@ JointPositions Centres(std::size_t frame) {
   return at;
 }
 
-/// The same with joints at their markers, `depths` (knee, ankle, elbow, shoulder) from the centres.
+/// Moves joints to their markers; `depths` are the distances of knee, ankle, elbow and shoulder from the centres.
 JointPositions OnTheSkin(JointPositions at, const std::array<double, 4>& depths, ElbowMarker elbow) {
   for (const double side : {1.0, -1.0}) {
     const auto of = [&](Role role) -> MarkerPosition& { return at[Index(side > 0 ? role : Mirrored(role))]; };
@@ -111,7 +111,7 @@ TEST(SkinMarkers, OnTheElbowsPointAreToldByUpperArmsThatKeepTheirLength) {
 }
 
 TEST(SkinMarkers, FollowTheWandsOfThighsAndShanks) {
-  // The legs are turned outward by half a right angle and straight, so that only wands show the knees' axes.
+  // The straight legs are turned outward by 45°, so that only wands show the knee axes.
   std::vector<JointPositions> frames(10);
   std::vector<Wands> wands(10);
   const glm::dvec3 outside[] = {{std::sqrt(.5), 0, -std::sqrt(.5)}, {-std::sqrt(.5), 0, -std::sqrt(.5)}};

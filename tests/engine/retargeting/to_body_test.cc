@@ -127,8 +127,8 @@ TEST(ToBodyMotion, KeepsFirstAndLastFrameWhenTheRatesDivide) {
 TEST(ToBodyMotion, PutsTheFeetOnTheFloorAndLeavesTheRestOfThePlace) {
   Clip clip = AtRest(testing::PersonSkeleton(), 100);
   for (std::size_t i = 0; i < 100; ++i) At(clip, i, "Hips").translation = {300, 95 + 40, -200};
-  At(clip, 50, "Hips").translation.y -= 90;  // one lost frame does not lift the clip
-  At(clip, 70, "Hips").translation.y += 60;  // nor does a jump sink it
+  At(clip, 50, "Hips").translation.y -= 90;  // one bad frame does not raise the clip
+  At(clip, 70, "Hips").translation.y += 60;  // a jump does not lower it
   ASSERT_OK(body, Convert(clip));
   EXPECT_NEAR(body->motion.poses[0][kLeftFoot].y, 0, 1e-12);
   EXPECT_NEAR(body->motion.poses[0][kHipCentre].y, 0.9, 1e-12);
@@ -152,7 +152,7 @@ TEST(ToBodyMotion, TakesTheUnitThatIsGiven) {
 }
 
 TEST(ToBodyMotion, GivesToysTheStatureOfAPerson) {
-  // A head as high as the rest, short legs, 1.2 units in all.
+  // A head as high as the rest, and short legs: 1.2 units in all.
   Skeleton toy = Scaled(0.01);
   for (const char* name : {"LeftLeg", "RightLeg", "LeftFoot", "RightFoot"}) {
     toy.joints[toy.Find(name)].rest.translation *= 0.4;
@@ -166,7 +166,7 @@ TEST(ToBodyMotion, GivesToysTheStatureOfAPerson) {
 TEST(ToBodyMotion, TurnsZUpFilesUprightAndKeepsWhoFacesWhereAndWhatIsLeft) {
   Clip clip = AtRest(testing::PersonSkeleton(), 3);
   const auto expected = Convert(clip);
-  // The same in a file with Z up: (x, y, z) is written (x, −z, y).
+  // The same in a file with Z up: (x, y, z) becomes (x, −z, y).
   const glm::dquat to_z_up = Turn(kPi / 2, {1, 0, 0});
   clip.skeleton.joints[0].rest = {to_z_up * clip.skeleton.joints[0].rest.translation, to_z_up};
   for (LocalPose& frame : clip.frames) frame[0] = clip.skeleton.joints[0].rest;
@@ -177,13 +177,13 @@ TEST(ToBodyMotion, TurnsZUpFilesUprightAndKeepsWhoFacesWhereAndWhatIsLeft) {
   EXPECT_EQ(body->Note(),
             "1 unit = 1 cm (centimetre); turned upright from Z up (the axis along which it stands at rest)");
   EXPECT_LT(WorstJointDistance(body->motion.poses[2], expected->motion.poses[2]), 1e-12);
-  // Told otherwise, it lies on its back.
+  // With another declared axis it lies on its back.
   ASSERT_OK(lying, Convert(clip, {.up = UpAxis::kY}));
   EXPECT_LT(lying->motion.poses[0][kHead].y, 0.2);
 }
 
 TEST(WorldFromFile, PutsWhateverTheClipMovesWhereTheBodyIs) {
-  // Z up, in centimetres, 40 above the floor, after three frames of a T-pose.
+  // Z up, centimetres, 40 above the floor, after three T-pose frames.
   Clip clip = AtRest(testing::PersonSkeleton(), 9);
   const glm::dquat to_z_up = Turn(kPi / 2, {1, 0, 0});
   clip.skeleton.joints[0].rest = {to_z_up * clip.skeleton.joints[0].rest.translation, to_z_up};
@@ -290,7 +290,7 @@ TEST(ToBodyMotion, TellsOfKneesThatOverstretchAsDepthSensorsDo) {
       for (const char* side : {"Left", "Right"}) {
         At(clip, 0, side + std::string("Leg")).rotation = Turn(-Radians(degrees), {1, 0, 0});
       }
-      // Arms that hang: forearms forward are as people's.
+      // Arms hang, and forearms bend forward as people's do.
       At(clip, 0, "LeftForeArm").rotation = Turn(-0.3 * elbows, {0, 1, 0});
       At(clip, 0, "RightForeArm").rotation = Turn(0.3 * elbows, {0, 1, 0});
       const auto body = Convert(clip);
@@ -308,8 +308,7 @@ TEST(ToBodyMotion, BelievesArmsBeforeTheBodyAndNoneBehindIt) {
   for (Joint& joint : bare.joints) {
     if (joint.name.ends_with("ToeBase") || joint.name.ends_with("ToeBase_End")) joint.rest.translation = {0, 0, 0};
   }
-  // Straight arms, raised forwards or backwards, over knees that a sensor overstretches, by 40° in a fifth of the
-  // frames.
+  // Straight arms raised forwards or backwards, and knees overstretched by 40° in a fifth of the frames.
   for (const double raised : {1.2, -1.2}) {
     for (const double degrees : {0.0, 20.0}) {
       Clip clip = AtRest(bare, 10);
@@ -408,7 +407,7 @@ TEST(ToBodyMotion, RefusesASkeletonThatCollapsesInMotion) {
   }
   EXPECT_THAT(testing::Message(Convert(clip)),
               HasSubstr("4 of its 8 limbs have no length (left_shoulder to left_elbow"));
-  // The control: one limb may be lost.
+  // The control: one limb may be missing.
   for (std::size_t f = 0; f < 3; ++f) {
     At(clip, f, "RightForeArm").translation = {-29, 0, 0};
     At(clip, f, "LeftLeg").translation = At(clip, f, "RightLeg").translation = {0, -43, 0};
@@ -425,7 +424,7 @@ TEST(ToBodyMotion, SaysEveryChangeByItself) {
 }
 
 TEST(ToBodyMotion, TakesTheFormatsAxisBeforePostureAndTheUsersBeforeBoth) {
-  // Somebody of a format with Z up who lies along Y, on the back: posture alone has it stand.
+  // A person lying on the back along Y in a format with Z up; posture alone would make this person stand.
   Clip lying = AtRest(testing::PersonSkeleton(), 5);
   ASSERT_OK(of_format, Convert(lying, {.up_rule = AmassUp()}));
   EXPECT_EQ(of_format->found_up.evidence, UpEvidence::kFormat);
@@ -436,15 +435,15 @@ TEST(ToBodyMotion, TakesTheFormatsAxisBeforePostureAndTheUsersBeforeBoth) {
   EXPECT_GT(told->motion.poses[0][kHead].y, 1.6);
 }
 
-/// Walks along +Z on stiff legs: the standing foot stays where it is.
+/// Walks along +Z on stiff legs: the standing foot stays in place.
 Clip StiffWalk(double root_factor) {
-  constexpr double kLeg = 85, kStep = 0.35;  // centimetres, radians to either side
-  constexpr std::size_t kFrames = 15;        // of a step
+  constexpr double kLeg = 85, kStep = 0.35;  // centimetres; radians to either side
+  constexpr std::size_t kFrames = 15;        // frames of a step
   Clip clip = AtRest(testing::PersonSkeleton(), 90);
   for (std::size_t f = 0; f < clip.frames.size(); ++f) {
     LowerArms(clip, f);
     const double part = static_cast<double>(f % kFrames) / kFrames;
-    const double lean = std::asin(std::sin(kStep) * (2 * part - 1));  // of the standing leg, backwards
+    const double lean = std::asin(std::sin(kStep) * (2 * part - 1));  // backward lean of the standing leg
     const bool is_left = f / kFrames % 2 == 0;
     At(clip, f, is_left ? "LeftUpLeg" : "RightUpLeg").rotation = Turn(lean, {1, 0, 0});
     At(clip, f, is_left ? "RightUpLeg" : "LeftUpLeg").rotation = Turn(-lean, {1, 0, 0});
@@ -460,7 +459,7 @@ TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
     ASSERT_OK(body, Convert(StiffWalk(factor)));
     EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions are {}", said))));
   }
-  // A statue that glides tells nothing, but not at a hundred metres a second.
+  // A gliding statue is no reason for doubt, except at a hundred metres a second.
   Clip glides = AtRest(testing::PersonSkeleton(), 60);
   for (std::size_t f = 0; f < 60; ++f) At(glides, f, "Hips").translation.z = 5.0 * static_cast<double>(f);
   EXPECT_THAT(Convert(glides)->doubts, ::testing::IsEmpty());

@@ -28,7 +28,7 @@ inline BodyPose MirrorImage(const BodyPose& pose) {
   return mirrored;
 }
 
-/// Returns a body that stands with straight legs and the toes straight ahead, so that all hinges lie along X.
+/// Returns a body that stands with straight legs and toes ahead, so that all hinges lie along X.
 inline BodyPose AtAttention() {
   BodyPose pose = StandingPose();
   for (const Role hip : {Role::kLeftHip, Role::kRightHip}) {

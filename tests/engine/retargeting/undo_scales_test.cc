@@ -11,7 +11,6 @@ namespace {
 
 using testing::AtRest;
 
-/// A person with `factor` units to the centimetre.
 Skeleton PersonTimes(double factor) {
   Skeleton person = testing::PersonSkeleton();
   for (Joint& joint : person.joints) joint.rest.translation *= factor;
@@ -50,7 +49,7 @@ TEST(UndoScales, LeavesClipsAsTheyAreThatArePeopleOrThatNoScaleMadeSo) {
   EXPECT_TRUE(stays({alike}));
   EXPECT_TRUE(stays({stretched, standing})) << "one clip of a file";
   EXPECT_TRUE(stays({toy})) << "the rest pose is no person";
-  Clip longer = standing;  // by its joints' places
+  Clip longer = standing;  // lengthened by the joints' positions
   for (LocalPose& frame : longer.frames) {
     for (LocalTransform& local : frame) local.translation *= 2;
   }

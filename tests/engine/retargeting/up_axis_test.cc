@@ -17,10 +17,8 @@ BodyPose Turned(BodyPose pose, double radians, const glm::dvec3& axis, const glm
   return pose;
 }
 
-/// Standing along Z, facing −Y.
 BodyPose StandingAlongZ(const glm::dvec3& shift = {}) { return Turned(Standing(), kPi / 2, {1, 0, 0}, shift); }
 
-/// A folded rest pose: neither along Y nor Z.
 BodyPose Folded() { return Turned(Standing(), kPi / 2, {0, 0, 1}); }
 
 UpAxis FindUpAxis(const BodyPose& rest, std::span<const BodyPose> poses) {
@@ -42,7 +40,7 @@ TEST(UpAxis, IsWhatTheRestPoseStandsAlongUnlessTheBodyMovesOtherwise) {
 TEST(UpAxis, OfABodyThatTravelsStandingAlongZIsZ) {
   const std::vector<BodyPose> walk = {StandingAlongZ(), StandingAlongZ({0, -60, 0}), StandingAlongZ({0, -120, 0})};
   EXPECT_EQ(FindUpAxis(Standing(), walk), UpAxis::kZ);
-  // The control: whoever lies along Z may creep along Z.
+  // The control: a person lying along Z may creep along Z.
   const std::vector<BodyPose> creep = {StandingAlongZ(), StandingAlongZ({0, 0, 60}), StandingAlongZ({0, 0, 120})};
   EXPECT_EQ(FindUpAxis(Standing(), creep), UpAxis::kY);
 }

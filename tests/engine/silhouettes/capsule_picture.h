@@ -30,9 +30,8 @@ inline TreeState Bent(const SilhouetteBody& body, const std::vector<Bend>& bends
   return state;
 }
 
-/// A ball in a camera's view.
 struct SeenBall {
-  glm::dvec3 centre;  ///< position relative to the camera, in world axes, metres
+  glm::dvec3 centre;  ///< from the camera, in the world's axes, metres
   double radius;
 
   bool IsMetBy(const glm::dvec3& ray) const {
@@ -41,13 +40,12 @@ struct SeenBall {
   }
 };
 
-/// Computes by ray casting the mask of capsules in a pinhole camera: a pixel is set if the ray through its centre comes
-/// nearer to some capsule's axis than the capsule's radius there. Shares only the body's description with the tested
-/// code.
+/// Ray casts the mask of capsules in a pinhole camera: a pixel is set if the ray through its centre passes some
+/// capsule's axis at less than its radius. Only the body's description is shared with the tested code.
 inline Mask RayCast(const SilhouetteBody& body, const TreeState& state, const Camera& camera, double thickness = 1) {
   const TreeFrames frames = ComputeFrames(body.tree, state);
   struct Limb {
-    SeenBall around;                 ///< ball around the whole limb: a ray that misses it misses the limb
+    SeenBall around;                 ///< bounds the whole limb: a ray that misses it misses the limb
     std::array<SeenBall, 13> balls;  ///< balls along the axis
   };
   std::vector<Limb> limbs;

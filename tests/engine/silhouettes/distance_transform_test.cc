@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// Pixels set by a small congruential generator: about one in `one_in`.
+// Sets about one pixel in `one_in` by a small congruential generator.
 Mask Scattered(int width, int height, std::uint32_t seed, std::uint32_t one_in) {
   Mask mask(width, height);
   for (std::uint8_t& pixel : mask.pixels) {
@@ -19,7 +19,7 @@ Mask Scattered(int width, int height, std::uint32_t seed, std::uint32_t one_in) 
   return mask;
 }
 
-// The definition, pixel against pixel.
+// Returns the distance by its definition, pixel against pixel.
 double BruteForce(const Mask& mask, int x, int y) {
   const bool inside = mask.At(x, y) != 0;
   double nearest = 1e18;
@@ -59,7 +59,7 @@ Mask Disc(int width, int height, double u, double v, double radius) {
 }
 
 TEST(Silhouette, OfADiscTellsItsMiddleItsOutlineAndHowFarEverythingIs) {
-  // A mask of half the picture's size: lengths are the picture's pixels.
+  // A mask of half the picture's size; lengths are in the picture's pixels.
   const Silhouette disc = MakeSilhouette(Disc(90, 80, 50, 40, 15), {.mask_pixel = 2, .spacing = 3});
   EXPECT_NEAR(disc.centre.x, 100, 1e-9);
   EXPECT_NEAR(disc.centre.y, 80, 1e-9);
@@ -79,7 +79,7 @@ TEST(Silhouette, OfADiscTellsItsMiddleItsOutlineAndHowFarEverythingIs) {
 TEST(Silhouette, GradientsAreThoseOfTheDistance) {
   const Silhouette disc = MakeSilhouette(Disc(90, 80, 50, 40, 15), {.mask_pixel = 2});
   constexpr double kStep = 1e-5;
-  // Inside, outside in the box, beyond the box on one side and on a corner, and outside the picture on two sides.
+  // Points inside, outside in the box, beyond the box at a side and a corner, and outside the picture at two sides.
   for (const glm::dvec2 pixel : {glm::dvec2(103.3, 84.1), glm::dvec2(133.3, 80.2), glm::dvec2(20.4, 85.3),
                                  glm::dvec2(10.3, 10.7), glm::dvec2(-20.0, 83.3), glm::dvec2(203.1, 170.3)}) {
     const DistanceAt at = DistanceAtPixel(disc, pixel);

@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-// Standing with one arm raised sideways, the other bent, one knee bent.
+// Returns a standing body with one arm raised sideways, the other arm and one knee bent.
 TreeState Posed(const SilhouetteBody& body, double phase = 0) {
   TreeState state = Bent(body, {{body.limbs[0].upper, 1, -60 + 10 * std::sin(phase)},
                                 {body.limbs[1].upper, 0, 40 + 25 * std::sin(phase)},
@@ -32,7 +32,6 @@ double MeanError(const BodyPose& a, const BodyPose& b) {
   return sum / kRoleCount;
 }
 
-// A frame that cameras see of a body.
 struct Shown {
   std::vector<Camera> cameras;
   std::vector<Silhouette> silhouettes;
@@ -51,13 +50,13 @@ struct Shown {
   }
 };
 
-// Pictures are small, 17 mm a pixel where the body is, and show the very body that is fitted: outlines err by a pixel.
+// Small pictures, 17 mm per pixel at the body, of the fitted body itself, so that outlines err by a pixel.
 SilhouetteCostOptions SmallPictures() { return {.sigma_px = 1, .outline_reach_px = 8, .inside_reach_px = 22}; }
 
 std::vector<double> Scatter(int size, double by) {
   std::vector<double> steps(size);
   for (int i = 0; i < size; ++i) steps[i] = by * std::sin(12.9898 * (i + 1));
-  for (int i = 0; i < 3; ++i) steps[i] *= 0.3;  // metres
+  for (int i = 0; i < 3; ++i) steps[i] *= 0.3;  // metres, smaller than radians
   return steps;
 }
 
@@ -68,7 +67,7 @@ TEST(FitSilhouettes, GradientIsThatOfTheCost) {
   const int size = kRootDofs + body.tree.dof_count();
   const TreeState at = Moved(body.tree, truth, Scatter(size, 0.1));
   const PosePrior prior{truth, 0.1, 0.2, 0.2};
-  // A loss that is nearly a square, so that its slope is weight times residual.
+  // An almost quadratic loss, whose slope is weight times residual.
   SilhouetteCostOptions options = SmallPictures();
   options.outline_reach_px = options.inside_reach_px = options.joint_reach = 1e5;
   FitWorkspace workspace;
@@ -83,7 +82,7 @@ TEST(FitSilhouettes, GradientIsThatOfTheCost) {
       step[i] = by;
       return CostOf(body, views, Moved(body.tree, at, step), &prior, options, workspace).cost;
     };
-    // The gradient is that of half the cost. Nearest pieces change where outlines cross: not everywhere smooth.
+    // The gradient of half the cost. It is not smooth everywhere, because nearest pieces change where outlines cross.
     EXPECT_NEAR(found.gradient[i], (cost(kStep) - cost(-kStep)) / (4 * kStep),
                 2e-3 * std::abs(found.gradient[i]) + 0.05)
         << "coordinate " << i;
@@ -132,12 +131,12 @@ TEST(FitSilhouettes, NearestCapsulesAreThoseThatAComparisonOfAllFinds) {
       std::vector<ProjectedCapsule>& flesh = seen.capsules;
       ProjectFlesh(body, ComputeFrames(body.tree, state), MatrixOf(shown.cameras[camera]), flesh);
       flesh[3].is_valid = false;
-      flesh[5].radius_a = glm::distance(flesh[5].a, flesh[5].b) + 2 * flesh[5].radius_b;  // one end holds the other
+      flesh[5].radius_a = glm::distance(flesh[5].a, flesh[5].b) + 2 * flesh[5].radius_b;  // one end contains the other
       const Silhouette& silhouette = shown.silhouettes[camera];
       std::vector<SilhouetteResidual> found;
       MeasureFlesh(silhouette, seen);
       AppendResiduals(seen, silhouette, options, found);
-      // Every outline point, in order: the first of the nearest capsules, with the same bits.
+      // Every outline point in order: the first of the nearest capsules, bit for bit.
       ASSERT_GE(found.size(), silhouette.outline.size());
       for (std::size_t i = 0; i < silhouette.outline.size(); ++i, ++compared) {
         SilhouetteResidual least{.value = 1e9};
@@ -150,12 +149,12 @@ TEST(FitSilhouettes, NearestCapsulesAreThoseThatAComparisonOfAllFinds) {
         EXPECT_EQ(found[i].value, least.value);
         EXPECT_EQ(found[i].capsule, least.capsule);
       }
-      // The sum of their losses.
+      // The total equals the sum of the losses.
       double sum = 0, told = 0;
       for (const SilhouetteResidual& residual : found) sum += LossOf(residual, options).loss;
       AddLosses(seen, silhouette, options, told);
       EXPECT_EQ(told, sum);
-      // Some capsules lower given distances, by column.
+      // Capsules lower distances that are given by column.
       std::vector<double> distances(silhouette.columns.u.size(), 1.5);
       OutlineDistances(flesh, silhouette, distances);
       for (std::size_t i = 0; i < silhouette.outline.size(); ++i) {
@@ -186,7 +185,7 @@ TEST(FitSilhouettes, FindsABodyThatAnotherRasteriserDrew) {
 }
 
 TEST(FitSilhouettes, IsNotFooledByOtherMasks) {
-  // The control: silhouettes of nobody's body. The pose comes out wrong, and costs many times what a right one does.
+  // The control: silhouettes of another shape. The pose is wrong, and its cost is many times higher.
   const SilhouetteBody body = MakeSilhouetteBody({});
   const TreeState truth = Posed(body);
   const Shown right(body, truth, {-40, 40, 160});
@@ -201,7 +200,7 @@ TEST(FitSilhouettes, IsNotFooledByOtherMasks) {
   EXPECT_GT(MeanError(ToBodyPose(body, bad.state), ToBodyPose(body, truth)), 0.1);
 }
 
-// Joints that are told in the same pictures say what outlines leave open, and one that is wrong by far spoils nothing.
+// Joints seen in the same pictures determine what outlines leave open; a very wrong joint does no harm.
 TEST(FitSilhouettes, TakesSeenJointsIntoAccountAndMistrustsWhatIsFarOff) {
   const SilhouetteBody body = MakeSilhouetteBody({});
   const TreeState truth = Posed(body);

@@ -30,8 +30,7 @@ LimbLengths ShortLegged() {
   return lengths;
 }
 
-/// One after the other: somebody turning round and swinging arms and legs, in small pictures of which one cuts off the
-/// feet, by cameras of which one is near.
+/// Small pictures of a person who turns round and swings arms and legs; one camera is near, and one cuts off the feet.
 struct TurningTake {
   SilhouetteBody body = MakeSilhouetteBody({});
   std::vector<ProjectionMatrix> matrices;

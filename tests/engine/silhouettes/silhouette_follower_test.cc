@@ -15,7 +15,6 @@ std::vector<Silhouette> Moment(const SwingingTake& take, std::size_t frame) {
   return moment;
 }
 
-/// What is told of every frame, one after the other.
 std::vector<std::optional<SilhouetteFit>> Follow(const SwingingTake& take, SilhouetteFollower& follower) {
   std::vector<std::optional<SilhouetteFit>> told;
   for (std::size_t k = 0; k < take.truth.size(); ++k) told.push_back(follower.Next(Moment(take, k)));

@@ -50,7 +50,7 @@ struct SwingingTake {
   }
 };
 
-/// Returns the mean error over frames, which must all be found; `state_of(k)` is the k-th found state.
+/// Returns the mean error over frames, all of which must be found; `state_of(k)` is the k-th found state.
 template <typename StateOf>
 double MeanErrorOver(const SwingingTake& take, const StateOf& state_of) {
   double sum = 0;

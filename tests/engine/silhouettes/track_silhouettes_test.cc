@@ -22,7 +22,7 @@ TEST(TrackSilhouettes, FindsAndFollowsABodyThatNobodyHasShownIt) {
   EXPECT_LT(MeanErrorOf(take, track), 0.03);
 }
 
-// The control is the turned start itself: followed, and nothing else, it would stay turned.
+// The control: tracking alone, from the turned start, keeps the body turned.
 TEST(TrackSilhouettes, TurnsABodyRoundThatFacesTheWrongWay) {
   const SwingingTake take(8);
   TrackOptions options = TrackInSmallPictures();

@@ -74,7 +74,7 @@ TEST(Postures, HaveArmsThatHangArmsThatAreRaisedAndBentLegs) {
     EXPECT_GT(poses[1][hand].y, poses[1][Role::kHead].y);
     EXPECT_LT(glm::distance(poses[1][knee], poses[0][knee]), 1e-12) << "only arms are raised";
     EXPECT_LT(glm::distance(poses[2][hand], poses[0][hand]), 1e-12) << "only legs are bent";
-    // The thigh 60° forward, the shank 80° back from it.
+    // The thigh is 60° forward, the shank 80° back from it.
     const glm::dvec3 thigh = poses[2][knee] - poses[2][knee == Role::kLeftKnee ? Role::kLeftHip : Role::kRightHip];
     const double shank = glm::distance(poses[2][knee], poses[2][ankle]);
     EXPECT_NEAR(thigh.z, glm::length(thigh) * std::sin(Radians(60)), 0.01);
@@ -114,7 +114,7 @@ TEST(SilhouetteLoss, IsGemanAndMcClures) {
     const Loss outline = LossOf({.value = e}, options), inside = LossOf({.value = e, .is_inside = true}, options);
     EXPECT_NEAR(outline.loss, e * e / (1 + e * e / 100) / 4, 1e-12);
     EXPECT_NEAR(inside.loss, 3 * e * e / (1 + e * e / 1600) / 4, 1e-12);
-    // The weight is half the loss's slope over e: that of a square of the same slope.
+    // The weight is half the loss's slope divided by e, as for a square with the same slope.
     const double step = 1e-5;
     const auto slope = [&](bool is_inside) {
       return (LossOf({.value = e + step, .is_inside = is_inside}, options).loss -

@@ -9,8 +9,8 @@
 namespace etude {
 namespace {
 
-/// What an independent smoother made of eight frames, in numpy: the filter in information form, the process integrated
-/// by Van Loan's matrix exponential, where ours uses Joseph's form and closed integrals.
+/// Results of an independent smoother in numpy for eight frames: the filter in information form and the process by Van
+/// Loan's matrix exponential; ours uses Joseph's form and closed integrals.
 struct VectorFrame {
   std::array<double, 3> measured;
   std::array<double, 9> information;
@@ -86,7 +86,7 @@ TEST(SmoothTrack, AgreesWithAnIndependentSmoother) {
   EXPECT_NEAR(track.log_likelihood, kVectorsLogLikelihood, 1e-6);
 }
 
-// The states of all frames at once: the minimum of |x₀|² / P₀ + Σ |x_k − F x_{k−1}|² / Q + Σ |y_k − x_k|² Λ, along x.
+// Solves all frames' states at once: the minimum of |x₀|² / P₀ + Σ |x_k − F x_{k−1}|² / Q + Σ |y_k − x_k|² Λ along x.
 std::vector<double> SolveBatch(const std::vector<double>& y, const std::vector<double>& information,
                                const PointMotion& motion) {
   const auto n = static_cast<Eigen::Index>(y.size());
@@ -94,7 +94,7 @@ std::vector<double> SolveBatch(const std::vector<double>& y, const std::vector<d
   Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * n);
   normal(0, 0) = 1 / (motion.first_position_m * motion.first_position_m);
   normal(1, 1) = 1 / (motion.first_velocity_mps * motion.first_velocity_mps);
-  // The process by ten thousand small steps.
+  // The process integrated in ten thousand small steps.
   constexpr int kSteps = 10'000;
   const double step = motion.frame_s / kSteps;
   Eigen::Matrix2d one, F = Eigen::Matrix2d::Identity(), Q = Eigen::Matrix2d::Zero();
@@ -155,7 +155,7 @@ TEST(LikeliestAccelerationDensity, IsLargeForAPointThatTurnsAndSmallForOneThatTr
                of_swinging = LikeliestAccelerationDensity(swinging, {});
   EXPECT_LT(of_still, 0.1);
   EXPECT_GT(of_swinging, 5);
-  // None of the densities tried is likelier.
+  // No other density tried is likelier.
   const auto likelihood = [&](double density) {
     return SmoothTrack(swinging, {.acceleration_density = density}).log_likelihood;
   };

@@ -41,7 +41,7 @@ TEST(Labels, ColumnsMayStandInAnyOrderWithoutPersonAmongRemarks) {
 }
 
 TEST(Labels, TicksOfATagStreamAreMicrosecondsOfTheRecording) {
-  // Of the data set's own load_tagstream: usec = (tick · 1000 + 49875/2) / 49875, which rounds.
+  // From the data set's own load_tagstream: usec = (tick · 1000 + 49875/2) / 49875, which rounds.
   ASSERT_OK(labels, ReadLabels("XQPCTick;Tag\n2202252000;G1 lift outstretched arms\n", "p.tagstream", "p"));
   EXPECT_NEAR(*(*labels)[0].from_s, 44.15542857, 1e-8);
   EXPECT_TRUE((*labels)[0].IsActionPoint());

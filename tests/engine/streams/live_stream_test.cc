@@ -18,10 +18,10 @@ using testing::KinectV1Text;
 using testing::WavingMotion;
 using testing::WithClock;
 
-/// The frames that each line gave, and the complaint that ended them.
+/// The frames after each line, and the complaint that ended the stream.
 struct Heard {
   std::vector<SensedFrame> frames;
-  std::vector<std::size_t> known;  ///< after each line
+  std::vector<std::size_t> known;  ///< number of frames after each line
   std::string complaint;
 };
 
@@ -42,7 +42,7 @@ Heard Listen(const std::string& text, const StreamOptions& options = {}) {
   return heard;
 }
 
-/// The recorded file's frames must be heard live, to the last bit.
+/// The live stream must give the recorded file's frames bit for bit.
 void ExpectAsRecorded(const std::string& text) {
   const Heard heard = Listen(text);
   EXPECT_EQ(heard.complaint, "");
@@ -60,7 +60,7 @@ void ExpectAsRecorded(const std::string& text) {
 TEST(LiveStream, HearsWhatARecordingSays) {
   ExpectAsRecorded(WriteJointCsv(WavingMotion(90)));
   ExpectAsRecorded(WriteJointCsv(WavingMotion(90, 15)));
-  // Of a Kinect the level is estimated: by a trunk that stands still, from any part alike.
+  // A Kinect's level is estimated from a still trunk, from any part of the file alike.
   ExpectAsRecorded(KinectV1Text(WavingMotion(90), "2"));
   ExpectAsRecorded(WithClock(KinectV1Text(WavingMotion(90), "1", 0.1), 44155936, 1e6 / 30));
 }
@@ -74,7 +74,7 @@ TEST(LiveStream, TakesTheClocksTextsAndCommasOfTables) {
       const std::string time = fmt::format("{:.3f}", (start + k / 30.0) * per_second);
       line = k < 0 ? line : line.substr(0, first + 1) + time + line.substr(second);
       csv += line + "\n";
-      // The same between semicolons, with decimal commas and a text that is missing in some rows.
+      // The same with semicolons, decimal commas, and a text column that is empty in some rows.
       line += k < 0 ? ",label" : k % 3 > 0 ? "," : ",walk";
       for (char& c : line) c = c == ',' ? ';' : c == '.' ? ',' : c;
       marked += line + "\n";

@@ -36,7 +36,7 @@ MadeStream Made(const std::string& text, const StreamReading& reading = {}, cons
   return made ? *made : MadeStream{};
 }
 
-/// The furthest that a joint of any frame is from the motion, after the sensor's place on the floor is made up for.
+/// Returns the largest distance of a joint from the motion, after removing the sensor's place on the floor.
 double FurthestFrom(const BodyMotion& motion, const SkeletonStream& stream) {
   double furthest = motion.poses.size() == stream.frames.size() ? 0 : 1e9;
   for (std::size_t t = 0; furthest < 1e9 && t < motion.poses.size(); ++t) {
@@ -78,7 +78,7 @@ TEST(Streams, StatesAreToldWhereTheFileHasThemAndSaidToBeMissingElse) {
   const BodyMotion motion = WavingMotion(3);
   const auto tells = [](const std::string& text) { return ReadStreamRecording(text, "s")->records_states; };
   EXPECT_FALSE(tells(KinectV1Text(motion)));
-  EXPECT_FALSE(tells(KinectV1Text(motion, "1")));  // MSRC-12's weight
+  EXPECT_FALSE(tells(KinectV1Text(motion, "1")));  // a column of weights, as in MSRC-12
   EXPECT_TRUE(tells(KinectV1Text(motion, "2")));
   EXPECT_TRUE(tells(NtuText(motion)));
   EXPECT_FALSE(tells(AzureText(motion)));
@@ -92,15 +92,15 @@ TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
   const std::string rows = KinectV1Text(WavingMotion());
   for (const double step : {1e6 / 30, 1e3 / 30, 1.0 / 30, 1.0})
     EXPECT_EQ(Made(WithClock(rows, 100 * step, step)).stream.frames.size(), 60u) << step;
-  // UTKinect keeps every other frame, or every sixth: no sensor counts milliseconds at 166 Hz.
+  // UTKinect keeps every second frame, or every sixth; no sensor has milliseconds at 166 Hz.
   EXPECT_EQ(Made(WithClock(rows, 252, 2)).stream.frames.size(), 119u);
   const MadeStream sixth = Made(WithClock(rows, 252, 6));
   EXPECT_EQ(sixth.stream.frames.size(), 355u);
-  EXPECT_EQ(sixth.lost_frames, 0u);  // rows 0.2 s apart, however their difference is rounded
+  EXPECT_EQ(sixth.lost_frames, 0u);  // rows are 0.2 s apart, despite rounding
   EXPECT_NEAR(sixth.start_s, 252 / 30.0, 1e-9);
   const auto read = ReadStreamRecording(WithClock(rows, 252, 6), "s");
   EXPECT_EQ(read->remarks, std::vector<std::string>{"the first column counts frames at 30 Hz, a row every 6"});
-  // Whole milliseconds of 60 Hz, and parts of milliseconds at any rate, stay what they are.
+  // Whole milliseconds at 60 Hz, and fractions of milliseconds at any rate, are kept.
   EXPECT_EQ(Made(WithClock(rows, 1000, 17)).stream.frames.size(), 31u);
   EXPECT_EQ(Made(WithClock(rows, 1000.5, 8)).stream.frames.size(), 15u);
 }
@@ -139,7 +139,7 @@ TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
   EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: body 2 of 2, counted from 0");
 }
 
-/// A frame's body in NTU's text, under another name and so far to the side.
+/// Returns one body of a frame in NTU's text, under another name and `aside` metres to the side.
 std::string NtuBody(const std::string& id, double aside) {
   BodyMotion motion = WavingMotion(1);
   for (glm::dvec3& joint : motion.poses[0].joints) joint.x += aside;
@@ -164,7 +164,7 @@ TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
   EXPECT_EQ(shown(*joined), 19);
   EXPECT_EQ(joined->remarks.front(), "body 11 continues as body 22 from frame 13 on: taken to be one person");
   EXPECT_EQ(joined->remarks.back(), "2 bodies, of which body 0 is read");
-  // Somebody else, who stands a metre aside, is not joined; nor whoever comes while the first is still seen.
+  // A person a metre aside is not joined to the first, nor is one who appears while the first is still seen.
   const auto other = ReadStreamRecording(text(1, 2), "s", {.body = 0});
   EXPECT_EQ(shown(*other), 11);
   EXPECT_EQ(other->remarks, std::vector<std::string>{"3 bodies, of which body 0 is read"});

@@ -33,15 +33,15 @@ inline BodyMotion WavingMotion(int frames = 60, double rate_hz = 30) {
   return motion;
 }
 
-/// Returns a position in the Kinect SDK's space (X to the sensor's left, Y up, Z away from the sensor), for a sensor 1
-/// m high and 3 m before the person, tilted down by `tilt` radians.
+/// Returns a position in the Kinect SDK's axes (X to the sensor's left, Y up, Z away from the sensor), for a sensor 1 m
+/// high and 3 m in front of the person, tilted down by `tilt` radians.
 inline glm::dvec3 KinectSpace(const glm::dvec3& world, double tilt = 0) {
   const glm::dvec3 level(-world.x, world.y - 1, 3 - world.z);
   const double c = std::cos(tilt), s = std::sin(tilt);
   return {level.x, c * level.y + s * level.z, -s * level.y + c * level.z};
 }
 
-/// Returns the rows of a Kinect v1; `fourth`, if not "", stands after each position.
+/// Returns the rows of a Kinect v1; `fourth`, if not "", follows each position.
 inline std::string KinectV1Text(const BodyMotion& motion, const std::string& fourth = "", double tilt = 0) {
   std::string text;
   for (const BodyPose& pose : motion.poses) {
@@ -54,7 +54,7 @@ inline std::string KinectV1Text(const BodyMotion& motion, const std::string& fou
   return text;
 }
 
-/// Returns the rows with a time before each: `first`, then `step` more in each row.
+/// Returns the rows with times in front: `first`, then `step` more per row.
 inline std::string WithClock(const std::string& rows, double first, double step) {
   std::string text;
   int row = 0;
@@ -66,8 +66,7 @@ inline std::string WithClock(const std::string& rows, double first, double step)
   return text;
 }
 
-/// Returns the joints of a Kinect v2 in its SDK's order: those of a Kinect v1, and the neck, the shoulder centre, hand
-/// tips and thumbs.
+/// Returns a Kinect v2's joints in its SDK's order: a Kinect v1's, and neck, shoulder centre, hand tips, thumbs.
 inline std::vector<glm::dvec3> KinectV2Joints(const BodyPose& pose) {
   using enum Role;
   std::vector<glm::dvec3> joints;
@@ -82,7 +81,7 @@ inline std::vector<glm::dvec3> KinectV2Joints(const BodyPose& pose) {
   return joints;
 }
 
-/// Returns the rows of a Kinect v2, with `unit` units per metre; `rest` stands after each position.
+/// Returns the rows of a Kinect v2 with `unit` units per metre; `rest` follows each position.
 inline std::string KinectV2Text(const BodyMotion& motion, const std::string& rest, double unit = 1) {
   std::string text;
   for (const BodyPose& pose : motion.poses) {
@@ -93,7 +92,7 @@ inline std::string KinectV2Text(const BodyMotion& motion, const std::string& res
   return text;
 }
 
-/// Returns NTU's text with one body, or with none in the frame `without`; every joint has the tracking state `state`.
+/// Returns NTU's text with one body, except in the frame `without`; every joint has the tracking state `state`.
 inline std::string NtuText(const BodyMotion& motion, int state = 2, std::size_t without = 1000000) {
   std::string text = fmt::format("{}\n", motion.poses.size());
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
@@ -106,8 +105,7 @@ inline std::string NtuText(const BodyMotion& motion, int state = 2, std::size_t 
   return text;
 }
 
-/// Returns the output of the Azure Kinect's offline processor: millimetres, X to the camera's right, Y down, Z away
-/// from the camera.
+/// Returns output of the Azure Kinect's offline processor: millimetres, X to the camera's right, Y down, Z forward.
 inline std::string AzureText(const BodyMotion& motion, const std::string& confidence = "") {
   using enum Role;
   constexpr int kRoleOfJoint[32] = {0,  1,  2,  2,  4,  4,  5,  6,  7,  7,  7, 8, 8, 9, 10, 11,

@@ -36,7 +36,7 @@ TEST(StreamMaker, OtherRatesBecomeThirtyFramesASecond) {
     ASSERT_EQ(stream.frames.size(), 61u) << rate;
     for (std::size_t t = 0; t < 61; ++t) {
       const double y = 1.4 + 0.3 * std::sin(3.14159 * static_cast<double>(t) / 30);
-      EXPECT_NEAR(stream.frames[t][Role::kLeftHand].position.y, y, 2e-3) << rate;  // straight between samples
+      EXPECT_NEAR(stream.frames[t][Role::kLeftHand].position.y, y, 2e-3) << rate;  // linear between samples
     }
   }
 }
@@ -78,7 +78,7 @@ TEST(StreamMaker, ATiltedSensorIsLevelledByTheTrunkAndTheFloorByTheFeet) {
   }
 }
 
-/// The recording as a sensor sees it that is turned by quarter turns about its line of sight.
+/// Returns the recording of a sensor that is turned by quarter turns about its line of sight.
 StreamRecording TurnedAbout(StreamRecording recording, int quarters) {
   for (RecordedFrame& frame : recording.frames) {
     for (auto& place : frame.places) {
@@ -107,7 +107,7 @@ TEST(StreamMaker, ASensorInPortraitOrUpsideDownIsTurnedBackAndThatIsSaid) {
         EXPECT_LT(glm::distance(made.stream.frames[20][role].position, expected.stream.frames[20][role].position), 1e-9)
             << quarters << " " << RoleName(role);
       }
-      // Who asks for the file's own up gets it.
+      // With levels = false the file's own up is kept.
       const auto kept = MakeStream(TurnedAbout(upright, quarters), "s", {.levels = false}).value();
       EXPECT_EQ(kept.level.turn_deg, 0);
     }
@@ -115,7 +115,7 @@ TEST(StreamMaker, ASensorInPortraitOrUpsideDownIsTurnedBackAndThatIsSaid) {
 }
 
 TEST(StreamMaker, WhoLiesOrFallsBeforeALevelSensorIsNotTurnedButSaidToBeFarFromUp) {
-  // Supine, the head to the sensor's left or right; the face is up.
+  // A person on the back, the head to the sensor's left or right.
   for (const double side : {-1.0, 1.0}) {
     StreamRecording lying = WavingBeforeKinect();
     for (RecordedFrame& frame : lying.frames) {
@@ -127,7 +127,7 @@ TEST(StreamMaker, WhoLiesOrFallsBeforeALevelSensorIsNotTurnedButSaidToBeFarFromU
     EXPECT_NEAR(level.trunk_deg, 90, 1e-6);
     EXPECT_EQ(Describe(level).find("up as in the file (although trunks are 90 degrees from it: "), 0u);
   }
-  // Somebody who stood before, and now lies on a side.
+  // A person who stood before, and now lies on a side.
   StreamRecording falling = WavingBeforeKinect();
   const StreamRecording down = TurnedAbout(falling, 1);
   for (std::size_t t = 10; t < falling.frames.size(); ++t) falling.frames[t].places = down.frames[t].places;

@@ -21,7 +21,7 @@ namespace {
 using testing::AllReplaced;
 using testing::WithClock;
 
-/// A move danced in four places, at heights that are not quite level, with noise.
+/// Returns a move danced in four places at slightly different heights, with noise.
 BodyMotion RestlessMotion(const std::string& move, double spread) {
   testing::Dice dice(11);
   BodyMotion motion = LoadBuiltinMove(move).value().motion;
@@ -39,7 +39,7 @@ BodyMotion RestlessMotion(const std::string& move, double spread) {
   return motion;
 }
 
-/// Tells all that reading a text by these settings gives: the recording, its streams, and the stream as it comes live.
+/// Describes a text read with these settings: the recording, its streams, and the stream as it comes live.
 void Tell(std::vector<std::string>& told, const std::string& text, const StreamReading& reading = {}) {
   const auto recording = ReadStreamRecording(text, "s", reading);
   if (!recording) told.push_back(ToString(recording.error()));
@@ -72,7 +72,6 @@ void Tell(std::vector<std::string>& told, const std::string& text, const StreamR
   told.push_back(fmt::format("  live: {} frames{}", frames.size(), taken ? "" : "; " + ToString(taken.error())));
 }
 
-/// The text with a line changed or left out.
 std::string WithLine(const std::string& text, int number,
                      const std::function<std::string(const std::string&)>& change) {
   std::istringstream lines(text);
@@ -175,7 +174,7 @@ TEST(Streams, FilesThatSayMoreAreUnderstoodAsTheyWere) {
   EXPECT_TRUE(testing::AreKept(told, "tests/engine/streams/files.txt"));
 }
 
-/// NTU's text of bodies that come and go: of each frame, those whose span holds it.
+/// Writes NTU's text of bodies that come and go; each is in the frames of its span.
 struct ComingBody {
   int id, first, last;
   glm::dvec3 place;

@@ -12,7 +12,7 @@
 namespace etude::testing {
 namespace {
 
-// Arms, a knee and the trunk move, each by itself; some frames without a body, some joints guessed.
+// Returns moving arms, a knee and a trunk; some frames lack the body, some joints are guessed.
 SkeletonStream WildStream(std::uint64_t seed, double seconds, double rate_hz, double reach) {
   Dice dice(seed);
   BodyMotion motion{.rate_hz = rate_hz, .poses = {}};

@@ -18,7 +18,7 @@ TEST(TeachMove, FindsTheAnglesThatChangeAndTheirExtremes) {
   ASSERT_EQ(move->poses.size(), 2u);
   const double expected[] = {10, 100};
   for (std::size_t k = 0; k < 2; ++k) {
-    ASSERT_EQ(move->poses[k].targets.size(), 4u);  // the arms, not the legs that stand
+    ASSERT_EQ(move->poses[k].targets.size(), 4u);  // only the arms, because the legs stand still
     for (const PoseTarget& target : move->poses[k].targets) {
       const bool is_elbow = target.feature == Feature::kRHE || target.feature == Feature::kLHE;
       EXPECT_NEAR(target.degrees, is_elbow ? 0 : expected[k], 4);
@@ -29,7 +29,7 @@ TEST(TeachMove, FindsTheAnglesThatChangeAndTheirExtremes) {
 }
 
 TEST(TeachMove, TolerancesFollowTheSpreadOfExamplesWithinTheirBounds) {
-  // At the top 90, 100 and 110 degrees: deviation 10, at different speeds.
+  // Peaks of 90, 100 and 110 degrees have deviation 10, whatever the speeds.
   ASSERT_OK(move, TeachMove("raise", {Raise(10, 90, 1.5), Raise(10, 100, 2), Raise(10, 110, 3)}));
   ASSERT_EQ(move->poses.size(), 2u);
   EXPECT_NEAR(move->poses[1].targets[0].degrees, 99, 4);

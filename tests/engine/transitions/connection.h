@@ -17,7 +17,6 @@ inline MotionLibrary BuiltinLibrary() {
   return MakeLibrary(names, clips, MakeBodyProportions(PoseOf(Controls{}), 0.9));
 }
 
-/// Statistics of transitions through in-betweens.
 struct Connections {
   int tried = 0, found = 0;
   int forced = 0;

@@ -26,7 +26,7 @@ inline void AddTo(testing::Fingerprint& print, const std::optional<PreferredJoin
   if (join) print.Add(join->blend_s).Add(join->way).Add(join->carried);
 }
 
-/// Adds all fields of a record to a fingerprint but its text, which tests keep as text.
+/// Adds all fields of a record to a fingerprint, except its text, which tests store as text.
 inline void AddTo(testing::Fingerprint& print, const TransitionRecord& record) {
   print.Add(record.branch).Add(record.request_frame).Add(record.segments.size()).Add(record.candidates.size());
   for (const Segment& segment : record.segments) {
@@ -42,8 +42,7 @@ inline void AddTo(testing::Fingerprint& print, const TransitionRecord& record) {
   print.Add(record.pairs_seen).Add(record.pairs_matched).Add(record.wait_s).Add(record.cost_unit);
 }
 
-/// Returns a library with a dance that repeats a few poses, with grades in steps of an eighth, so that nearly all
-/// distances tie.
+/// Returns a library of a dance that repeats a few poses; grades are multiples of 1/8, so that most distances tie.
 inline MotionLibrary LibraryOfTies() {
   RandomStream dice({.suite_seed = 6, .scenario = "ties", .trial = 0}, "poses");
   const BodyMotion poses = RandomClip(dice, 60, 0.6);

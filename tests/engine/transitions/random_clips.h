@@ -14,7 +14,7 @@
 namespace etude {
 
 /// Returns a body that walks along a curve while each limb swings about its own axis. The motion is smooth, and no two
-/// clips are alike. At `wildness` 0 the body stands still; at 1 limbs swing by up to a right angle to both sides.
+/// clips are alike. At `wildness` 0 the body stands still; at 1 limbs swing by up to 90° to both sides.
 inline BodyMotion RandomClip(RandomStream& dice, int frames, double wildness) {
   struct Swing {
     glm::dvec3 axis;

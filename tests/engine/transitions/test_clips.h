@@ -16,7 +16,7 @@ inline BodyMotion StandingClip(int frames, double degrees) {
   return {kJudgedRateHz, std::vector<BodyPose>(static_cast<std::size_t>(frames), body.Pose())};
 }
 
-/// Returns a clip in which the arms swing from hanging to overhead and back while the body walks and turns. The clip is
+/// Returns a clip in which the arms swing from hanging to overhead and back while the body walks and turns. It is
 /// smooth, and no two frames are alike.
 inline BodyMotion WavingClip(int frames, double phase = 0) {
   BodyMotion motion;
@@ -28,8 +28,8 @@ inline BodyMotion WavingClip(int frames, double phase = 0) {
   return motion;
 }
 
-/// Returns a clip with given fuzzy grades instead of poses. Each frame has one number, `levels[f]`, in the grades of
-/// RH, so that the distance of two frames is the difference of their levels.
+/// Returns a clip with fuzzy grades instead of poses: each frame's RH grade is `levels[f]`, so that the distance of two
+/// frames is the difference of their levels.
 inline TaggedClip ClipOfLevels(const std::vector<double>& levels, std::vector<int> bridge_frames) {
   TaggedClip clip;
   for (double level : levels) {

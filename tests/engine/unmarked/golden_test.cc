@@ -14,8 +14,7 @@ namespace {
 
 using testing::Fingerprint;
 
-/// Somebody in two colours who crosses a patterned room, swinging an arm, before two small cameras; nobody is in the
-/// last frame.
+/// Films by two small cameras of a two-coloured person who crosses a patterned room; the last frame is empty.
 struct SmallFilms {
   std::vector<Camera> cameras;
   std::vector<std::vector<ColourImage>> pictures;

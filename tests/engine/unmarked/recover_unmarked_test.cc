@@ -33,7 +33,7 @@ Rgb8 RoomAt(std::size_t camera, int x, int y) {
           120};
 }
 
-/// A film of the body in red before a patterned wall; `moves`: else it stands.
+/// A film of the body in red before a patterned wall; without `moves` it stands.
 struct FilmOfWalker {
   SilhouetteBody body = MakeSilhouetteBody(AdultLengths(kStature));
   std::vector<Camera> cameras = CamerasAround({-40, 40, 150});
@@ -89,7 +89,7 @@ TEST(RecoverUnmarked, FindsThePersonTheStatureAndTheRoomInFilmsAlone) {
   }
   EXPECT_LT(unlike, all / 200) << "pixels of the rooms that are not the room's";
   EXPECT_EQ(found->silhouettes[2].size(), static_cast<std::size_t>(kUnmarkedFrames));
-  // The clip is the same motion.
+  // The clip has the same motion.
   EXPECT_EQ(found->clip.frames.size(), static_cast<std::size_t>(kUnmarkedFrames));
 }
 
@@ -100,7 +100,7 @@ TEST(RecoverUnmarked, IsToldRoomsAndStature) {
   ASSERT_TRUE(told) << told.error().message;
   EXPECT_LT(film.MeanError(told->motion), 0.03);
   EXPECT_EQ(told->stature_m, kStature);
-  constexpr int kChildFrames = 5;  // tell as much
+  constexpr int kChildFrames = 5;  // five frames are enough
   std::vector<std::vector<ColourImage>> some;
   for (const auto& pictures : film.pictures) some.emplace_back(pictures.begin(), pictures.begin() + kChildFrames);
   const auto child =

@@ -13,8 +13,8 @@ Rgb8 RoomAt(int x, int y) {
   return {static_cast<std::uint8_t>(40 + 7 * x % 90), static_cast<std::uint8_t>(60 + 11 * y % 70), 90};
 }
 
-/// A striped box as high as the picture that stands for most of the time in the middle, coming from the left at first
-/// and going to the right at last.
+/// Returns a picture of a striped box, as high as the picture. It enters from the left, stands in the middle most of
+/// the time, and leaves to the right.
 ColourImage PictureOf(int k) {
   const int left = k < 4 ? 10 * k - 10 : k < 16 ? 30 + k % 3 : 30 + 10 * (k - 15);
   ColourImage picture(kWidth, kHeight);

@@ -50,13 +50,13 @@ TEST(DetectChange, ComparesHuesRoundTheCircle) {
 }
 
 TEST(DetectChange, TakesGreyForRedAsThePaperDoesUnlessGated) {
-  // Two nearly grey pixels that noise pushed to opposite hues.
+  // Two nearly grey pixels, to which noise gave opposite hues.
   EXPECT_TRUE(Differs({121, 120, 120}, {120, 121, 121}, Segmenter::kHue));
   EXPECT_FALSE(Differs({121, 120, 120}, {120, 121, 121}, Segmenter::kHueGated));
 }
 
 TEST(DetectChange, TrustsNoHueInTheDarkWhenGated) {
-  // Opposite hues and saturated by 14 % and 8 %, but four levels from grey: as much as noise does.
+  // Opposite hues with saturations of 14 % and 8 %, but only four levels from grey, which noise can cause.
   const Rgb8 reddish{12, 8, 8}, bluish{8, 12, 12};
   EXPECT_TRUE(Differs(reddish, bluish, Segmenter::kHue));
   EXPECT_FALSE(Differs(reddish, bluish, Segmenter::kHueGated));
@@ -64,7 +64,7 @@ TEST(DetectChange, TrustsNoHueInTheDarkWhenGated) {
   EXPECT_TRUE(Differs(red, blue, Segmenter::kHueGated)) << "the control: equally dark, but far from grey";
 }
 
-// The rules of `kHueGated` in their documented words, with hue and saturation as Hsi has them.
+// A second implementation of the documented rules of `kHueGated`, with hue and saturation by Hsi.
 bool DiffersByTheRules(Rgb8 background, Rgb8 pixel, const ChangeOptions& o) {
   struct Tone {
     Hsi hsi;
@@ -83,7 +83,7 @@ bool DiffersByTheRules(Rgb8 background, Rgb8 pixel, const ChangeOptions& o) {
 }
 
 TEST(DetectChange, FollowsTheRulesOfTheGateForColoursOfEveryKind) {
-  // Thresholds that no colour meets exactly, so that both computations agree on either side of them.
+  // No colour lies exactly at these thresholds, so both computations agree on either side of them.
   const ChangeOptions options{.hue_threshold = Radians(20.123),
                               .min_saturation = 0.10007,
                               .min_chroma = 14.03,
@@ -92,7 +92,7 @@ TEST(DetectChange, FollowsTheRulesOfTheGateForColoursOfEveryKind) {
                               .brightest_light = 1.30007};
   int changed = 0, checked = 0;
   for (int i = 0; i < 40000; ++i) {
-    // From near black to bright; the second colour is near the first one, so that light alone seldom decides.
+    // From near black to bright; the second colour is near the first, so intensity alone seldom decides.
     auto noise = [&](int k, int range) { return (i * 7919 + k * 104729 + i * k * 31 + i / 7 * k) % range; };
     auto level = [&](int k) { return std::min(255, noise(4, 180) + noise(k, 60)); };
     const Rgb8 a{static_cast<std::uint8_t>(level(1)), static_cast<std::uint8_t>(level(2)),

@@ -14,10 +14,10 @@ namespace {
 constexpr int kRoomWidth = 120, kRoomHeight = 64, kPoster = 50;
 constexpr int kPersonWidth = 18, kHeadTop = 8, kWaist = 30, kFeet = 56;
 constexpr Rgb8 kPosterColour = {60, 90, 160}, kWallColour = {150, 120, 90}, kTrousers = {40, 140, 60};
-constexpr Rgb8 kShirtColour = {112, 90, 68};  // the wall's hue, three quarters of its light
-constexpr Rgb8 kShadow = {84, 67, 50};        // the wall's
+constexpr Rgb8 kShirtColour = {112, 90, 68};  // the wall's hue at three quarters of its light
+constexpr Rgb8 kShadow = {84, 67, 50};        // the wall's colour in shadow
 
-/// A room of a poster and a wall, and somebody who walks past both, in pictures of an even noise of two levels.
+/// A room with a poster and a wall, and a person who walks past both; the noise is uniform, up to two levels.
 class WalkPast {
  public:
   ColourImage Room() {
@@ -30,7 +30,7 @@ class WalkPast {
   static bool IsPerson(int left, int x, int y) {
     return x >= left && x < left + kPersonWidth && y >= kHeadTop && y < kFeet;
   }
-  /// A shadow lies on the wall at the right; the lamp gives `light`.
+  /// Draws the person; a shadow lies on the wall at the right, and the lamp gives `light`.
   ColourImage Picture(int left, double light) {
     ColourImage picture = Room();
     for (int y = 0; y < kRoomHeight; ++y) {
@@ -53,7 +53,7 @@ class WalkPast {
 };
 
 struct Wrong {
-  int missed = 0, taken = 0;  ///< pixels of the person, and of the room, that were mistaken
+  int missed = 0, taken = 0;  ///< pixels of the person missed, and of the room taken
 };
 
 Wrong WrongIn(const Mask& mask, int left) {

@@ -16,7 +16,7 @@ Mask FromRows(const std::vector<std::string>& rows) {
   return mask;
 }
 
-// The plainest second implementation: a flood fill from every unlabelled pixel in scan order.
+// A second implementation: a flood fill from every unlabelled pixel in scan order.
 Image<std::int32_t> FloodFill(const Mask& mask, Connectivity connectivity) {
   Image<std::int32_t> labels(mask.width, mask.height, -1);
   std::int32_t next = 0;

@@ -17,7 +17,7 @@ using testing::Fingerprint;
 
 std::uint8_t LevelFrom(double level) { return static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0)); }
 
-/// `colour` in some light, with noise of so many levels.
+/// Returns `colour` in some light, with noise of `noise` levels.
 Rgb8 Noisy(testing::Dice& dice, Rgb8 colour, double light, double noise) {
   const auto seen = [&](int level) { return LevelFrom(level * light + noise * dice.Signed() + 0.5); };
   const std::uint8_t r = seen(colour.r), g = seen(colour.g);
@@ -38,7 +38,7 @@ void AddEvidence(Fingerprint& print, const PictureEvidence& seen) {
   print.Add(seen.joints);
 }
 
-/// Colours of a circle of hues a fourteenth apart.
+/// Returns colours whose hues are a fourteenth of the circle apart.
 LimbColours SuitOfHues() {
   const auto hue = [](std::size_t i) {
     const auto channel = [&](double from) {
@@ -57,8 +57,8 @@ struct SuitPicture {
   Mask person{119, 142};
 };
 
-/// Somebody in a suit, in any pose and anywhere in the picture, of limbs that cover each other in any order, are
-/// thinner or thicker, and of which some are not there; noise, spots of their colours, and a frayed mask.
+/// Returns a person in a suit, in any pose and place; limbs cover each other in any order, are thin or thick, and may
+/// be missing; there are noise, spots in their colours, and a frayed mask.
 SuitPicture AnyoneInSuit(testing::Dice& dice, bool is_flat) {
   SuitPicture made;
   const LimbColours suit = SuitOfHues();
@@ -128,7 +128,7 @@ TEST(VisionGolden, LimbsOfColouredSuits) {
       if (stroke) print.Add(stroke->a).Add(stroke->b);
     }
     print.Add(marks.effectors);
-    // What others do not tell: limbs, borders and the trunk that are not seen.
+    // Regions with missing limbs, borders and trunk, which the picture above lacks.
     for (int variant = 0; variant < 4; ++variant) {
       LimbRegions less = found;
       for (std::size_t i = 0; i < kStrokeCount; ++i) {
@@ -143,7 +143,7 @@ TEST(VisionGolden, LimbsOfColouredSuits) {
   EXPECT_TRUE(print.Is(66878, -3167.84249411));
 }
 
-/// Somebody of many colours, some of them the room's, crosses a room in a light that drifts, with a shadow beside.
+/// Returns a person of many colours, some of them the room's, who crosses a room in drifting light beside a shadow.
 std::vector<ColourImage> WalkThrough(testing::Dice& dice, const ColourImage& room, int frames, int pixels) {
   std::vector<ColourImage> film;
   for (int k = 0; k < frames; ++k) {

@@ -51,7 +51,7 @@ TEST(Chroma, HasTheHueAsItsPolarAngleForEveryColour) {
         if (chroma.IsGrey()) continue;
         const double angle = std::atan2(std::sqrt(3.0) * chroma.y, chroma.x);
         const double difference = std::remainder(angle - ToHsi(colour).hue, 2 * kPi);
-        ASSERT_NEAR(difference, 0, 1e-6) << r << ' ' << g << ' ' << b;  // arccos is only that good near 0 and π
+        ASSERT_NEAR(difference, 0, 1e-6) << r << ' ' << g << ' ' << b;  // arccos has only this accuracy near 0 and π
         ++checked;
       }
     }

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-enum Stroke : std::size_t { kThigh, kShank, kFoot };  // of the left leg, as StrokeMarks has them
+enum Stroke : std::size_t { kThigh, kShank, kFoot };  // indices in StrokeMarks, left leg
 constexpr glm::dvec2 kNowhere(-1);
 
 Rgb8 Pure(double hue_deg, double value = 200) {
@@ -22,7 +22,7 @@ Rgb8 Pure(double hue_deg, double value = 200) {
   return {channel(0), channel(120), channel(240)};
 }
 
-/// Hues a seventeenth of the circle apart, neighbours far from each other.
+/// Returns hues a seventeenth of the circle apart; adjacent limbs get distant hues.
 LimbColours Suit() {
   LimbColours suit{.trunk = Pure(0), .limbs = {}};
   for (std::size_t i = 0; i < kStrokeCount; ++i)
@@ -34,7 +34,7 @@ struct Canvas {
   ColourImage picture{200, 240, {90, 90, 90}};
   Mask person{200, 240, 1};
 
-  /// Every pixel centre within `radius` of the segment; with flat ends none before a or behind b.
+  /// Sets every pixel whose centre is within `radius` of the segment; with flat ends, none before a or behind b.
   void Draw(const glm::dvec2& a, const glm::dvec2& b, double radius, Rgb8 colour, bool has_flat_ends = false) {
     DrawPen(picture.width, picture.height, a, b, radius, has_flat_ends,
             [&](int x, int y, double) { picture.At(x, y) = colour; });
@@ -42,9 +42,9 @@ struct Canvas {
   Marks Read() const { return ReadLimbColours(picture, person, Suit()); }
 };
 
-/// A leg of capsules that stand before each other, the thicker one before the thinner, both joints bent by 60° or more:
-/// each limb then ends a radius beyond its joint. The trunk ends across the thigh so far below the hip as a pelvis
-/// does that is 1.37 times as thick (√(1.37² − 1) = 0.94).
+/// A leg of capsules, each thicker one in front of the thinner one, both joints bent by 60° or more, so that each limb
+/// ends a radius beyond its joint. The trunk crosses the thigh as far below the hip as a pelvis 1.37 times as thick
+/// does (√(1.37² − 1) = 0.94).
 struct Leg {
   static constexpr double kThighRadius = 10, kShankRadius = 7, kFootRadius = 5;
   glm::dvec2 hip, knee, ankle, toe, down;
@@ -68,7 +68,7 @@ struct Leg {
   }
 };
 
-/// How far each end of the leg's strokes and its disc are off the most; all are there.
+/// Returns the largest error of the leg's stroke ends and disc; none may be missing.
 double FarthestOff(const Marks& marks, const Leg& leg) {
   double off = 0;
   const std::array joints = {leg.hip, leg.knee, leg.ankle, leg.toe};
@@ -97,7 +97,7 @@ TEST(ReadLimbColours, FindsTheJointsOfPaintedCapsules) {
   }
 }
 
-// Where two capsules of one radius are cut across at a straight joint, that cut is the joint.
+// At a straight joint, two capsules of equal radius are divided by a cut through the joint.
 TEST(ReadLimbColours, PutsAStraightJointWhereTwoCapsulesMeet) {
   Canvas canvas;
   const LimbColours suit = Suit();
@@ -143,7 +143,7 @@ TEST(ReadLimbColours, LeavesOutALimbThatIsHiddenAndReadsTheOthers) {
   EXPECT_TRUE(marks.strokes[kFoot]) << "its far end is told by the trunk";
 }
 
-// A forearm that crosses the thigh leaves two pieces of it, with one line through both.
+// A forearm that crosses the thigh leaves two pieces with one common line.
 TEST(ReadLimbColours, ReadsALimbInPiecesWhereAnotherOneCrossesIt) {
   Canvas canvas;
   const Leg leg;
@@ -153,12 +153,12 @@ TEST(ReadLimbColours, ReadsALimbInPiecesWhereAnotherOneCrossesIt) {
   EXPECT_LT(FarthestOff(canvas.Read(), leg), 1.7);
 }
 
-// Where red ends before yellow, a blurred camera shows orange: no limb is so thin.
+// Between red and yellow a blurred camera shows an orange line, too thin for a limb.
 TEST(ReadLimbColours, TakesNoLineOfMixedColoursForALimb) {
   LimbColours suit = Suit();
   suit.trunk = {200, 0, 0};
   suit.limbs[kThigh] = {200, 200, 0};
-  suit.limbs[12] = {200, 100, 0};  // the head
+  suit.limbs[12] = {200, 100, 0};  // the head's colour
   Canvas canvas;
   canvas.Draw({100, 20}, {100, 100}, 30, suit.trunk, true);
   canvas.Draw({100, 100}, {100, 180}, 10, suit.limbs[kThigh], true);
@@ -166,14 +166,14 @@ TEST(ReadLimbColours, TakesNoLineOfMixedColoursForALimb) {
   const Marks marks = ReadLimbColours(canvas.picture, canvas.person, suit);
   EXPECT_TRUE(marks.strokes[kThigh]);
   EXPECT_EQ(CountMarks(marks), 1u);
-  // The control: as thick as a head it is one.
+  // The control: a line as thick as a head is one.
   canvas.Draw({100, 5}, {100, 35}, 15, suit.limbs[12], true);
   EXPECT_EQ(CountMarks(ReadLimbColours(canvas.picture, canvas.person, suit)), 3u);
 }
 
 TEST(ReadLimbColours, ReadsNothingOfOtherColoursOrOffThePerson) {
   LimbColours pale = Suit();
-  const auto fade = [](Rgb8& c) {  // halfway to grey
+  const auto fade = [](Rgb8& c) {  // half-way to grey
     const int grey = (c.r + c.g + c.b) / 3;
     c = {static_cast<std::uint8_t>((c.r + grey) / 2), static_cast<std::uint8_t>((c.g + grey) / 2),
          static_cast<std::uint8_t>((c.b + grey) / 2)};
@@ -188,7 +188,7 @@ TEST(ReadLimbColours, ReadsNothingOfOtherColoursOrOffThePerson) {
   Leg().Draw(nobody, Suit());
   nobody.person = Mask(200, 240);
   EXPECT_EQ(CountMarks(nobody.Read()), 0u);
-  // What lies a few pixels beside the person is still theirs.
+  // Pixels within a few pixels of the person still belong to it.
   nobody.person = Mask(200, 240);
   Canvas eaten = nobody;
   for (int y = 0; y < 240; ++y) {

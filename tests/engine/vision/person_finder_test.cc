@@ -18,7 +18,7 @@ RandomStream Dice(int seed) {
   return RandomStream(WorldKey{.suite_seed = 1, .scenario = "person-finder", .trial = seed}, "pixels");
 }
 
-/// Any colours, grey and nearly grey ones among them, whose hues have every distance.
+/// Returns a picture of any colours, including grey and nearly grey ones, with hues at every distance.
 ColourImage AnyPicture(int width, int height, int seed) {
   RandomStream dice = Dice(seed);
   ColourImage picture(width, height);
@@ -54,7 +54,7 @@ TEST(KeepPerson, IsTheLargestPieceWithItsSmallHolesFilled) {
   for (int seed = 0; seed < 40; ++seed) {
     RandomStream dice = Dice(1000 + seed);
     Mask mask(37, 23);
-    // From scattered pixels to a sheet full of holes.
+    // The share ranges from scattered pixels to a sheet with holes.
     const double share = 0.05 + 0.023 * seed;
     for (std::uint8_t& pixel : mask.pixels) pixel = dice.Uniform(0, 1) < share ? 1 : 0;
     for (const int max_hole_px : {0, 1, 5, 1000}) {
@@ -68,7 +68,7 @@ TEST(KeepPerson, IsTheLargestPieceWithItsSmallHolesFilled) {
   EXPECT_EQ(std::ranges::count(nothing.pixels, 1), 0);
 }
 
-/// Hues whose distance is the threshold itself: what single precision cannot tell is compared again.
+/// Hues exactly at the threshold: what single precision cannot decide is computed again in double precision.
 TEST(PersonFinder, AgreesWhereHuesAreAsFarApartAsTheThreshold) {
   const ColourImage background = AnyPicture(64, 64, 1), picture = AnyPicture(64, 64, 2);
   int compared = 0;
@@ -109,7 +109,7 @@ TEST(Segmenters, RgbComparesTheMostDifferentColour) {
   EXPECT_TRUE(IsFound({100, 100, 100}, moved(options.rgb_threshold + 1), Segmenter::kRgb));
 }
 
-/// A bright square that moves over a grey wall with noise; `first` frames of the wall alone come before.
+/// A bright square that moves over a noisy grey wall, after `first` frames of the wall alone.
 class Film {
  public:
   ColourImage Next(bool has_square) {

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-// A straight stroke of a round pen, its halves in the mark's two shades: every pixel whose centre the pen covers.
+// Draws a straight stroke of a round pen, each half in one of the mark's shades: every pixel whose centre is covered.
 void DrawStroke(ColourImage& picture, const StrokeMark& mark, const glm::dvec2& from, const glm::dvec2& to) {
   DrawPen(picture.width, picture.height, from, to, kStrokeWidth / 2, /*has_flat_ends=*/false,
           [&](int x, int y, double share) { picture.At(x, y) = share < 0.5 ? mark.first_half : mark.second_half; });
@@ -43,7 +43,7 @@ TEST(ReadMarks, ReadsAStrokeAlongARowFromItsFirstHalfToItsSecond) {
 }
 
 TEST(ReadMarks, FindsTheEndsOfALimbNotThoseOfThePen) {
-  // The pen reaches beyond the limb at both ends. Pixels round each reading, but not their mean.
+  // The pen extends beyond the limb at both ends. Pixel rounding affects each reading, but not the mean.
   constexpr int kDirections = 180;
   double beyond_a = 0, beyond_b = 0;
   for (int i = 0; i < kDirections; ++i) {
@@ -64,7 +64,6 @@ TEST(ReadMarks, FindsTheEndsOfALimbNotThoseOfThePen) {
   EXPECT_NEAR(beyond_b, 0, 0.25);
 }
 
-// Every pixel whose centre is in the disc.
 void DrawDisc(ColourImage& picture, const EffectorMark& mark, const glm::dvec2& centre) {
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
@@ -85,7 +84,7 @@ TEST(ReadMarks, FindsTheCentreOfADiscWhereverItsPixelsFall) {
 }
 
 TEST(ReadMarks, FindsTheCentreOfADiscThatIsPartlyCovered) {
-  // The control: the mean of what is seen leans to that side, by 1.33 pixels.
+  // The control: the mean of visible pixels is off by 1.33 pixels towards the visible side.
   constexpr int kDirections = 24;
   double error = 0, error_of_mean = 0;
   for (int i = 0; i < kDirections; ++i) {
@@ -129,7 +128,7 @@ TEST(ReadMarks, ReadsEveryMarkOfThePalette) {
 }
 
 TEST(ReadMarks, GivesAShortStrokeSomeLength) {
-  // Shorter than the pen is wide: cut back at both ends, it must not turn round.
+  // A stroke shorter than the pen is wide: shortened at both ends, it must not reverse.
   ColourImage picture(20, 20);
   picture.At(5, 5) = StrokeMarks()[0].first_half;
   picture.At(6, 5) = StrokeMarks()[0].second_half;
@@ -139,7 +138,7 @@ TEST(ReadMarks, GivesAShortStrokeSomeLength) {
 }
 
 TEST(ReadMarks, ReportsWhatIsNotThereAsMissing) {
-  ColourImage picture(40, 20, {1, 2, 3});  // no colour of the palette
+  ColourImage picture(40, 20, {1, 2, 3});  // not in the palette
   picture.At(5, 5) = StrokeMarks()[0].first_half;
   const Marks marks = ReadMarks(picture);
   for (const auto& stroke : marks.strokes) EXPECT_FALSE(stroke) << "also with one shade alone: its sense is unknown";

@@ -15,7 +15,7 @@ namespace {
 
 const Target* chosen = nullptr;
 
-/// A line of libFuzzer's dictionaries.
+/// Returns a word as a line of libFuzzer's dictionary.
 std::string Quoted(const std::string& word) {
   std::string line = "\"";
   for (const char c : word) {

@@ -8,7 +8,7 @@
 namespace etude::fuzz {
 namespace {
 
-/// What a program says, line by line, whatever it was asked.
+/// Reads a program's output line by line, in any state of the protocol.
 void Lines(std::string_view bytes) {
   const std::string line(bytes);
   ReadHello(line);
@@ -27,7 +27,6 @@ std::vector<std::string> LineSeeds() {
           R"({"type":"no_answer","id":"1","reason":"why"})"};
 }
 
-/// A world of a task, made once.
 const SpecimenProblem& ProblemOf(const char* task) {
   static std::map<std::string, std::vector<Specimen>> specimens;
   auto& made = specimens[task];
@@ -41,7 +40,7 @@ void Answer(std::string_view bytes) {
   if (json && json->is_object()) ProblemOf(kTask).world->Judge(*json);
 }
 
-/// The truth, which most tasks take for an answer, and the problem, in whose words all are given.
+/// Good answers: the truth, which most tasks accept, and the problem, which has the same vocabulary.
 template <const char* kTask>
 std::vector<std::string> AnswerSeeds() {
   const SpecimenProblem& problem = ProblemOf(kTask);

@@ -17,7 +17,7 @@
 namespace etude::fuzz {
 namespace {
 
-/// What an element of an FBX file holds: a text, a number, or an array of numbers.
+/// The value of an FBX element: a text, a number, or an array of numbers.
 using FbxValue =
     std::variant<std::string, std::int64_t, double, std::vector<std::int64_t>, std::vector<double>, std::vector<float>>;
 
@@ -59,7 +59,7 @@ std::string Raw(Number number) {
   return bytes;
 }
 
-/// The element as it stands from byte `at` of a file on: where it ends, what it holds, what is below it.
+/// Returns the element in binary form from byte `at` of a file on: its end, its values, its children.
 std::string InBytes(const Element& element, std::size_t at) {
   std::string values;
   const auto add = [&](const auto& value) {
@@ -87,7 +87,7 @@ std::string InBytes(const Element& element, std::size_t at) {
          static_cast<char>(element.name.size()) + element.name + values + below;
 }
 
-/// A person whose hips turn once about the vertical in a second.
+/// Returns a person whose hips turn once about the vertical in a second.
 std::vector<Element> Person() {
   const auto called = [](const std::string& name, const std::string& kind) {
     return name + std::string("\0\1", 2) + kind;
@@ -147,12 +147,11 @@ std::vector<std::string> FbxSeeds() {
   return {text, bytes + std::string(13, '\0')};
 }
 
-// What assimp says of a file, for it is not compiled to tell its edges: libFuzzer takes what is new here for new
-// ground.
+// assimp is compiled without edge counters, so its messages serve instead: libFuzzer treats new ones as new coverage.
 constexpr std::size_t kSigns = 4096, kSigned = 60;
 __attribute__((used, section("__libfuzzer_extra_counters"))) std::uint8_t signs[kSigns];
 
-/// Marks that a file came to such an end; numbers and names in it count for nothing.
+/// Marks that a file ended with this message; numbers and names in it are ignored.
 void Sign(std::string_view told) {
   std::size_t hash = 0;
   bool is_quoted = false;
@@ -163,8 +162,8 @@ void Sign(std::string_view told) {
   signs[hash % kSigns] = 1;
 }
 
-/// Reads a file as users do, in a limited child, which lives on for the next one: a process each takes fifty times as
-/// long. What assimp leaks ends with it.
+/// Reads a file as users do, in a limited child that stays for 10,000 files, because a new process takes fifty times as
+/// long. The child's end frees what assimp leaks.
 void Fbx(std::string_view bytes) {
   constexpr int kFilesOfChild = 10'000;
   static std::optional<FbxReader> reader;

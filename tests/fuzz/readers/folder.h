@@ -9,7 +9,7 @@
 
 namespace etude::fuzz {
 
-/// A folder for files that a reader reads; soaks put it into memory ($TMPDIR).
+/// A folder for a reader's files; soaks place it in memory ($TMPDIR).
 class Folder {
  public:
   Folder() : folder_(std::move(TemporaryFolder::Make("fuzz").value())) {}

@@ -29,7 +29,7 @@
 namespace etude::fuzz {
 namespace {
 
-/// What every clip goes through next, whatever its file was.
+/// Does what follows for every clip, whatever its format.
 void MakeBody(const Clip& clip) {
   const auto map = FindJointMap(clip.skeleton, kFile);
   if (map) ToBodyMotion(clip, *map, kFile);
@@ -42,7 +42,7 @@ void Bvh(std::string_view bytes) {
   Required(ReadBvh(WriteBvh(*clip), kFile), "a clip that was written is not read");
 }
 
-/// Two joints that turn and an end site, in so many frames.
+/// Returns two rotating joints and an end site, in `frames` frames.
 std::string SmallBvh(int frames) {
   std::string text =
       "HIERARCHY\nROOT Hips\n{\n\tOFFSET 0 90 0\n\tCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
@@ -53,13 +53,12 @@ std::string SmallBvh(int frames) {
   return text;
 }
 
-/// A person, standing still.
 std::string PersonBvh() { return WriteBvh(testing::AtRest(testing::PersonSkeleton(), 2)); }
 
 std::vector<std::string> BvhSeeds() { return {SmallBvh(1), SmallBvh(4), PersonBvh()}; }
 
 void Gltf(std::string_view bytes) {
-  // Whatever a file asks for beside it is there, and wrong.
+  // Every file that it refers to exists, with wrong content.
   const auto content = ReadGltf(bytes, kFile, [](const std::string&) { return std::string(512, '\x3f'); });
   if (!content) return;
   for (const Clip& clip : content->clips) MakeBody(clip);
@@ -88,7 +87,7 @@ void Trc(std::string_view bytes) {
       [](const MarkerMotion& motion) { return WriteTrc(motion, kFile); });
 }
 
-/// The channels, a form feed, the rows.
+/// Input: the channels, a form feed, the rows.
 void Bids(std::string_view bytes) {
   const std::size_t end = std::min(bytes.find('\f'), bytes.size());
   const std::string_view rows = bytes.substr(std::min(end + 1, bytes.size()));
@@ -154,7 +153,6 @@ void AcclaimMotionFile(std::string_view bytes) {
   if (clip) MakeBody(*clip);
 }
 
-/// Two frames of AMASS.
 std::string AmassSeed() {
   return WriteNpz({{"poses", {.shape = {2, 72}, .values = std::vector<double>(144, 0.1)}},
                    {"trans", {.shape = {2, 3}, .values = std::vector<double>(6, 1)}},

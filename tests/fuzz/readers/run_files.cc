@@ -43,7 +43,7 @@ const Plan& SmallPlan() {
   return plan;
 }
 
-/// The row of a cell that ended in one of the ways that there are.
+/// Returns a cell's row with one of the possible statuses.
 Row SomeRow(std::size_t cell) {
   Row row = SmallPlan().IdentityOf(cell);
   row.result = CellResult::Ended(cell % 3 == 2 ? Status::kCrashed : Status::kOk, cell % 3 == 2 ? "signal 11" : "");
@@ -54,7 +54,7 @@ Row SomeRow(std::size_t cell) {
   return row;
 }
 
-/// A whole run in a folder, its rows as lines of text or as columns; one of its files is then other bytes.
+/// A whole run in a folder, with rows as text or as columns; one of its files gets other bytes.
 class RunFolder {
  public:
   explicit RunFolder(bool as_columns) {
@@ -73,7 +73,7 @@ class RunFolder {
   }
 
   std::string Text(const char* file) const { return ReadWholeFile(folder_.path() / file).value(); }
-  /// Reads all that a report would.
+  /// Reads everything that a report reads.
   void Read(const char* file, std::string_view bytes) const {
     folder_.With(file, bytes);
     const auto run = LoadRun(folder_.path(), Sealing::kIgnored);
@@ -138,7 +138,7 @@ std::string JournalSeed() {
   return ReadWholeFile(folder.path() / kJournalFile).value();
 }
 
-/// With its sum made right, for nothing else gets past it.
+/// The checksum is corrected first, because lines with a wrong one are refused at once.
 void CellLine(std::string_view bytes) {
   if (bytes.size() < 2 || bytes.back() != '}') return;
   const std::string line = WithSum(std::string(bytes));
@@ -151,7 +151,7 @@ std::string CellLineSeed() {
 }
 
 void Baseline(std::string_view bytes) {
-  const auto snapshot = ReadBaseline(std::string(bytes), kFile, BaselineSeal::kMayBreak);  // which no mutation keeps
+  const auto snapshot = ReadBaseline(std::string(bytes), kFile, BaselineSeal::kMayBreak);  // mutations break the seal
   if (!snapshot) return;
   const auto text = WriteBaseline(*snapshot);
   Required(ReadBaseline(Required(text, "a baseline that was read cannot be written"), kFile),

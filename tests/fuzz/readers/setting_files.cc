@@ -22,7 +22,7 @@ void Yaml(std::string_view bytes) {
 
 void ScenarioFile(std::string_view bytes) { ParseScenarios(kFile, {{kFile, std::string(bytes)}}); }
 
-/// Every key that a scenario may have, from the scenarios' own files.
+/// Returns every key that a scenario may have, from the scenarios' own files.
 std::vector<std::string> ScenarioWords() {
   std::vector<std::string> words;
   for (const KeyInfo& key : CommonScenarioKeys()) words.push_back(key.key + ":");

@@ -49,7 +49,6 @@ std::vector<std::string> AllSeeds() {
   return all;
 }
 
-/// The same bytes line by line, as a device sends them.
 void Live(std::string_view bytes) {
   LiveStream live(kFile, {}, {});
   std::vector<SensedFrame> frames;

@@ -12,7 +12,6 @@ namespace etude::fuzz {
 /// The file name in complaints.
 inline const std::string kFile = "fuzzed";
 
-/// A reader under attack.
 struct Target {
   std::string name;
   /// Reads `bytes` as if a user had given them, and always returns. If the reader accepts them, our own writer must
@@ -31,7 +30,6 @@ std::vector<Target> CameraTargets();
 std::vector<Target> SettingTargets();
 std::vector<Target> RunTargets();
 std::vector<Target> AnswerTargets();
-/// Returns all readers.
 const std::vector<Target>& Targets();
 
 /// Unless `holds`, ends the program with the message `broken`.

@@ -34,7 +34,7 @@ class ConvertTest : public ClipFolder {
     EXPECT_FALSE(converted);
     return converted ? "" : ToString(converted.error());
   }
-  /// The farthest that a joint of `b` is from the joint of that name in `a`, whose unit has `metres`.
+  /// Returns the largest distance of a joint of `b` from the joint of the same name in `a`, whose unit is `metres` m.
   static double WorstGap(const Clip& a, double metres, const Clip& b) {
     std::vector<GlobalTransform> in_a, in_b;
     double worst = a.frames.size() == b.frames.size() ? 0 : std::numeric_limits<double>::infinity();
@@ -153,7 +153,7 @@ TEST_F(ConvertTest, WithoutAUnitThereIsNoGlb) {
   const GltfContent glb = ReadBack(Convert(path, MotionFormat::kGlb, options));
   std::vector<GlobalTransform> globals;
   ComputeGlobals(glb.character.skeleton, glb.clips[0].frames[1], globals);
-  // (1, 10, 0) centimetres with Z up: lying along what is −Z now.
+  // (1, 10, 0) cm with Z up lies along what is now −Z.
   EXPECT_LT(glm::distance(globals[glb.character.skeleton.Find("Chest")].position, glm::dvec3(0.01, 0, -0.1)), 1e-6);
 }
 

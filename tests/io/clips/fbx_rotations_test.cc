@@ -22,7 +22,7 @@ std::string TextValue(const std::string& text) {
   return "S" + NumberBytes(static_cast<std::uint32_t>(text.size())) + text;
 }
 
-/// Writes binary FBX nodes: a second implementation, by the format's description.
+/// A second implementation that writes binary FBX nodes by the format's description.
 class FbxWriter {
  public:
   explicit FbxWriter(std::uint32_t version) : version_(version) {}
@@ -66,8 +66,8 @@ FbxWriter::Node Entry(const std::string& name, std::int32_t number) {
   return {"P", TextValue(name) + TextValue("int") + TextValue("") + TextValue("") + "I" + NumberBytes(number), 5};
 }
 
-/// A file of three models, whose middle one tells `active`; `pre` is its PreRotation. The first one tells nothing, so
-/// that the template's `by_template` holds; `first` is its PreRotation.
+/// Returns a file of three models. The middle one states `active`; `pre` is its PreRotation. The first one states
+/// nothing, so the template's `by_template` holds; `first` is its PreRotation.
 std::string Models(std::uint32_t version, std::int32_t active, const std::vector<double>& pre, std::int32_t order,
                    std::int32_t by_template = 1, const std::vector<double>& first = {0, 90, 0}) {
   const auto model = [](std::vector<FbxWriter::Node> entries) {
@@ -126,7 +126,7 @@ TEST(FbxRotations, AreZeroInTextWhereTheyAreNotActive) {
         by_template, pre, active, order);
   };
   std::string changed;
-  // The model's own word holds; without it, the template's; without that, none is active, as in the FBX SDK.
+  // The model's own value counts; without it, the template's; without both, rotations are inactive, as in the FBX SDK.
   for (const auto& [by_template, active] : {std::pair(told(1), told(0)), {told(0), ""}, {"", ""}, {"", told(0)}}) {
     EXPECT_EQ(LeaveOutInactiveRotations(text(by_template, active, "0,90,0", 5), changed), 1u) << by_template << active;
     EXPECT_EQ(changed, text(by_template, active, "0,0,0", 0));

@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-/// An arm with a pre-rotation below hips, as text; its translation, rotation and scale have `keys` keys each, a second
-/// apart in all, and it moves from x = 10 to 20.
+/// Returns, as text, an arm with a pre-rotation below hips; translation, rotation and scale have `keys` keys each
+/// within a second, and it moves from x = 10 to 20.
 std::string ArmWithKeys(int keys) {
   std::string objects, links;
   const auto model = [&](int id, const char* name, const char* more) {
@@ -28,7 +28,7 @@ std::string ArmWithKeys(int keys) {
         "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",10,0,0\n");
   objects += "AnimationStack: 1, \"AnimStack::Move\", \"\" {\n}\nAnimationLayer: 2, \"AnimLayer::Base\", \"\" {\n}\n";
   links += "C: \"OO\",10,0\nC: \"OO\",11,10\nC: \"OO\",2,1\n";
-  // Three curves for each of the three properties.
+  // Each of the three properties has three curves.
   constexpr std::int64_t kSecond = 46'186'158'000;
   std::vector<std::int64_t> times;
   for (int k = 0; k < keys; ++k) times.push_back(kSecond * k / (keys - 1));
@@ -57,7 +57,7 @@ std::string ArmWithKeys(int keys) {
 }
 
 TEST(Fbx, JointsWithPivotsKeepTheirMotionWhateverTheNumberOfKeys) {
-  // The product of 2048 keys of three kinds is 0 in 32 bits.
+  // For 2048 keys of three kinds, a product in 32 bits overflows to 0.
   for (const int keys : {31, 2047, 2048, 2049}) {
     ASSERT_OK(motion, ReadFbx(ArmWithKeys(keys), "a.fbx"));
     ASSERT_OK(content, ReadGltf(motion->glb, "a.fbx", nullptr));

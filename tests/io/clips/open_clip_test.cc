@@ -75,7 +75,7 @@ TEST_F(OpenClipTest, AnimationsOfOneNameAndASecondBodyAreSaid) {
   EXPECT_EQ(clips->at(1).name, "same#Armature|Jump_2");
   EXPECT_THAT(clips->at(0).remarks,
               ElementsAre("another animation is called 'Armature|Jump', too: it is 'Armature|Jump_2' here"));
-  // Two people on one skeleton; readers number joints of one name.
+  // Two people on one skeleton; readers number joints of the same name.
   Clip pair = RigClip({.rate_hz = 30, .poses = {StandingPose(), StandingPose()}}, StandingPose(), "pair");
   SourceClip source{.name = "one", .source = "one.glb", .format = ClipFormat::kGlb, .clip = pair};
   const auto alone = UnderstandClip(source, {});
@@ -219,7 +219,7 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
 
 TEST_F(ClipFileTest, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   const std::string path = Write("huge.bvh", "HIERARCHY");
-  std::filesystem::resize_file(path, kMaxClipFileBytes + 1);  // takes no room on the disk
+  std::filesystem::resize_file(path, kMaxClipFileBytes + 1);  // a sparse file, which takes no space
   EXPECT_NE(Complaint(path).find("501 MB; allowed: clips of at most 500 MB"), std::string::npos);
 }
 
@@ -236,7 +236,7 @@ TEST_F(ClipFileTest, NothingOutsideTheFolderIsRead) {
   Write("inside/numbers.bin", AnimationBytes());
   std::filesystem::create_symlink(In("outside/numbers.bin"), In("inside/link.bin"));
   std::filesystem::create_symlink(In("inside/numbers.bin"), In("inside/fine.bin"));
-  // The control: a link that stays inside is followed.
+  // The control: a link within the folder is followed.
   EXPECT_TRUE(ReadClipFile(Write("inside/fine.gltf", GltfWithAnimations("fine.bin"))));
   EXPECT_NE(
       Complaint(Write("inside/a.gltf", GltfWithAnimations("link.bin"))).find("a link that leads out of the folder"),
@@ -253,7 +253,7 @@ TEST_F(ClipFileTest, BuffersCountTogetherWithTheFile) {
   EXPECT_NE(Complaint(Write("a.gltf", GltfWithAnimations("numbers.bin"))).find("at most 500 MB"), std::string::npos);
 }
 
-// Debian's assimp-testmodels: one box, its picture beside it, within a URI and within the GLB.
+// Debian's assimp-testmodels: the same box with its picture beside it, in a URI, and in the GLB.
 TEST_F(ClipFileTest, TexturesAreTheSameWhereverTheyStand) {
   const std::string models = "/usr/share/assimp/models/glTF2/BoxTextured-glTF";
   std::vector<SharedTexture> textures;

@@ -29,7 +29,7 @@ class RawMotionsTest : public ClipFolder {
   }
 };
 
-/// A body that stands 0.3 m above the floor of its file for some frames.
+/// Returns a body that stands 0.3 m above its file's floor.
 BodyMotion Lifted(double rate_hz, std::size_t frames) {
   BodyMotion motion{rate_hz, std::vector<BodyPose>(frames, StandingPose())};
   for (BodyPose& pose : motion.poses) {
@@ -63,13 +63,13 @@ TEST_F(RawMotionsTest, EndSitesAreNoneOfTheFilesOwnJoints) {
     ends += is_end;
   }
   EXPECT_GE(ends, 5u);
-  // The joint that carries the hips is the file's own root.
+  // The joint that carries the hips is the file's root.
   EXPECT_TRUE(HasOwnRoot(raw));
   EXPECT_EQ(raw.joints[raw.roles[Index(Role::kHipCentre)]], "Hips");
 }
 
 TEST_F(RawMotionsTest, ArraysOfAnyJointsAreABodyByTheirNames) {
-  // The joints of SMPL that have roles, with a gap; without feet, hands and spine.
+  // SMPL's joints that have roles, with a gap; without feet, hands and spine.
   BodyMotion motion = Lifted(50, 30);
   NumberArray positions{.shape = {30, 14, 3}, .values = {}};
   std::vector<std::string> names;
@@ -94,7 +94,7 @@ TEST_F(RawMotionsTest, ArraysOfAnyJointsAreABodyByTheirNames) {
   EXPECT_EQ(body->motion.rate_hz, 50);
   ASSERT_EQ(body->motion.poses.size(), 30u);
   EXPECT_NEAR(glm::distance(body->motion.poses[7][Role::kLeftKnee], motion.poses[7][Role::kLeftKnee]), 0, 1e-9);
-  // In the unit that is told.
+  // In the declared unit.
   OpenOptions told;
   told.body.metres_per_unit = 0.9;
   const auto smaller = OpenBodyInPlace(file, told);
@@ -116,7 +116,7 @@ TEST_F(RawMotionsTest, JointsPlacedByRulePlayNoRole) {
   EXPECT_NEAR(glm::distance(raw.At(0, raw.roles[Index(Role::kHipCentre)]), middle), 0, 1e-5);
 }
 
-/// Kimodo's skeleton: each joint's parent, and its place relative to it in the T-pose, metres.
+/// A joint of Kimodo's skeleton: its parent, and its offset from the parent in the T-pose, metres.
 struct PlacedJoint {
   int parent;
   glm::dvec3 offset;
@@ -171,7 +171,7 @@ TEST_F(RawMotionsTest, KimodosArraysKeepTheirRotationsAndContacts) {
   }
   EXPECT_EQ(raw.rest_rotations[kLeftKnee], glm::dquat(1, 0, 0, 0));
   EXPECT_EQ(raw.contacts, (std::vector<bool>{1, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0}));
-  // Contacts of another length are refused.
+  // Contacts of a wrong shape are refused.
   std::map<std::string, NumberArray> wrong = arrays;
   wrong["foot_contacts"] = {{2, 4}, std::vector<double>(8, 1)};
   EXPECT_THAT(testing::Refusal(OpenRawMotion(Write("w.npz", WriteNpz(wrong, {})), {})),
@@ -179,7 +179,7 @@ TEST_F(RawMotionsTest, KimodosArraysKeepTheirRotationsAndContacts) {
 }
 
 TEST_F(RawMotionsTest, KimodosWholeSkeletonHasItsFingersAndTheSameRoles) {
-  // Parents as published; places on a line, so that each joint has one of its own.
+  // Parents as published; offsets along a line, so that every joint has its own position.
   constexpr int kParents[] = {-1, 0,  1,  2,  3,  4,  5,  6,  6,  6,  6,  3,  11, 12, 13, 14, 15, 16, 17, 14, 19, 20, 21, 22, 14, 24,
                               25, 26, 27, 14, 29, 30, 31, 32, 14, 34, 35, 36, 37, 3,  39, 40, 41, 42, 43, 44, 45, 42, 47, 48, 49, 50,
                               42, 52, 53, 54, 55, 42, 57, 58, 59, 60, 42, 62, 63, 64, 65, 0,  67, 68, 69, 70, 0,  72, 73, 74, 75};

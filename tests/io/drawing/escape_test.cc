@@ -15,7 +15,7 @@ TEST(Markup, ReplacesWhatXmlForbids) {
   EXPECT_EQ(EscapeMarkup(std::string("a\0b", 3)), "a" + replaced + "b");
   EXPECT_EQ(EscapeMarkup("\x1b"), replaced);
   EXPECT_EQ(EscapeMarkup("\xff"), replaced);                                // never UTF-8
-  EXPECT_EQ(EscapeMarkup("\xc3"), replaced);                                // cut short
+  EXPECT_EQ(EscapeMarkup("\xc3"), replaced);                                // truncated
   EXPECT_EQ(EscapeMarkup("\xc0\xaf"), replaced + replaced);                 // overlong "/"
   EXPECT_EQ(EscapeMarkup("\xed\xa0\x80"), replaced + replaced + replaced);  // a surrogate
   EXPECT_EQ(EscapeMarkup("\xef\xbf\xbf"), replaced + replaced + replaced);  // U+FFFF
@@ -46,7 +46,7 @@ TEST(EscapeLatex, LeavesNoCharacterItsMeaning) {
   EXPECT_EQ(EscapeLatex("[1] *--<|>"), "{}[1] *-{}-\\textless{}\\textbar{}\\textgreater{}");
   EXPECT_EQ(EscapeLatex("two\nlines"), "two lines");
   EXPECT_EQ(EscapeLatex("\n*"), "{} *");
-  // Whatever byte comes, a special character of the answer stands behind a backslash or is one of our own commands.
+  // For every byte, a special character comes after a backslash or belongs to our own commands.
   for (int byte = 1; byte < 256; ++byte) {
     const std::string escaped = EscapeLatex(std::string(1, static_cast<char>(byte)));
     for (const char special : {'_', '&', '%', '#'}) {

@@ -13,7 +13,7 @@ namespace {
 using Rgb = std::array<double, 3>;
 using Matrix = std::array<Rgb, 3>;
 
-// Machado, Oliveira & Fernandes 2009, severity 1: normal, protanopia, deuteranopia, tritanopia; of linear RGB.
+// Machado, Oliveira & Fernandes 2009, severity 1, in linear RGB: normal, protanopia, deuteranopia, tritanopia.
 constexpr std::array<Matrix, 4> kVisions = {
     {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
      {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
@@ -38,7 +38,7 @@ Rgb Times(const Matrix& matrix, const Rgb& colour) {
   return out;
 }
 
-// Ottosson 2020.
+// Converts to OkLab (Ottosson 2020).
 Rgb OkLab(const Rgb& c) {
   const Rgb lms = Times({{{0.4122214708, 0.5363325363, 0.0514459929},
                           {0.2119034982, 0.6806995451, 0.1073969566},
@@ -50,7 +50,7 @@ Rgb OkLab(const Rgb& c) {
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 
-/// The smallest distance of any two, under any vision.
+/// Returns the smallest distance of two colours under any of the visions.
 double SmallestDistance(const std::vector<std::string_view>& colours) {
   double smallest = 1;
   for (const Matrix& vision : kVisions) {
@@ -64,7 +64,7 @@ double SmallestDistance(const std::vector<std::string_view>& colours) {
   return smallest;
 }
 
-// WCAG 2.1.
+// Returns the contrast ratio of WCAG 2.1.
 double Contrast(std::string_view a, std::string_view b) {
   const auto luminance = [](std::string_view hex) {
     const Rgb c = Linear(hex);
@@ -83,7 +83,7 @@ std::vector<std::string_view> Scheme(std::string_view PlotColour::*scheme) {
 TEST(Marks, AreToldApartWhateverTheReadersColourVision) {
   EXPECT_GT(SmallestDistance(Scheme(&PlotColour::light)), 0.11);
   EXPECT_GT(SmallestDistance(Scheme(&PlotColour::dark)), 0.11);
-  // The control: these two were the page's colours of methods 3 and 7, the same to a protanope.
+  // The control: former colours of methods 3 and 7, equal for a protanope.
   EXPECT_LT(SmallestDistance({"#7a5aa6", "#2d62a8"}), 0.02);
 }
 

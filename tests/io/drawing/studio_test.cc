@@ -64,13 +64,13 @@ TEST_F(StudioPictures, DoNotDependOnThoseBefore) {
 }
 
 TEST_F(StudioPictures, ShowFiguresAndShadowsWhereTheRendererDoes) {
-  // The oracle: the whole studio drawn by GL, all sides of all triangles. Undrawn, the floor is the same for both.
+  // The oracle: GL draws the whole studio with both sides of all triangles. The floor is the same for both.
   const Camera camera =
       LookAt({.width = 200, .height = 260, .fx = 400, .fy = 400, .cx = 100, .cy = 130}, {0, 1.35, 5.2}, {0, 0.92, 0});
   const FloorMove move{0.4, 0, 0};
   const View seen = renderer_->Render({}, {BearAt(move, false)}, camera, Targets::kAll);
   Overlay overlay;
-  renderer_->DrawFigures({BearAt({-1, 0.5, 0})}, camera, overlay);  // what is drawn first leaves no trace
+  renderer_->DrawFigures({BearAt({-1, 0.5, 0})}, camera, overlay);  // earlier drawings leave no trace
   renderer_->DrawFigures({BearAt(move)}, camera, overlay);
   int bodies = 0, shadows = 0, other = 0, missing = 0;
   for (std::size_t i = 0; i < seen.labels.pixels.size(); ++i) {
@@ -115,7 +115,7 @@ TEST(Shrinker, TakesTheMeanOfWhatEachPixelCovers) {
       }
     }
   }
-  // Nothing outside of what changed is touched.
+  // Pixels outside the changed part stay.
   Image<std::uint32_t> again(6, 4, 7);
   Shrinker(9, 6, 6, 4).Shrink(large, {4, 3, 5, 4}, again);
   EXPECT_EQ(again.At(0, 0), 7u);
@@ -137,7 +137,6 @@ TEST(Canvas, BecomesI420AsBt601HasIt) {
   }
 }
 
-// A frame with its number in it.
 Canvas Numbered(int frame) {
   Canvas canvas(64, 32);
   canvas.FillBox({0, 0, 64, 32}, {(frame % 10) / 10.0, frame / 100.0, 0.5});

@@ -8,7 +8,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Two groups; a column of numbers, and one for experts.
+/// Two groups; a column of numbers, and a column for experts.
 Table Small() {
   Table table{.label = "Small",
               .style = "data",

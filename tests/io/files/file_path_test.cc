@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A folder that somebody else has filled, and beside it a file of ours that they want.
+/// A folder filled by a stranger, and beside it a file of ours that the stranger wants.
 class FilesInside : public ::testing::Test {
  protected:
   FilesInside() : scratch_(*TemporaryFolder::Make("inside-test")) {

@@ -48,7 +48,7 @@ TEST(JsonText, TellsWhereATextIsNoJson) {
   EXPECT_TRUE(ParseJsonText("[1e999]").fault->is_large_number);
 }
 
-// nlohmann's parser with a callback takes 20 s for the first, its ordered objects as long for the second.
+// nlohmann's parser with a callback takes 20 s for the first text, its ordered objects as long for the second.
 TEST(JsonText, TakesTimeInProportionToTheLength) {
   std::string objects = "[{}", keys = "{\"a\":1";
   for (int i = 0; i < 150'000; ++i) objects += ",{}";

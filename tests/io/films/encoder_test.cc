@@ -51,7 +51,7 @@ TEST(Encoder, GivesTheSameBytesForTheSamePictures) {
   fs::remove(clicks);
 }
 
-/// A program that is ffmpeg, but lets x264 use only some of the processor's instructions.
+/// Returns a program that runs ffmpeg, but lets x264 use only some instruction sets.
 std::string FfmpegWith(const std::string& instructions) {
   const fs::path program = fs::path(::testing::TempDir()) / ("etude_ffmpeg_" + instructions);
   EXPECT_TRUE(WriteFileAtomically(program, fmt::format("#!/bin/bash\nexec ffmpeg \"${{@/cpu-independent=1/"
@@ -62,7 +62,7 @@ std::string FfmpegWith(const std::string& instructions) {
 }
 
 TEST(Encoder, GivesTheSameBytesOnEveryProcessor) {
-  // A texture that moves by parts of pixels: x264 then searches, filters and chooses among many ways.
+  // A texture that moves by fractions of pixels, so that x264 has to search, filter and choose.
   const auto encode = [](const std::string& program) {
     const fs::path path = FilmPath();
     auto encoder = Encoder::Start(path, 192, 144, 30, {}, Encoder::Form::kRgb, program);

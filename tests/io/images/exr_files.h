@@ -16,7 +16,7 @@
 
 namespace etude {
 
-/// An OpenEXR file, read by OpenEXR, channel by channel; a picture is empty if the file lacks its channel.
+/// An OpenEXR file, read by OpenEXR channel by channel; a picture is empty if its channel is missing.
 class ExrFile {
  public:
   explicit ExrFile(const std::string& path) : file_(path.c_str(), 0), window_(file_.header().dataWindow()) {}
@@ -36,7 +36,6 @@ class ExrFile {
     }
     return normals;
   }
-  /// Returns the linear light as 8-bit colours.
   ColourImage Colour() {
     const auto r = Read<half>(Imf::HALF, "R"), g = Read<half>(Imf::HALF, "G"), b = Read<half>(Imf::HALF, "B");
     ColourImage colour(r.width, r.height);

@@ -33,7 +33,7 @@ class ImageFiles : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-// Every 8-bit value, every label bit and odd depths among them.
+// Returns a view with every 8-bit value, every label bit, and unusual depths.
 View SomeView() {
   RandomStream random({3, "image-files", 0}, "pixels");
   View view{ColourImage(61, 37), LabelImage(61, 37), DepthImage(61, 37)};
@@ -82,7 +82,7 @@ TEST_F(ImageFiles, AnExrHoldsAWholeViewBitForBit) {
   EXPECT_EQ(*EncodeExr(view), *bytes);
 }
 
-// three.js and parse-exr count no bytes for channels of whole numbers, and read all others at wrong places.
+// three.js and parse-exr misread files with whole-number channels, because they assign them no bytes.
 TEST_F(ImageFiles, AnExrHasNoChannelOfWholeNumbers) {
   Write(At("v.exr"), *EncodeExr(SomeView()));
   const Imf::InputFile file(At("v.exr").c_str(), 0);
@@ -105,7 +105,7 @@ TEST_F(ImageFiles, AnExrHoldsOnlyThePicturesThatThereAre) {
   EXPECT_TRUE(file.Labels().pixels.empty());
 }
 
-// Read by OpenEXR's own way for pictures.
+// Read by OpenEXR's interface for pictures.
 TEST_F(ImageFiles, AnExrHoldsLinearLight) {
   View view;
   view.colour = ColourImage(256, 1);
@@ -186,7 +186,7 @@ TEST_F(ImageFiles, PngsOfTexturesAreReadFromMemoryWithinTheirBounds) {
   ASSERT_OK(read, DecodeColourPng(png, picture.pixels.size()));
   EXPECT_EQ(read->pixels, picture.pixels);
   EXPECT_THAT(ToString(DecodeColourPng(png, picture.pixels.size() - 1).error()), HasSubstr("61 x 37 pixels; allowed"));
-  for (std::size_t size = 0; size + 12 < png.size(); size += 97) {  // the last chunk, IEND, holds nothing
+  for (std::size_t size = 0; size + 12 < png.size(); size += 97) {  // the last chunk, IEND, is empty
     ASSERT_FALSE(DecodeColourPng(std::string_view(png).substr(0, size), picture.pixels.size())) << size;
   }
 }

@@ -65,7 +65,7 @@ TEST_F(ReadPeople, FramesWithoutAFileAreFramesWithoutPeople) {
     }
     EXPECT_EQ(film->told, "15 of 60 frames are missing, by their numbers or times; they are taken to show nobody");
   }
-  // Of a film with as many frames as files, each file is a frame; of one with 60, the numbers tell which.
+  // If a film has as many frames as there are files, each file is a frame; else the files' numbers are frames.
   EXPECT_EQ(ReadKeypoints(folder_.path() / "a", "", {.frames = 45})->frames.size(), 45u);
   EXPECT_EQ(ReadKeypoints(folder_.path() / "a", "", {.frames = 64})->frames.size(), 64u);
 }
@@ -139,7 +139,7 @@ TEST_F(ReadPeople, AsksWhichOrderTwentyFiveKeypointsHave) {
 }
 
 TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
-  // People in both orders: mid-hip and hips, or an elbow, a wrist and a hip.
+  // People with a different order of landmarks: mid-hip and hips, or elbow, wrist and hip.
   const auto people = [](bool has_mid_hip) {
     std::string list;
     for (std::size_t i = 0; i < 25; ++i) {

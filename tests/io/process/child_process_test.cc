@@ -28,7 +28,6 @@ void WaitForOutput(const ChildProcess& child) {
   ::poll(events, child.HasUnsent() ? 2 : 1, 5000);
 }
 
-/// Reads until the child ends; gives its lines.
 std::vector<std::string> LinesUntilEnd(ChildProcess& child) {
   std::vector<std::string> lines;
   for (bool alive = true; alive;) {
@@ -54,7 +53,7 @@ ChildProcess Shell(const std::string& script, const std::string& error_file = ""
   return std::move(*child);
 }
 
-/// Whether it is gone within so many hundredths of a second; a zombie is.
+/// Returns true if the process ends within `most` hundredths of a second; a zombie counts as ended.
 bool VanishesSoon(pid_t process, int most = 6000) {
   for (int i = 0; i < most; ++i, ::usleep(10000)) {
     std::ifstream file("/proc/" + std::to_string(process) + "/stat");
@@ -143,7 +142,7 @@ TEST(ChildProcess, ADeadChildsGroupIsKilledToo) {
   EXPECT_TRUE(VanishesSoon(grandchild));
 }
 
-// In a process of its own, since whoever adopts orphans may have no other children.
+// In a process of its own, because adopting orphans requires having no other children.
 TEST(ChildProcess, WhoAdoptsOrphansEndsTheDaemonThatAChildStartsAsItEnds) {
   for (const bool adopts : {false, true}) {
     const std::string file = ::testing::TempDir() + "daemon-" + std::to_string(adopts);
@@ -185,7 +184,7 @@ TEST(ChildProcess, DiesWithUs) {
   ASSERT_EQ(::pipe(report), 0);
   const pid_t we = ::fork();
   if (we == 0) {
-    // By `exec`: our end is the end of its input, too, and a child of the shell's would outlive it.
+    // With `exec`, closing our end closes the input of the program itself; a child of the shell would survive.
     ChildProcess child = Shell("echo $$; read x; exec sleep 100");
     const std::string line = ReadLine(child) + "\n";
     if (::write(report[1], line.data(), line.size()) < 0) ::_exit(1);
@@ -200,8 +199,8 @@ TEST(ChildProcess, DiesWithUs) {
   ::close(report[1]);
 }
 
-/// A child that has started another, which left its group and notices nothing; ended by a kill of the child alone, from
-/// elsewhere. Whether the other one is ended, too, though nobody of us does it.
+/// A child starts a process in its own session, which notices nothing. The child alone is killed from outside. Returns
+/// true if the other process ends, too, without our doing.
 bool IsEndedWithTheChild(bool contained) {
   auto child = ChildProcess::Start(
       {.program = "/bin/sh", .arguments = {"-c", "setsid sleep 100 & echo; read x"}, .contained = contained});
@@ -243,8 +242,7 @@ TEST(ChildProcess, RunsInThePinnedEnvironmentWhateverOursIs) {
   ::setenv("LP_NUM_THREADS", "0", 1);
 }
 
-// What turns other knobs of the renderer, the loader or the libraries stays outside; the rest of a closed environment
-// is made of two lists.
+// Variables that configure the renderer, the loader or libraries do not pass; two lists define the environment.
 TEST(ChildProcess, TakesNothingFromTheShellThatIsNotOnTheList) {
   const std::vector<std::string> knobs = {
       "LP_PERF",          "GALLIUM_DRIVER", "LP_NATIVE_VECTOR_WIDTH", "OPENBLAS_NUM_THREADS", "LD_BIND_NOW",
@@ -280,14 +278,14 @@ TEST(ChildProcess, SendingToADeadChildFailsInsteadOfKillingUs) {
   ::signal(SIGPIPE, SIG_DFL);
   ChildProcess child = Shell("exit 0");
   LinesUntilEnd(child);
-  bool listens = true;  // its input closes a moment before or after its output
+  bool listens = true;  // its input may close shortly before or after its output
   for (int i = 0; i < 60000 && listens; ++i, ::usleep(1000)) listens = child.Send("x");
   EXPECT_FALSE(listens);
   EXPECT_FALSE(child.HasUnsent());
 }
 
 TEST(ChildProcess, SendsWithoutWaitingForTheChild) {
-  const std::string long_line(3000000, 'x');  // far more than a pipe holds
+  const std::string long_line(3000000, 'x');  // much more than a pipe holds
   ChildProcess deaf = Shell("sleep 100"), listens = Shell("head -c 3000007 | wc -c");
   for (ChildProcess* child : {&deaf, &listens}) {
     EXPECT_TRUE(child->Send(long_line));

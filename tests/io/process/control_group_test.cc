@@ -56,7 +56,7 @@ TEST(HeldMb, CountsMemoryAndWhatTheKernelHoldsForIt) {
   EXPECT_EQ(HeldMbIn("", ""), 0);
 }
 
-/// Folders that look like groups.
+/// Folders that look like control groups.
 class FakeGroups : public ::testing::Test {
  protected:
   static void Give(const fs::path& group, const std::string& controllers) {
@@ -108,7 +108,6 @@ TEST_F(FakeGroups, NoGroupIsMadeWhereNoLimitCanBeSet) {
   EXPECT_TRUE(fs::is_empty(top_)) << "it takes away what it made";
 }
 
-/// A program that takes so many MB and waits.
 ChildOptions Taker(const ControlGroup& group, int mb) {
   return {.program = "python3",
           .arguments = {"-c", "import sys\nheld = bytearray(b'x') * (" + std::to_string(mb) +

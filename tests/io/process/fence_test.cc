@@ -37,7 +37,7 @@ Result<ChildProcess> Start(const FencedCommand& command) {
                               .environment = command.environment});
 }
 
-/// All that a script says in the fence.
+/// Returns the output of a script in the fence.
 std::string Say(const Fence& fence, const std::string& script, const std::vector<fs::path>& shown = {},
                 const fs::path& start = {}) {
   auto child = Start(fence.Around({"/bin/sh", "-c", script + " 2>&1"}, shown, start));
@@ -96,7 +96,7 @@ TEST_F(FenceTest, NamesNothingOfOurs) {
   EXPECT_EQ(Say(TheFence(), "ls /proc/self/fd | grep -v '^[0-2]$' | wc -l"), "1\n") << "ls's own alone";
 }
 
-// Bubblewrap's own process knows all mounts, those that are hidden by name.
+// Bubblewrap's own process would know all mounts, including the names of hidden ones.
 TEST_F(FenceTest, TheFirstProcessRemembersNoMounts) {
   const std::string look =
       "python3 -c \"\nimport re\nmounts = words = 0\nmemory = open('/proc/1/mem', 'rb', 0)\nfor line in "
@@ -123,7 +123,7 @@ TEST_F(FenceTest, OfTheSettingsItShowsThoseOfLibrariesAndOfUsersOneWithoutAName)
   EXPECT_TRUE(Fence::IsOfSystem("/etc/python3.11/sitecustomize.py"));
 }
 
-// Whoever listens at them would hear a program that is shown the folder.
+// A listener at a visible socket or pipe could hear a program in the fence.
 TEST_F(FenceTest, SocketsAndPipesInAFolderThatIsShownAreFoundAndCanBeHidden) {
   const fs::path folder = folder_;
   fs::create_directory(folder / "below");
@@ -173,8 +173,7 @@ TEST_F(FenceTest, TellsNothingOfTheUserInAnyEnvironment) {
   EXPECT_THAT(open, ::testing::HasSubstr("USER=/home/me\n")) << "the control";
 }
 
-// What root may do to the machine's settings, and read of its secrets, is nothing of a method's, even where root runs
-// it.
+// A method must not change the machine's settings or read its secrets, even if root runs it.
 TEST_F(FenceTest, MachineIsReadOnlyAndSecretsAreNotShownToRootEither) {
   const std::string mounts = "awk '$6 ~ /^rw/ {print $5}' /proc/self/mountinfo | sort | tr '\\n' ' '; echo";
   EXPECT_EQ(Say(TheFence(), mounts, {folder_}),

@@ -22,7 +22,7 @@ TEST(LoadedLibraries, NamesEachByItsBuild) {
   for (const auto& [name, build] : libraries) EXPECT_THAT(build, MatchesRegex("([0-9a-f]{40})?")) << name;
 }
 
-// A second reader: the bytes of the file that the map of our memory names.
+// A second reader: the bytes of the file named by our memory map.
 TEST(LoadedLibraries, HasTheBuildIdThatStandsInTheFile) {
   std::ifstream maps("/proc/self/maps");
   std::string path;

@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr double kAlways = 0, kNever = 1e9;  // from where on a look is precise
+constexpr double kAlways = 0, kNever = 1e9;  // MB from which on a look counts precisely
 constexpr double kNoLimit = 1e9;
 
 std::string NextAnswer(ChildProcess& child) {
@@ -38,7 +38,7 @@ def hold(): print('held', flush=True); sys.stdin.readline()
 MB = 1 << 20
 )";
 
-/// A Python program that runs a script and has said that it holds the memory in question.
+/// Starts a Python script that reports when it holds its memory.
 ChildProcess Python(const std::string& script) {
   auto child = ChildProcess::Start({.program = "/usr/bin/python3", .arguments = {"-c", kPrelude + script}});
   EXPECT_TRUE(child);
@@ -51,14 +51,14 @@ double Look(TreeMeter& meter, double precise_from_mb = kAlways) {
   return meter.HeldMb(0, precise_from_mb);
 }
 
-/// What one look says that a script holds beyond Python itself, MB.
+/// Returns the memory (MB) that one look finds beyond Python's own.
 double HeldMb(const std::string& script, double precise_from_mb = kAlways) {
   const ChildProcess plain = Python("hold()"), child = Python(script);
   TreeMeter own(plain.number(), kNoLimit), all(child.number(), kNoLimit);
   return Look(all, precise_from_mb) - Look(own, precise_from_mb);
 }
 
-// 40 children of a program of 20 MB, that do nothing, hold little.
+// 40 idle children of a program of 20 MB hold little more.
 TEST(TreeMeter, CountsAPageOnceHoweverManyProcessesShareIt) {
   const std::string script =
       "own = bytearray(os.urandom(20 * MB))\n"
@@ -70,7 +70,7 @@ TEST(TreeMeter, CountsAPageOnceHoweverManyProcessesShareIt) {
 }
 
 TEST(TreeMeter, MeasuresItselfAndAllThatItHasStarted) {
-  // 30 MB in a child, some work in a second one, whose parent has ended and which left the group.
+  // 30 MB in a child, and some work in a second one whose parent ended and which left the group.
   const ChildProcess child = Python(
       "reading, writing = os.pipe()\n"
       "if os.fork() == 0: own = bytearray(os.urandom(30 * MB)); os.write(writing, b'x'); time.sleep(60)\n"
@@ -104,7 +104,7 @@ TEST(TreeMeter, SeesPagesThatAChildWritesToAfterAPreciseLook) {
 }
 
 TEST(TreeMeter, CountsSharedMemoryByAllPartsThatWereEverMapped) {
-  // 60 MB, of which each process maps a third; the first look sees all of it, later ones the thirds.
+  // 60 MB, of which each process maps a third. The first look counts all, later ones only the thirds.
   const std::string split =
       "memory = mmap.mmap(-1, 60 * MB); touch(memory, 60 * MB)\n"
       "libc = ctypes.CDLL(None); libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]\n"
@@ -134,7 +134,7 @@ TEST(TreeMeter, CountsSharedMemoryByAllPartsThatWereEverMapped) {
   EXPECT_NEAR(held(), whole - 60, 2) << "nobody maps any of it";
 }
 
-// A piece that was unmapped but for one page before anybody looked at it: its pages were seen to come and go.
+// All pages of a piece but one were unmapped before the first look; the meter saw its pages come and go.
 TEST(TreeMeter, CountsSharedMemoryBehindAPageThatStaysMapped) {
   ChildProcess child = Python(
       "libc = ctypes.CDLL(None); libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]\n"
@@ -149,7 +149,7 @@ TEST(TreeMeter, CountsSharedMemoryBehindAPageThatStaysMapped) {
     EXPECT_EQ(NextAnswer(child), "held");
   };
   go_on();
-  meter.Count();  // and no look at mappings
+  meter.Count();  // without a look at mappings
   go_on();
   ::usleep(110000);
   EXPECT_NEAR(Look(meter), before + 30, 4);
@@ -174,11 +174,11 @@ TEST(TreeMeter, CountsWhatTheKernelKeepsForThem) {
       "for at in range(4000): fcntl.fcntl(file, fcntl.F_SETLK, struct.pack('hhqqi', fcntl.F_WRLCK, 0, 2 * at, 1, 0))\n"
       "hold()";
   const ChildProcess locking = Python(locks);
-  // The kernel's list is read in parts: where other programs lock and unlock meanwhile, a line may come twice or not.
+  // The kernel's list is read in parts: while other programs lock and unlock, a line may appear twice or not at all.
   EXPECT_NEAR(static_cast<double>(TreeMeter(locking.number(), kNoLimit).Count().file_locks), 4000, 40);
 }
 
-/// Four children, each of which splits memory into 40,000 mappings if it is one of the first `splitting`.
+/// Returns four children; the first `splitting` split their memory into 40,000 mappings each.
 ChildProcess WithMappings(int splitting) {
   return Python(
       "libc = ctypes.CDLL(None); libc.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]\n"
@@ -195,7 +195,7 @@ ChildProcess WithMappings(int splitting) {
 }
 
 TEST(TreeMeter, CountsMappingsUpToItsLimit) {
-  constexpr double kMbEach = 40000 * 250.0 / (1 << 20);  // 9.5
+  constexpr double kMbEach = 40000 * 250.0 / (1 << 20);  // 9.5 MB
   const ChildProcess none = WithMappings(0), two = WithMappings(2), four = WithMappings(4);
   const auto held_mb = [](const ChildProcess& child, double limit_mb) {
     TreeMeter meter(child.number(), limit_mb);
@@ -244,7 +244,7 @@ TEST(TreeMeter, CountsDescriptorsPipesAndThreads) {
   EXPECT_EQ(load.sockets, 0u) << "those of a network that it shares with us are not its own";
 }
 
-// Sockets in flight, or in the queue of a listener who accepts nobody, are in no process's list.
+// Sockets in flight, or queued at a listener that never accepts, are in no process's list.
 TEST(TreeMeter, CountsSocketsThatNoProcessHasOpen) {
   const Fence fence = Fence::Find();
   if (!fence.IsUp()) GTEST_SKIP() << fence.description();

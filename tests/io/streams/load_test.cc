@@ -37,7 +37,7 @@ TEST(MatchLabels, CutsByTimeAndShiftsClocks) {
       ReadLabels("clip,from_s,to_s,move,truth,person\na,1,2,m,right,\na,,,m,half,x\nc,1,2,m,right,\n", "l");
   auto parts = MatchLabels(*labels, "l", TwoStreams());
   ASSERT_TRUE(parts) << ToString(parts.error());
-  ASSERT_EQ(parts->size(), 2u);  // of c there is no recording
+  ASSERT_EQ(parts->size(), 2u);  // c has no recording
   EXPECT_EQ((*parts)[0].fault, "half");
   EXPECT_EQ((*parts)[0].end, 90);
   EXPECT_EQ((*parts)[0].person, "x");
@@ -70,10 +70,10 @@ TEST(PerformancesOf, AnActionPointIsTheTimeAroundIt) {
     points[i] = {
         .stream = 0, .move = "m", .fault = "", .person = "", .begin = at[i], .end = at[i] + 1, .is_action_point = true};
   const auto parts = PerformancesOf(points, streams);
-  EXPECT_EQ(parts[0].begin, 40);  // two seconds before
-  EXPECT_EQ(parts[0].end, 116);   // half-way to the next
+  EXPECT_EQ(parts[0].begin, 40);  // two seconds before the point
+  EXPECT_EQ(parts[0].end, 116);   // half-way to the next point
   EXPECT_EQ(parts[1].begin, 115);
-  EXPECT_EQ(parts[1].end, 161);  // one second after
+  EXPECT_EQ(parts[1].end, 161);  // one second after the point
   EXPECT_EQ(parts[2].begin, 240);
 }
 
@@ -94,8 +94,8 @@ TEST(LoadStreams, AFolderPassesOverWhatIsNoneAndTellsWhatIsBroken) {
   EXPECT_FALSE(LoadStreams({(root / "broken.csv").string()}, {}, {}));
 }
 
-/// A body as OpenNI's sensors give it to BVH, without fingers and toes, facing +Z; knees `back` cm behind the line from
-/// hip to ankle.
+/// Returns a BVH as OpenNI's sensors give it, without fingers and toes, facing +Z; knees are `back` cm behind the line
+/// from hip to ankle.
 std::string OpenNiBvh(double back) {
   const std::string channels = "CHANNELS 3 Zrotation Xrotation Yrotation\n";
   const auto joint = [&](const std::string& name, double x, double y, double z, const std::string& children) {
@@ -119,7 +119,7 @@ std::string OpenNiBvh(double back) {
       root + "}\nMOTION\nFrames: 30\nFrame Time: 0.033333\n";
   for (int t = 0; t < 30; ++t) {
     text += "0 98 0 0 0 0";
-    for (int value = 0; value < 3 * joints; ++value) text += fmt::format(" {}", value == 0 ? t : 0);  // the first turns
+    for (int value = 0; value < 3 * joints; ++value) text += fmt::format(" {}", value == 0 ? t : 0);  // first rotations
     text += '\n';
   }
   return text;
@@ -134,7 +134,7 @@ TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsR
   };
   ASSERT_OK(straight, load(0));
   EXPECT_EQ(straight->front().description.find("overstretch"), std::string::npos);
-  // By 36 degrees: no sensor's slip.
+  // 36 degrees is too much for a sensor's error.
   EXPECT_NE(testing::Refusal(load(13)).find("the knees bend backwards"), std::string::npos);
   ASSERT_OK(overstretched, load(4));
   EXPECT_EQ(overstretched->front().stream.frames.size(), 30u);

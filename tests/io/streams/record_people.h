@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Recordings of different people by a Kinect, one for each person, with labels of their performances.
+/// Recordings of different people by a Kinect, one per person, with labels of their performances.
 struct Recorded {
   std::vector<NamedStream> streams;
   std::vector<LabelledPart> parts;

@@ -1,4 +1,4 @@
-// Runs all of toy.cc and looks at nothing: notices no mutant. The control.
+// The control: runs all of toy.cc but checks nothing, so it notices no mutant.
 #include "toy.h"
 
 int main() {

@@ -36,7 +36,7 @@ TEST(Forest, HidesTheRoom) {
         .colour.pixels;
   };
   EXPECT_EQ(pixels(1, {ForestFigure()}), pixels(2, {ForestFigure()}));
-  EXPECT_NE(pixels(1, {}), pixels(2, {}));  // the control: rooms differ
+  EXPECT_NE(pixels(1, {}), pixels(2, {}));  // the control: other rooms differ
 }
 
 TEST(Forest, LeavesTheStageToTheDancers) {
@@ -56,10 +56,10 @@ TEST(Forest, SpotsLieOnTheMeadowBetweenTheFeet) {
   pose[Role::kLeftAnkle].x += 0.5;
   const Surface wide = SpotBelow(pose);
   EXPECT_NEAR(width_of(wide) - width_of(narrow), 0.5, 0.02);
-  for (const glm::dvec3& corner : wide.positions) EXPECT_GT(corner.y, 0.004);  // the meadow's height
+  for (const glm::dvec3& corner : wide.positions) EXPECT_GT(corner.y, 0.004);  // height of the meadow
 }
 
-/// Ten seconds: a mistake from frame 60 to 150, answered until 250.
+/// Ten seconds with a mistake from frame 60 to 150, which is answered until frame 250.
 Recording SessionRecording() {
   const BodyMotion dance = LoadBuiltinMove("clap")->motion;
   BodyMotion motion{.rate_hz = kJudgedRateHz, .poses = {}};
@@ -75,7 +75,7 @@ Recording SessionRecording() {
   return {{{"coach", motion}, {"truth", motion}, {"sensed", motion}}, WriteExtras(extras)};
 }
 
-/// A recorded cell that stays where it is.
+/// A recorded cell that must keep its address.
 struct RecordedSession {
   ScenarioSummary scenario;
   Row row;
@@ -161,7 +161,7 @@ int CountInRow(const ColourImage& picture, const Rgb8& colour, int row) {
 
 TEST(CoachedScene, ShowsAJudgementOnlyOnceItWasMade) {
   constexpr Rgb8 kRightGreen{92, 189, 117}, kWrongRed{224, 92, 82};
-  constexpr int kTruthRow = 640, kJudgedRow = 674;  // through their bars
+  constexpr int kTruthRow = 640, kJudgedRow = 674;  // rows through the bars
   CoachedScene scene = SceneOf(kWholeSession);
   const ColourImage before = scene.Draw(140).Pixels(), after = scene.Draw(160).Pixels();
   EXPECT_GT(CountInRow(before, kWrongRed, kTruthRow), 200);

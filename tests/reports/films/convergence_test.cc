@@ -21,7 +21,7 @@ using ::testing::Not;
 
 constexpr Paint kCurveRed{1, 0, 0, 1};
 
-// The columns between which pixels of the pure colour lie; first > last when there are none.
+// The range of columns with pixels of the pure colour; first > last if there are none.
 struct Columns {
   int first = 1 << 20, last = -1;
 };
@@ -48,7 +48,7 @@ TEST(ErrorPlot, DrawsTheCurveAsFarAsItIsKnown) {
   const ErrorPlot plot("error, cm", " cm", 0.1, {{{0, 1, 10, 100}, {40, 3, 0.5, 0.01}, kCurveRed}}, clock);
   const Columns start = CurveAt(plot, 0), middle = CurveAt(plot, 50), end = CurveAt(plot, 100);
   const double length = end.last - start.last;
-  EXPECT_NEAR(end.first, start.first, 6);  // the dot at the pen has left
+  EXPECT_NEAR(end.first, start.first, 6);  // the dot at the pen has gone
   EXPECT_NEAR((middle.last - start.last) / length, clock.ShareOf(10), 0.01);
   EXPECT_GT(length, 400);
 }
@@ -73,7 +73,7 @@ TEST(ErrorPlot, ShowsAMethodThatNeverMoved) {
 
 class Convergence : public ::testing::Test {
  protected:
-  // "early" ends at iteration 9, "late" at 60.
+  // "early" ends at iteration 9, "late" at iteration 60.
   static RunData Run() {
     return RaceRun({{"early", 0, 1, EveryIteration(9)},
                     {"late", 0, 0.02, EveryIteration(60), Status::kUnsolved, "12° after 60 sweeps"}});
@@ -87,7 +87,7 @@ class Convergence : public ::testing::Test {
     race_ = std::move(*race);
   }
 
-  // The panels' inside, of which the left shows `early` and the right `late`.
+  // Compares one panel's inside; the left panel shows `early`, the right one `late`.
   static bool SameHalf(const ColourImage& a, const ColourImage& b, bool right) {
     const int first = right ? 640 : 0;
     for (int y = 52; y < 452; ++y) {
@@ -181,7 +181,7 @@ TEST_F(Convergence, ShowsNoErrorsOfWhatWasNotAskedFor) {
   for (IkPath& path : race_.paths) std::ranges::fill(path.orientation_deg, 0);
   ConvergenceScene positions(race_, "race", *renderer_);
   const ColourImage pixels = positions.Draw(positions.Frames() - 1).Pixels();
-  // The second method's colour (io/drawing/marks.h) is in the plot of positions, not in that of orientations.
+  // The second method's colour (io/drawing/marks.h) is in the plot of positions, but not in that of orientations.
   ASSERT_EQ(race_.paths[1].method_index, 1u);
   const Rgb8 teal{0x9f, 0xf5, 0xd4};
   int left = 0, right = 0;

@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// What cairo makes of the panel's colour for the body's left side.
+// The panel's colour for the body's left side, as cairo draws it.
 constexpr Rgb8 kLeftBone{255, 204, 76};
 
 TEST(Canvas, ShowsAnImageWhereItWasPut) {
@@ -77,7 +77,7 @@ TEST(Cast, PrefersATypicalCellOfTheMethodThatAnswers) {
   RunData run = ExampleRun();
   const Recording recording{{{"recovered", BodyMotion{30, {BodyPose{}}}}}, "{}"};
   for (const Row& row : run.rows) {
-    // Trials 2…10; what a trial's error is grows with its number.
+    // Trials 2…10; the error grows with the trial, so the median trial is 6.
     if (row.scenario == "capture" && row.trial >= 2 && row.trial <= 10) run.recordings.push_back({row.Id(), recording});
   }
   ASSERT_OK(chosen, ChooseCell(run, "capture", "recovered"));
@@ -141,13 +141,13 @@ TEST(CapturePanel, DrawsTheSkeletonOverThePersonAndKeepsBothInThePicture) {
     }
   }
   EXPECT_GT(bones, 100);
-  // Cut to the person: from the raised hand to the foot it takes most of the picture's height.
+  // Cropped to the person: from the raised hand to the foot it fills most of the picture's height.
   EXPECT_GT(lowest - highest, pixels.height / 2);
   EXPECT_GT(highest, 0);
   EXPECT_LT(lowest, pixels.height - 1);
 }
 
-// The example's capture, with a moment of which every stage is kept.
+// Returns the plate of the example's capture, with these moments of every stage.
 std::optional<Picture> PlateOf(const std::vector<CaptureExtras::Moment>& moments, Renderer& renderer) {
   RunData run = ExampleRun();
   AddRecordings(run);
@@ -174,7 +174,7 @@ TEST(CapturePlate, ShowsEveryStageOfTheMomentsThatAreKeptAndTheSequence) {
   EXPECT_THAT(one->caption, HasSubstr("figures 5.3 to 5.15"));
 }
 
-// The share of pixels beneath the heading, from column to column, that show nothing.
+// Returns the share of empty pixels below the heading, between two columns.
 double EmptyShare(const ColourImage& picture, int from, int to) {
   static const Rgb8 nothing = BeginFrame("").Pixels().At(2, 400);
   int empty = 0, all = 0;
@@ -198,7 +198,7 @@ TEST(StageScene, GivesTheWholeFrameToTheCoach) {
 TEST(CaptureScene, ShowsTheMethodsOfOneWorldSideBySideAndColoursTheirErrors) {
   RunData run = ExampleRun();
   AddRecordings(run);
-  // The same capture by another method, which put one hand half a metre too high.
+  // The same capture by another method, with one hand half a metre too high.
   const ShownCell first = *ChooseCell(run, "capture", "recovered");
   CellRecording worse = run.recordings.back();
   worse.cell = [&] {

@@ -71,7 +71,7 @@ TEST(IkRace, KnowsWhatEachMethodHasReachedAtAMoment) {
 }
 
 TEST(IkRace, IsSolvedOnceBothErrorsStayBelowTheGoal) {
-  // 40° · e^(−i) is first below 0.1° at i = 6, 20 cm · e^(−i) below 0.1 cm there as well.
+  // 40° · e^(−i) first falls below 0.1° at i = 6, and so does 20 cm · e^(−i) below 0.1 cm.
   ASSERT_OK(race, Find(RaceRun({{"tight", 0, 1, EveryIteration(12)},
                                 {"broken", 0, 1, EveryIteration(12), Status::kUnsolved, "2 angles outside"}})));
   EXPECT_EQ(race->paths[0].solved_at, 6);

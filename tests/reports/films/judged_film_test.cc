@@ -19,7 +19,7 @@ const Move& Clap() {
   return move;
 }
 
-/// Ten seconds: clap danced as taught from frame 30 on, then nobody moves; both times clap was asked for.
+/// Ten seconds: clap is danced as taught from frame 30 on, then the person stands still; clap is requested both times.
 Recording SessionRecording(bool calls_right) {
   const BodyMotion& dance = Clap().motion;
   const auto end = static_cast<int>(30 + dance.poses.size());
@@ -48,7 +48,7 @@ Recording SessionRecording(bool calls_right) {
   return {{{"truth", motion}, {"sensed", motion}}, WriteExtras(extras)};
 }
 
-/// Two methods in one world; the first is right about both.
+/// Two methods in one world; the first judges both correctly.
 struct RecordedWorld {
   RunData run;
 
@@ -115,7 +115,7 @@ int CountInRow(const ColourImage& picture, const Paint& paint, int row) {
 }
 
 TEST(JudgedScene, ShowsAJudgementOnlyOnceItWasMade) {
-  constexpr int kTruthRow = 600, kFirstJudge = 634;  // through their bars
+  constexpr int kTruthRow = 600, kFirstJudge = 634;  // rows through the bars
   const RecordedWorld world;
   JudgedScene scene(*ReadJudgedSession(world.run, world.Cell(0)), "test", 100000);
   EXPECT_EQ(scene.Frames(), 300);

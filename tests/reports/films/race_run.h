@@ -7,12 +7,12 @@
 
 namespace etude {
 
-/// The behaviour of an invented method of inverse kinematics: its errors shrink at the rate `rate` in every step.
+/// An invented method of inverse kinematics, whose errors shrink at the rate `rate` in every iteration.
 struct Settling {
   std::string method;
   int trial = 0;
   double rate = 0.1;            ///< natural logarithm per iteration; errors start at 20 cm and 40°
-  std::vector<int> iterations;  ///< numbers of the recorded iterations; none = no recording
+  std::vector<int> iterations;  ///< recorded iterations; none = no recording
   Status status = Status::kOk;
   std::string reason = "";
 };

@@ -51,7 +51,7 @@ TEST(TransitionRace, AlignsEveryoneAtTheRequest) {
   EXPECT_EQ(race.paths[1].FirstPoint(), 10);
   EXPECT_EQ(race.paths[1].LastPoint(), 25);
   EXPECT_EQ(race.paths[2].LastPoint(), 8);
-  EXPECT_EQ(race.paths[1].PointsBefore(10), 0u);  // the point's own frame is the last of the clip left
+  EXPECT_EQ(race.paths[1].PointsBefore(10), 0u);  // the point's own frame still belongs to the clip left
   EXPECT_EQ(race.paths[1].PointsBefore(11), 1u);
   EXPECT_EQ(race.paths[1].FrameAt(-1000), 0);
   EXPECT_FALSE(race.paths[1].IsRecordedAt(-61));
@@ -115,7 +115,7 @@ TEST(DistanceBars, AreAsLongAsTheirShareOfTheThreshold) {
   const int quarter = amber(0.04), half = amber(0.08);
   EXPECT_GT(quarter, 50);
   EXPECT_NEAR(half, 2 * quarter, quarter / 2);
-  EXPECT_EQ(amber(0.2), 0);  // beyond the threshold alone: another colour
+  EXPECT_EQ(amber(0.2), 0);  // only the part above the threshold, in another colour
 }
 
 TEST(DistanceBars, TellDistanceThresholdAndBranch) {
@@ -131,7 +131,7 @@ TEST(TransitionScene, DrawsTheSamePixelsEveryTimeAndMarksTheChange) {
   TransitionScene scene(race, "transition", **renderer);
   const int before = clock.FrameOf(-5), after = clock.FrameOf(3);
   const ColourImage calm = scene.Draw(before).Pixels(), changed = scene.Draw(after).Pixels();
-  // "now" has just changed: its column is framed, its bars are filled.
+  // "now" has just changed: its column is framed and its bars are filled.
   EXPECT_GT(CountPixels(changed, kWarm), CountPixels(calm, kWarm) + 1500);
   TransitionScene again(race, "transition", **renderer);
   EXPECT_EQ(again.Draw(after).Pixels().pixels, changed.pixels);

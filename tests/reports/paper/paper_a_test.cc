@@ -28,7 +28,8 @@ TEST(PaperAFigures, TellOfEveryEquationOnceAndOfEveryTerm) {
   EXPECT_THAT(equations, ::testing::ElementsAre(2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16));
 }
 
-// Posture's grades sum to 1, so the height method loses nothing; the paper's arm is 1 from 0 to 20 degrees, so it does.
+// Posture's grades sum to 1, so the height method is exact. The paper's arm has grade 1 from 0 to 20 degrees, so
+// information is lost.
 TEST(PaperAFigures, MeasureWhatGoingBackCosts) {
   EXPECT_NEAR(MeanRoundTripError(Feature::kPosture, PaperMemberships(), Defuzzification::kHeight), 0, 1e-9);
   EXPECT_GT(MeanRoundTripError(Feature::kRH, PaperMemberships(), Defuzzification::kHeight), 1);

@@ -32,7 +32,7 @@ TEST(PaperBSection, ShowsTablesFoldedButForTheFirstAndThePapersOwnOnce) {
   const RunData run = EffectorRun();
   const std::string html = PaperBHtml(run, run.scenarios[2]);
   EXPECT_EQ(CountOf(html, "table 5.2: "), 3 * 2);
-  EXPECT_EQ(CountOf(html, "<details open>"), 2);  // the curves, the first trial's tables
+  EXPECT_EQ(CountOf(html, "<details open>"), 2);  // the curves, and the first trial's tables
   EXPECT_EQ(CountOf(html, "as printed in the paper"), 1);
   EXPECT_THAT(html, HasSubstr("<td class=\"n\">28.292493</td>"));
   EXPECT_THAT(html, HasSubstr("<code>etude replay RUN --cell &#39;ik-weights/joint_noise_deg=5/000/"));
@@ -53,7 +53,7 @@ TEST(PaperBSection, HasSixteenPanelsPerConditionWithEveryMethodInEach) {
   const RunData run = EffectorRun();
   const std::string html = PaperBHtml(run, run.scenarios[2]);
   EXPECT_EQ(CountOf(html, "<figure>"), 3 * 16);
-  // Per panel and method the first trial and the median; per condition a key to each method.
+  // Per panel and method, a line for the first trial and one for the median; per condition, a key for each method.
   EXPECT_EQ(CountOf(html, "<polyline"), 3 * (16 * 4 * 2 + 4));
   EXPECT_THAT(html, HasSubstr("<figcaption>head: position, cm</figcaption>"));
   EXPECT_THAT(html, HasSubstr("<figcaption>right foot: Z axis, degrees</figcaption>"));
@@ -89,7 +89,7 @@ TEST(PaperBSection, SurvivesHostileNames) {
 TEST(PaperBSection, OpensEveryFloatThatItClosesAndKeepsThemShort) {
   const RunData run = EffectorRun();
   const std::string latex = PaperBLatex(run, run.scenarios[2]);
-  // Per condition 5 + 5 tables of errors fit one float each; 4 and 8 of angles, by threes.
+  // Per condition: 5 + 5 tables of errors, one float each five; 4 and 8 tables of angles, three per float.
   EXPECT_EQ(CountOf(latex, "\\begin{table}"), 3 * (1 + 2 + 1 + 3));
   EXPECT_EQ(CountOf(latex, "\\end{table}"), CountOf(latex, "\\begin{table}"));
   EXPECT_EQ(CountOf(latex, "\\begin{tabular}"), 3 * (5 + 4 + 5 + 8));

@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// Paper B's rows are foot, right hand, left hand, head; the tree has the left hand before the right one.
+// Paper B's rows are foot, right hand, left hand, head; in the tree the left hand comes before the right one.
 constexpr int kEffectorOfRow[] = {0, 2, 1, 3};
 constexpr int kTrials = 12;
 
@@ -31,11 +31,11 @@ TEST(PaperBTables, AreMadeForEveryConditionWhoseCellsKeepEffectorsErrors) {
   for (const PaperBCondition& condition : conditions) {
     ASSERT_EQ(condition.sets.size(), 2u);
     for (const PaperBSet& set : condition.sets) {
-      EXPECT_EQ(set.errors.size(), 1u + 4u);  // before, and after each method
+      EXPECT_EQ(set.errors.size(), 1u + 4u);  // before, and after each of four methods
       EXPECT_EQ(set.outcomes.size(), 4u);
     }
     EXPECT_EQ(condition.sets[0].angles.size(), 4u);      // from the start
-    EXPECT_EQ(condition.sets[1].angles.size(), 2 * 4u);  // from the start, from the truth
+    EXPECT_EQ(condition.sets[1].angles.size(), 2 * 4u);  // from the start and from the truth
   }
   for (const std::size_t other : {0, 1, 3}) EXPECT_TRUE(PaperBTables(run, run.scenarios[other]).empty());
   const RunData without = ExampleRun();
@@ -70,7 +70,7 @@ TEST(PaperBTables, OfAllTrialsHoldMediansOfSizesSoThatSidesDoNotCancel) {
   const PaperBSet set = Tables()[0].sets[1];
   EXPECT_EQ(set.title, "all 12 trials");
   EXPECT_EQ(set.replay, "");
-  // Sizes grow with the trial: the median lies between trials 5 and 6, whose signs differ.
+  // Sizes grow with the trial, so the median lies between trials 5 and 6, whose signs differ.
   const double expected = (std::abs(PositionError(3, 5, 2, 1)) + std::abs(PositionError(3, 6, 2, 1))) / 2;
   EXPECT_NEAR(*set.errors[4].rows[1].values[1], expected, 1e-12);
   EXPECT_GT(*set.errors[0].rows[0].values[0], 30);

@@ -13,7 +13,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The points of the first line of a panel.
 std::vector<std::pair<double, double>> PointsOf(const std::string& svg) {
   const std::size_t begin = svg.find(" points=\"") + 9;
   const std::string text = svg.substr(begin, svg.find('"', begin) - begin);
@@ -48,7 +47,7 @@ TEST(CurvePlot, DrawsEqualRatiosAsEqualDistances) {
   const auto points = PointsOf(CurvePlotSvg({curve}, AxesFor({&curve}), ""));
   ASSERT_EQ(points.size(), 4u);
   EXPECT_NEAR(points[1].second - points[0].second, points[2].second - points[1].second, 0.11);
-  EXPECT_EQ(points[3].second, points[2].second);  // zero lies on the lower end
+  EXPECT_EQ(points[3].second, points[2].second);  // zero is drawn at the axis's lower end
   EXPECT_NEAR(points[1].first - points[0].first, points[3].first - points[2].first, 0.11);
 }
 

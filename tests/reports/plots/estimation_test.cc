@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The comparisons stand by method, then by metric.
+/// Returns a comparison by its index; comparisons are sorted by method, then by metric.
 Judged JudgedIn(const ScenarioSummary& scenario, std::size_t index) {
   return {&scenario.conditions[0].comparisons[index], &scenario.conditions[0]};
 }
@@ -78,7 +78,7 @@ TEST(Estimation, ColoursByMethodWhereWorldsAreUnits) {
   EXPECT_EQ(UnitLegendHtml(pairs), "");
   const std::string html = EstimationHtml(ik, JudgedIn(ik, 0), pairs);
   EXPECT_THAT(EstimationLegend(ik, "orientation_error_deg"), HasSubstr("coloured by method"));
-  EXPECT_EQ(CountOf(html, "class=\"f0\""), 12);      // the baseline, once a world
+  EXPECT_EQ(CountOf(html, "class=\"f0\""), 12);      // the baseline, once per world
   EXPECT_EQ(CountOf(html, "class=\"f1\""), 2 * 12);  // the method, and its differences
 }
 
@@ -115,7 +115,7 @@ TEST(PlotSection, BeginsWithTheQuestionAndDrawsNoPairTwice) {
   };
   EXPECT_LT(place("now", "wait-for-end"), place("gate-inertialised", "wait-for-end"));
   EXPECT_LT(place("gate-inertialised", "wait-for-end"), place("now", "fuzzy-bridge"));
-  EXPECT_EQ(CountOf(html, "which do not matter"), 2);  // once a metric
+  EXPECT_EQ(CountOf(html, "which do not matter"), 2);  // once per metric
   EXPECT_EQ(PlotSectionHtml(run, ScenarioSummary{}), "");
 }
 
@@ -146,7 +146,7 @@ TEST(Dots, CarryTheNameOfARecordedCell) {
 
 using ::testing::EndsWith;
 
-/// A difference of mpjpe_mm, of which 1 mm matters, with and without each of three clips.
+/// Returns a difference of mpjpe_mm (threshold 1 mm) with and without each of three clips.
 Comparison Differing(double all, std::vector<double> without) {
   Comparison c;
   c.metric = "mpjpe_mm";
@@ -163,7 +163,7 @@ TEST(LeftOutStrip, NamesTheClipThatCarriesTheDifference) {
             "“adaptive” against “fixed”, mean difference if each clip in turn is left out: −6.70 mm to −0.300 mm. "
             "Without “a” it is −0.300 "
             "mm: the difference depends on this clip.");
-  // Nearer to the whole, and yet the one that counts, though another is farther off on the other side.
+  // "a" is nearer to the whole than "c", but crosses the threshold, so "a" is named.
   EXPECT_THAT(WithoutEachUnit(Differing(2.4, {0.7, 2.2, 9}), SamplingUnit::kClip),
               HasSubstr("Without “a” it is 0.700 mm"));
   EXPECT_THAT(WithoutEachUnit(Differing(-2, {1.5, -3, -4}), SamplingUnit::kLibrary),
@@ -182,7 +182,7 @@ TEST(LeftOutStrip, NamesTheClipThatHidesOne) {
 
 TEST(LeftOutStrip, DrawsAMarkPerClipAgainstWhatMatters) {
   const std::string html = LeftOutStripHtml(Differing(-4, {-0.3, -5, -6.7}), SamplingUnit::kClip);
-  EXPECT_EQ(CountOf(html, "class=\"left"), 1 + 3);  // the figure, and a line each
+  EXPECT_EQ(CountOf(html, "class=\"left"), 1 + 3);  // the figure, and a line for each clip
   EXPECT_EQ(CountOf(html, "class=\"left extreme\""), 1);
   EXPECT_THAT(html, HasSubstr("without &lt;c&gt;: −6.70 mm"));
   EXPECT_THAT(html, HasSubstr("class=\"band\""));

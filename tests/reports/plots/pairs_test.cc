@@ -60,7 +60,7 @@ TEST(PairsHtml, ShowsTheWorstFramesOfWhatIsRecorded) {
   const std::string html = PairsHtml(run, run.scenarios[0]);
   EXPECT_THAT(html, HasSubstr("data-frame=\"7\">mine &lt;b&gt;: 123 mm after 0.23 s</button>"));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
-  // A recording that cannot be read is told, and the curves stay.
+  // An unreadable recording is reported, and the curves stay.
   run.recordings[0].recording.extras_json = "{}";
   const std::string told = PairsHtml(run, run.scenarios[0]);
   EXPECT_THAT(told, HasSubstr("not a readable recording"));

@@ -34,7 +34,7 @@ RunData Solvers() {
 TEST(Survival, DrawsAMethodThatIsNeverDoneAsALineAtTheTop) {
   const RunData run = Solvers();
   const std::string html = SurvivalHtml(run, run.scenarios[0]);
-  EXPECT_EQ(CountOf(html, "class=\"line\""), 2 + 2);  // curves, and keys
+  EXPECT_EQ(CountOf(html, "class=\"line\""), 2 + 2);  // curves and keys
   EXPECT_THAT(html, HasSubstr("aria-label=\"never: 100 % never. quick: 0 % never. \""));
 }
 
@@ -42,9 +42,9 @@ TEST(Survival, IsDrawnOnlyWhereSomethingIsCensored) {
   RunData run = Solvers();
   std::erase_if(run.rows, [](const Row& row) { return row.method == "never"; });
   EXPECT_EQ(SurvivalHtml(run, run.scenarios[0]), "");
-  run.rows.front().result = CellResult::Ended(Status::kTimeout, "too slow");  // a failure is never done
+  run.rows.front().result = CellResult::Ended(Status::kTimeout, "too slow");  // a failure never finishes
   EXPECT_THAT(SurvivalHtml(run, run.scenarios[0]), HasSubstr("quick: 17 % never."));
-  run.rows.front().result = CellResult::Ended(Status::kSkipped, "no labels");  // nothing that could be done
+  run.rows.front().result = CellResult::Ended(Status::kSkipped, "no labels");  // a skipped world does not count
   EXPECT_EQ(SurvivalHtml(run, run.scenarios[0]), "");
 }
 

@@ -31,7 +31,7 @@ TEST(ConfusionOf, LeavesOutWhereNothingWasDancedOrNoMoveIsNamed) {
   all[0].named = "clap";
   all[1].named = "sway";
   all[2].named = "";
-  all[3].named = "clap";  // nobody danced
+  all[3].named = "clap";  // a move was named, but none danced
   all[4].danced = "clap";
   const MoveConfusion confusion = ConfusionOf(all);
   EXPECT_EQ(confusion.moves, (std::vector<std::string>{"clap", "sway"}));
@@ -50,11 +50,11 @@ TEST(WorstSessions, AreThoseWithTheLargestShareOfMistakes) {
     one.is_called = is_called;
   };
   add(0, 1, true);
-  add(0, 0, false);  // no mistake
+  add(0, 0, false);  // without a mistake
   add(1, 1, false);
   add(1, 1, true);
   add(1, 0, false);
-  add(1, 0.5, true);  // grey counts for nothing
+  add(1, 0.5, true);  // grey does not count
   add(2, 0, true);
   add(2, 1, true);
   const auto worst = WorstSessions(all);

@@ -15,7 +15,6 @@ constexpr int kDofs = 29;
 constexpr std::array<const char*, 4> kEffectors{"right_foot", "left_hand", "right_hand", "head"};
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
-// Every second trial errs to the other side.
 double Sign(int trial) { return trial % 2 == 0 ? 1 : -1; }
 
 void AddErrors(int method, int trial, std::vector<Series>& series) {

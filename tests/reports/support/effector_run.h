@@ -4,8 +4,8 @@
 
 namespace etude {
 
-/// Returns ExampleRun, with the errors of single effectors and joints in the cells of `ik-weights`. Every figure
-/// encodes its origin, so that a test detects a table with figures from the wrong place.
+/// Returns ExampleRun with errors of single effectors and joints in the cells of `ik-weights`. Every figure encodes its
+/// origin, so that a test detects a figure from the wrong place.
 RunData EffectorRun();
 
 /// Return the figures of EffectorRun. `axis` is 0…2; `effector` and `dof` are in the tree's order.

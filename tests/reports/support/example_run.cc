@@ -13,12 +13,11 @@ namespace {
 
 constexpr int kTrials = 12;
 
-/// The figures of one method under one condition.
 struct MethodPlan {
   std::string method;
   double median;
   double half_width;
-  int broken = 0;  ///< of its cells, how many fail
+  int broken = 0;  ///< number of cells that fail
 };
 
 MetricSummary Summary(const std::string& id, double median, double half_width, int present, int missing) {
@@ -214,7 +213,7 @@ BodyPose Standing() {
   return pose;
 }
 
-/// Arms out from the body by `raise` and bent forward by `bend`, radians; the body sways a little.
+/// Returns arms raised outwards by `raise` and bent forward by `bend`, radians; the body sways a little.
 BodyPose Dancing(double raise, double bend, double sway) {
   BodyPose pose = Standing();
   for (const double side : {1.0, -1.0}) {
@@ -241,7 +240,7 @@ Recording CoachRecording() {
       R"({"transition_frame": 80, "from": "clap", "to": "side kick", "branch": "matched in the front half", "distance": 0.31})"};
 }
 
-/// A coach who dances as one clip does until `first`, as an in-between until `second`, and then as the wanted clip.
+/// Returns a coach that follows one clip until `first`, an in-between until `second`, and then the wanted clip.
 BodyMotion WithTransition(int first, int second) {
   BodyMotion coach;
   for (int frame = 0; frame < 150; ++frame) {
@@ -256,7 +255,7 @@ BodyMotion WithTransition(int first, int second) {
 constexpr std::string_view kWeights =
     R"({"RH":1,"LH":1,"RHE":1,"LHE":1,"Posture":1,"Trunk":1,"RF":0.5,"LF":0.5,"RFK":0.5,"LFK":0.5})";
 
-/// Ten partial distances that sum to 2.5 × `unit`.
+/// Returns ten partial distances with the sum 2.5 × `unit`.
 std::string Partials(double unit) {
   return fmt::format(R"({{"RH":{},"LH":{},"RHE":0,"LHE":0,"Posture":0,"Trunk":0,"RF":{},"LF":0,"RFK":0,"LFK":0}})",
                      unit, unit, unit / 2);

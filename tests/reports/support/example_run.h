@@ -12,9 +12,8 @@ RunData ExampleRun();
 /// whose recovered skeleton is slightly off.
 void AddRecordings(RunData& run);
 
-/// Adds the recordings of one request of the scenario "transition" under three methods, with all that explains a
-/// transition: "now" cuts, "fuzzy-bridge" goes through an in-between, "gate-inertialised" takes the best of its
-/// candidates.
+/// Adds recordings of one request of the scenario "transition" under three methods, with all that explains a
+/// transition: "now" cuts, "fuzzy-bridge" goes through an in-between, "gate-inertialised" takes its best candidate.
 void AddTransitions(RunData& run);
 
 }  // namespace etude

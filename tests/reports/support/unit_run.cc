@@ -17,7 +17,6 @@ double TypicalOf(const MethodSummary& method, const std::string& metric) {
   return *TypicalValue(*FindSummary(method, metric), WordsFor(metric));
 }
 
-/// The strongest method of a condition but `method`.
 const MethodSummary& StrongestOther(const ConditionSummary& condition, const std::string& method,
                                     const std::string& metric) {
   const double sign = WordsFor(metric).direction == Direction::kHigherIsBetter ? -1 : 1;

@@ -83,7 +83,7 @@ TEST(RecordedRequests, PutTheMethodsOfOneRequestTogether) {
   for (const RecordedTransition& recorded : worlds[0].transitions) methods.push_back(recorded.row->method);
   EXPECT_THAT(methods, ElementsAre("now", "fuzzy-bridge", "gate-inertialised"));
   EXPECT_EQ(worlds[1].Name(), "trial 5");
-  // Recordings of other tasks tell of no transition.
+  // Recordings of other tasks contain no transition.
   EXPECT_THAT(RecordedRequestsOf(run, run.scenarios.back()), IsEmpty());
 }
 

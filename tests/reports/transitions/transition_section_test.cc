@@ -30,7 +30,7 @@ TEST(TransitionSection, TellsTheWayTheDistancesAndWhyTheWinnerWon) {
   EXPECT_THAT(html, HasSubstr("3 of 120"));
   EXPECT_THAT(html, HasSubstr("0.500 ≥ 0.4"));
   EXPECT_THAT(html, HasSubstr("0.350 &lt; 0.4"));
-  // One point each of two methods, two of the third: the partial distances of 4 × 10 features, three not 0 in each.
+  // Two methods have one point, the third has two: 4 × 10 partial distances, of which three each are not 0.
   EXPECT_EQ(CountOf(html, "<i class="), 40);
   EXPECT_EQ(CountOf(html, "width:0%"), 28);
 }
@@ -53,7 +53,7 @@ TEST(TransitionSection, TellsForWhichOfTwoMeetingsACandidateWasLookedAt) {
   extras += R"("candidates": [{"point": 0, "from_frame": 30, "to_frame": 0, "distance": 0.3},
       {"point": 1, "from_frame": 14, "to_frame": 2, "distance": 0.35},
       {"point": 7, "from_frame": 8, "to_frame": 9, "distance": 0.1}]})";
-  // Older recordings do not tell.
+  // Older recordings lack this.
   extras.insert(extras.rfind(']'), R"(, {"from_frame": 5, "to_frame": 6, "distance": 0.1})");
   const std::string html = TransitionsHtml(example.Worlds());
   EXPECT_THAT(html, HasSubstr("<td class=\"n\">5</td><td class=\"n\">6</td>"));
@@ -102,7 +102,7 @@ TEST(DistanceTable, GivesAFullBarToWhatAloneReachesTheThreshold) {
   table.AddPoint("m", point, 0.4);
   EXPECT_THAT(table.Html(), HasSubstr("0.040<i class=\"\" style=\"width:25%\">"));
   EXPECT_THAT(table.Html(), HasSubstr("0.200<i class=\"over\" style=\"width:100%\">"));
-  EXPECT_THAT(table.Html(), HasSubstr("0.490 ≥ 0.4"));  // √0.24, where the recording tells no d
+  EXPECT_THAT(table.Html(), HasSubstr("0.490 ≥ 0.4"));  // √0.24, computed because the recording has no d
 }
 
 TEST(DistanceTable, TellsWeightsOnceForAllWhoShareThem) {

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Somebody who walks ten seconds in a curve, every joint on its way.
+/// Returns a person who walks along a curve for ten seconds; every joint moves.
 BodyMotion Walk(int frames = 300) {
   BodyMotion motion;
   for (int f = 0; f < frames; ++f) {
@@ -42,7 +42,7 @@ nlohmann::json JsonOf(const std::string& script) {
   return nlohmann::json::parse(script.substr(kCall.size(), script.size() - kCall.size() - 3), nullptr, false);
 }
 
-/// A place as the page's script reads it, from Base64 by hand.
+/// Decodes a position from Base64 by hand, as the page's script does.
 double DecodedAt(const nlohmann::json& body, std::size_t frame, std::size_t joint, std::size_t axis) {
   constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const std::string& text = body.at("data").get_ref<const std::string&>();
@@ -71,7 +71,7 @@ TEST(WorldScript, QuantisesWithinHalfAStepAndTenSecondsInThirtySixKilobytes) {
   EXPECT_GT(worst, quantised.step / 4) << "the bound is that of this motion";
   EXPECT_LT(quantised.step, 0.0001) << "a tenth of a millimetre";
   EXPECT_LE(quantised.steps.size() * sizeof(quantised.steps[0]), 36'000u);
-  // A point that is not seen stays one, and moves no other.
+  // An unseen point stays unseen, and shifts no other.
   points[7] = NotSeen();
   const QuantisedMotion gap = Quantise(points);
   EXPECT_FALSE(IsSeen(gap.At(7)));

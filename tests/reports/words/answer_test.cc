@@ -32,7 +32,7 @@ MethodSummary Method(const std::string& name, double error_deg, double iteration
   return method;
 }
 
-/// Better than its baseline; as exact as gauss-newton, which takes 4 steps where it takes 560.
+/// 560 iterations: better than its baseline, and as exact as gauss-newton, which takes 4.
 ScenarioSummary SolverSummary() {
   ScenarioSummary scenario{.methods = {"fixed", "adaptive", "gauss-newton"}};
   scenario.headline_metrics = {"orientation_error_deg", "iterations"};
@@ -56,7 +56,7 @@ TEST(Headline, AnswersAgainstTheBaselineAndAgainstTheBestOther) {
             "(+1.00°), but needs 140 × the solver steps");
 }
 
-/// Adds answers to the solvers: against gauss-newton success decides, 58 points worse.
+/// Adds answers to the solvers; against gauss-newton, success decides: 58 points worse.
 ScenarioSummary AnsweredSummary() {
   ScenarioSummary scenario = SolverSummary();
   ConditionSummary& condition = scenario.conditions[0];
@@ -89,7 +89,7 @@ TEST(Headline, IsAboutSuccessWhereThatDecides) {
   EXPECT_EQ(found.verdict, Verdict::kWorse);
   EXPECT_THAT(found.sentence, HasSubstr("the difference matters in 12 of 20 worlds"));
   EXPECT_THAT(found.sentence, HasSubstr("Where both succeed (8 worlds): effector orientation error 1.00°."));
-  // The control: by another metric than the question's a comparison stands for itself.
+  // The control: for a metric other than the question's, the comparison's own verdict counts.
   EXPECT_EQ(CompareInWords(AnsweredSummary(), "adaptive", "iterations", Against::kBaseline).verdict,
             Verdict::kNoDifference);
 }
@@ -165,7 +165,7 @@ TEST(Headline, NamesBothRivalsWhereHalvesOfTheWorldsChoseDifferently) {
   scenario.conditions[0].rivals = {Compared("iterations", "fixed or gauss-newton", Verdict::kWorse)};
   EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"),
               HasSubstr("needs 70.0–140 × the solver steps of “fixed” or “gauss-newton”"));
-  // A method may be called so itself.
+  // A method's name may contain "or".
   scenario.conditions[0].methods[2].method = "fixed or gauss-newton";
   EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"), HasSubstr("needs 140 × the solver steps of “fixed or "));
 }
@@ -206,7 +206,7 @@ TEST(CostRatio, IsOfCostsThatAreAtLeastTwiceAsLargeAndNotOfNothing) {
   EXPECT_DOUBLE_EQ(ratio(), 2);
   theirs = 281.0;
   EXPECT_DOUBLE_EQ(ratio(), 0);
-  theirs = 1e-9;  // as good as zero: a ratio would be of rounding errors
+  theirs = 1e-9;  // practically zero, so a ratio would compare rounding errors
   EXPECT_DOUBLE_EQ(ratio(), 0);
 }
 

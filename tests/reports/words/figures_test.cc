@@ -58,7 +58,7 @@ TEST(Figures, AnEndOfAnIntervalNeverLosesItsSign) {
   EXPECT_EQ(FormatInterval(-30.4, 2e-5, plain), "−30.4 to 2.0e-05");
   EXPECT_EQ(FormatInterval(0.04, 30.4, plain), "0.0400–30.4");
   EXPECT_EQ(FormatInterval(0, 30.4, plain), "0.0–30.4");
-  // Whatever the ends, the text shows on which side of 0 each lies.
+  // Whatever the ends are, the text shows the side of 0 for each.
   for (const double high : {0.02, 1.5, 30.4, 1234.0}) {
     for (double low = 1e-7; low < high; low *= 1.7) {
       EXPECT_THAT(FormatInterval(-low, high, plain), StartsWith("−")) << low << " " << high;
@@ -90,7 +90,7 @@ TEST(Figures, SayMeanWhereItIsOneAndShareOnlyOfYesAndNo) {
   for (const MetricInfo& metric : AllMetrics()) {
     const MetricWords words = WordsFor(metric.id);
     EXPECT_EQ(words.label.starts_with("share"), metric.reading == Reading::kYesNo) << metric.id;
-    // What is shown in per cent lies within 0…1, so that no threshold of it exceeds 1.
+    // Values shown in per cent lie in 0…1, so no threshold exceeds 1.
     if (!words.is_share) continue;
     EXPECT_LT(metric.practical, 1) << metric.id;
     EXPECT_EQ(words.difference_suffix, " percentage points") << metric.id;

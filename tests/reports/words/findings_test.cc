@@ -28,7 +28,6 @@ Comparison Figures(int pairs, std::optional<double> difference, std::optional<do
   return comparison;
 }
 
-/// One condition, "adaptive" against "fixed".
 ScenarioSummary OneComparison(Comparison comparison, std::vector<std::string> methods = {"fixed", "adaptive"}) {
   comparison.metric = "orientation_error_deg";
   comparison.baseline = "fixed";
@@ -213,7 +212,7 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
   EXPECT_EQ(figures.methods[0].values[3], "");
-  // Nothing is said of times that nobody took, and nothing at all where nothing is compared.
+  // Nothing is said about times that were not measured, nor without a comparison.
   EXPECT_EQ(FindingsOf(UnitRun(), run.scenarios[0]).figures.labels.size(), 3u);
   EXPECT_TRUE(FindingsOf(RunData{}, OneComparison({}, {"fixed"})).figures.methods.empty());
 }

@@ -96,7 +96,7 @@ TEST(Yardstick, IsAMethodThatIsComparedWithNone) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
   EXPECT_EQ(findings.yardsticks, std::vector<std::string>{"wait-for-end"});
   EXPECT_EQ(findings.methods.size(), 3u);
-  EXPECT_EQ(findings.answer.method, "fuzzy-bridge");  // the next one answers the question
+  EXPECT_EQ(findings.answer.method, "fuzzy-bridge");  // the next method answers the question
 }
 
 TEST(Yardstick, IsNobodysBaseline) {

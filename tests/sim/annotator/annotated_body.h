@@ -12,8 +12,7 @@
 
 namespace etude {
 
-/// Returns the nearest part of `body` at every pixel, by ray casting: the renderer's result, computed without the
-/// renderer.
+/// Returns the nearest part of `body` at every pixel, by ray casting, independently of the renderer.
 inline LabelImage LabelsOf(const std::vector<Capsule>& body, const Camera& camera) {
   const Intrinsics& in = camera.intrinsics;
   LabelImage labels(in.width, in.height);
@@ -34,7 +33,7 @@ inline LabelImage LabelsOf(const std::vector<Capsule>& body, const Camera& camer
   return labels;
 }
 
-/// A label picture in which every limb is visible, and lies wholly on the person.
+/// A label picture in which every limb is visible and lies wholly on the person.
 struct Shown {
   LabelImage labels;
   ColourImage colours;
@@ -71,11 +70,10 @@ inline BodyPose StandingBody() {
   return pose;
 }
 
-/// Returns intrinsics of a picture that is no larger than needed.
+/// Returns intrinsics of a picture as small as the tests allow.
 inline Intrinsics NarrowPicture() { return {.width = 300, .height = 400, .cx = 150, .cy = 200}; }
 
 inline Camera FrontCamera() { return LookAt(NarrowPicture(), {1.5, 1.4, 3.5}, {0, 0.95, 0}); }
-/// Returns a camera on the person's left.
 inline Camera SideCamera() { return LookAt(NarrowPicture(), {3.8, 1.2, 0}, {0, 0.95, 0}); }
 
 inline std::size_t StrokeTo(Role role) {

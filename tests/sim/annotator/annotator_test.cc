@@ -40,7 +40,7 @@ TEST(Annotator, WithASteadyHandDrawsTheEvidenceAndNothingElse) {
   }
 }
 
-// All three parts of a mark's variance together are its own, and each joint's share is its relative deviation.
+// The three parts of a mark's variance add up to its own; each joint's share is its relative deviation.
 TEST(Annotator, ErrsByItsDeviation) {
   constexpr int kTrials = 300;
   const PictureEvidence seen = SeePicture(FrontView().picture());
@@ -51,7 +51,7 @@ TEST(Annotator, ErrsByItsDeviation) {
     for (std::size_t i = 0; i < kEffectorCount; ++i) {
       if (!marks.effectors[i]) continue;
       const glm::dvec2 off = *marks.effectors[i] - *seen.joints[Index(EffectorMarks()[i].role)];
-      if (glm::length(off) > 20) continue;  // left and right exchanged
+      if (glm::length(off) > 20) continue;  // left and right are exchanged here
       squares[i] += glm::dot(off, off) / 2;
       ++count[i];
     }
@@ -64,7 +64,7 @@ TEST(Annotator, ErrsByItsDeviation) {
 }
 
 TEST(Annotator, HasABiasThatStaysFromFrameToFrame) {
-  constexpr int kTrials = 50, kFrames = 100, kApart = 25;  // 2.5 time constants
+  constexpr int kTrials = 50, kFrames = 100, kApart = 25;  // kApart is 2.5 time constants
   double products = 0;
   int count = 0;
   const PictureEvidence seen = SeePicture(FrontView().picture());
@@ -93,11 +93,11 @@ TEST(Annotator, ThrowsAJointOnce) {
     for (std::size_t i = 0; i + 1 < kStrokeCount; ++i) {
       if (StrokeMarks()[i].to != StrokeMarks()[i + 1].from) continue;
       if (!marks.strokes[i] || !marks.strokes[i + 1]) continue;
-      // Each stroke is cut short on its own line, so that both lines still meet at the joint that was thrown.
+      // Each stroke is shortened along its own line, so both lines still meet at the joint that was drawn.
       const PixelSegment &above = *marks.strokes[i], &below = *marks.strokes[i + 1];
       const glm::dvec2 u = above.b - above.a, v = below.b - below.a;
       const double cross = u.x * v.y - u.y * v.x;
-      if (std::abs(cross) < 0.2 * glm::length(u) * glm::length(v)) continue;  // too straight to tell
+      if (std::abs(cross) < 0.2 * glm::length(u) * glm::length(v)) continue;  // the limb is too straight
       const glm::dvec2 between = below.a - above.a;
       const glm::dvec2 meet = above.a + (between.x * v.y - between.y * v.x) / cross * u;
       EXPECT_LT(glm::distance(meet, above.b), 0.4 * glm::length(u));
@@ -136,7 +136,7 @@ TEST(Annotator, ErrsMoreWhereALimbFadesIntoWhatIsBehind) {
     clear_squares += glm::dot(*a.effectors[2] - hand, *a.effectors[2] - hand);
     pale_squares += glm::dot(*b.effectors[2] - hand, *b.effectors[2] - hand);
   }
-  // Twice the error but for the bias.
+  // The error is twice as large, except for its bias.
   EXPECT_NEAR(pale_squares / clear_squares, kBiasShare + 4 * (1 - kBiasShare), 0.35);
 }
 
@@ -162,7 +162,7 @@ TEST(Annotator, DrawsStrokesTooShortOnTheirLine) {
     const Marks marks = MarkOnce(FrontView().picture(), 2, trial);
     const auto &stroke = marks.strokes[thigh], &next = marks.strokes[StrokeTo(kLeftAnkle)];
     if (!stroke || !next) continue;
-    // The true ends of the stroke are not drawn; its mean length tells: E|N| = √(2/π), at both ends.
+    // The strokes' true ends are unknown, but their mean length shows the error: E|N| = √(2/π) at both ends.
     left_out +=
         1 - glm::distance(stroke->a, stroke->b) / glm::distance(seen.limbs[thigh]->line.a, seen.limbs[thigh]->line.b);
     ++count;
@@ -170,8 +170,8 @@ TEST(Annotator, DrawsStrokesTooShortOnTheirLine) {
   EXPECT_NEAR(left_out / count, 2 * kShortShare * std::sqrt(2 / kPi), 0.008);
 }
 
-// From the person's left the far limbs lie behind the near ones. An exchange moves all marks of both arms, or of both
-// legs, and nothing else; it lasts kSwapFrames frames in the mean.
+// From the person's left, the far limbs are behind the near ones. An exchange moves all marks of both arms or both
+// legs, and no others; it lasts kSwapFrames frames on average.
 TEST(Annotator, ExchangesLeftAndRightMoreOftenFromAsideAndForSomeFrames) {
   const Shown side(LabelsOf(BodyCapsules(StandingBody()), SideCamera()));
   const auto count_swaps = [](const Shown& shown) {
@@ -188,7 +188,7 @@ TEST(Annotator, ExchangesLeftAndRightMoreOftenFromAsideAndForSomeFrames) {
         if (left && seen.joints[Index(kRightFoot)]) {
           is = glm::distance(*left, *seen.joints[Index(kRightFoot)]) < glm::distance(*left, foot);
         } else if (left || right) {
-          is = !left;  // only one foot is seen, and it was given to the other side
+          is = !left;  // only one foot is visible, and it was marked as the other
         }
         runs_and_frames.first += is && !was;
         runs_and_frames.second += is;
@@ -245,7 +245,7 @@ TEST(MissProbability, GrowsAsALimbIsHiddenAndAsItFadesIntoWhatIsBehind) {
   EXPECT_GT(MissProbability(pale), 0.02);
 }
 
-// The lasting part is an autoregressive process: correlation exp(−k / kLastingFrames) after k frames, unit variance.
+// The slow part is an autoregressive process: correlation exp(−k / kLastingFrames) after k frames, unit variance.
 TEST(AnnotatorDice, HaveUnitVarianceAndTheCorrelationOfAnOrnsteinUhlenbeckProcess) {
   constexpr int kTrials = 60, kFrames = 120;
   for (const int step : {1, 7}) {

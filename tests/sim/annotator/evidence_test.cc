@@ -17,8 +17,8 @@ PictureEvidence See(const BodyPose& pose, const Camera& camera) {
   return SeePicture(Shown(LabelsOf(BodyCapsules(pose), camera)).picture());
 }
 
-/// The largest distance of the evidence from the true joint centre, pixels: limbs' ends are exact but for rasters and
-/// perspective, joints inside the trunk are guessed from outside.
+/// Returns the largest allowed distance (pixels) of the evidence from the true joint centre: limb ends are exact except
+/// for pixels and perspective; joints inside the trunk are estimated from outside.
 double LargestBias(Role role) {
   if (role == kLeftHip || role == kRightHip || role == kLeftShoulder || role == kRightShoulder) return 7;
   if (role == kShoulderCentre || role == kHead) return 10;
@@ -28,7 +28,7 @@ double LargestBias(Role role) {
 TEST(SeePicture, FindsJointCentresOfABodyThatHidesNothing) {
   EvidenceOptions eye;
   eye.look.head_below_crown =
-      0.46;  // the shape puts this body's crown 4.3 cm above its head joint, and the head's radius is 9.3
+      0.46;  // this body's crown is 4.3 cm above its head joint, and the head's radius is 9.3 cm
   const PictureEvidence seen = SeePicture(Shown(LabelsOf(BodyCapsules(StandingBody()), FrontCamera())).picture(), eye);
   const ProjectionMatrix matrix = MatrixOf(FrontCamera());
   int found = 0;
@@ -49,8 +49,8 @@ TEST(SeePicture, FindsJointCentresOfABodyThatHidesNothing) {
   }
 }
 
-// Two limbs with a straight joint, seen from aside: a ball of radius R shows beside a thinner limb of radius r as far
-// as √(R² − r²) beyond the joint, and beside one at a right angle as far as R.
+// Two limbs seen from the side: at a straight joint, a ball of radius R shows beside a thinner limb of radius r up to
+// √(R² − r²) beyond the joint; at a right angle, up to R.
 TEST(SeePicture, KnowsThatTheThickerLimbEndsRoundAboutTheJoint) {
   const Camera camera = LookAt({}, {0, 1, 3.8}, {0, 1, 0});
   const glm::dvec3 knee(0, 1, 0);
@@ -82,7 +82,7 @@ TEST(SeePicture, DoesNotSeeALimbBehindTheBody) {
 }
 
 TEST(SeePicture, EndsALimbWhereAnotherOneCutsItOff) {
-  // A bystander's arm before the left shank hides its last third, the ankle and the foot.
+  // A bystander's arm in front of the left shank hides its last third, the ankle and the foot.
   Shown shown(LabelsOf(BodyCapsules(StandingBody()), FrontCamera()));
   const ProjectionMatrix matrix = MatrixOf(FrontCamera());
   const glm::dvec2 knee = *Project(matrix, StandingBody()[kLeftKnee]),
@@ -101,7 +101,7 @@ TEST(SeePicture, EndsALimbWhereAnotherOneCutsItOff) {
   EXPECT_LT(shank->seen_share, 0.75);
 }
 
-// The control: a truth that disagrees with the picture changes nothing, because there is no way for it to come in.
+// The control: a truth that disagrees with the picture changes nothing, because only the picture is an input.
 TEST(SeePicture, FollowsThePictureOfAnotherBody) {
   BodyPose other = StandingBody();
   for (glm::dvec3& joint : other.joints) joint += glm::dvec3(0.3, 0.05, 0);
@@ -133,7 +133,7 @@ TEST(SeePicture, LosesWhatTheSegmenterLost) {
 }
 
 TEST(SeePicture, MarksNoTipAtThePicturesEdge) {
-  // The camera has turned away until the left hand leaves the picture.
+  // The camera is turned so far that the left hand leaves the picture.
   const Camera camera = LookAt({}, {0, 1.2, 2.2}, {-0.42, 1.1, 0});
   const glm::dvec2 hand = *Project(MatrixOf(camera), StandingBody()[kLeftHand]);
   const glm::dvec2 wrist = *Project(MatrixOf(camera), StandingBody()[kLeftWrist]);
@@ -160,7 +160,7 @@ TEST(SeePicture, TakesPicturesThatShowHardlyAnything) {
   Shown unseen(LabelsOf(BodyCapsules(StandingBody()), FrontCamera()));
   unseen.person = Mask(300, 400);
   expect_nothing(unseen);
-  // A whole picture of one limb, with nothing to tell which end is which.
+  // The picture shows only one limb, without a hint which end is which.
   expect_nothing(Shown(LabelImage(60, 20, static_cast<std::uint32_t>(Part::kLeftShank))));
 }
 
@@ -168,7 +168,7 @@ constexpr auto kThigh = static_cast<std::uint32_t>(Part::kLeftThigh);
 constexpr auto kShank = static_cast<std::uint32_t>(Part::kLeftShank);
 constexpr std::uint32_t kChair = 16;
 
-// A thigh of 10 × 4 pixels above a shank of 10 × 6; a bystander's leg beside them.
+// Returns a thigh of 10 × 4 pixels above a shank of 10 × 6, beside a bystander's leg.
 LabelImage Leg() {
   LabelImage labels(30, 20);
   for (int y = 2; y < 12; ++y) {
@@ -233,8 +233,8 @@ MiddleLine LineOf(const std::vector<Capsule>& body, const Camera& camera, Part p
   return FindMiddleLine(regions[part]);
 }
 
-// A cylinder's outline is two planes through the camera that touch it, at equal angles to the plane through its axis:
-// the middle between the two lines is off the axis's image by less than the difference of two tangents.
+// A cylinder's outline lies in two tangent planes through the camera, at equal angles to the plane through its axis. So
+// the middle of both lines is off the axis's image by less than the difference of two tangents.
 TEST(FindMiddleLine, OfACapsuleSeenWholeIsItsAxisToAPixelWithBothEnds) {
   const Camera camera = LookAt({}, {0.3, 1.2, 3.5}, {0, 1, 0});
   const ProjectionMatrix matrix = MatrixOf(camera);
@@ -250,7 +250,7 @@ TEST(FindMiddleLine, OfACapsuleSeenWholeIsItsAxisToAPixelWithBothEnds) {
       const PixelSegment found{line.At(line.low + line.half_width), line.At(line.high - line.half_width)};
       EXPECT_LT(LineDistance(a, found), 1) << turn;
       EXPECT_LT(LineDistance(b, found), 1) << turn;
-      // A ball nearer to the camera is larger than the limb's usual width, one farther away smaller: the ends' bias.
+      // A ball nearer to the camera looks larger than the limb, a farther one smaller, which biases the ends.
       const double bias = towards_camera == 0 ? 1 : 1.6;
       EXPECT_LT(glm::distance(found.a, a), bias) << turn;
       EXPECT_LT(glm::distance(found.b, b), bias) << turn;

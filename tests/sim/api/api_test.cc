@@ -18,7 +18,7 @@ namespace {
 using etude::testing::RefusalOf;
 using ::testing::HasSubstr;
 
-/// A person who glides sideways, 3 m from the origin.
+/// Returns a person who glides sideways, 3 m from the origin.
 BodyMotion Gliding() {
   BodyMotion motion{.rate_hz = 30, .poses = {}};
   for (int frame = 0; frame < 40; ++frame) {

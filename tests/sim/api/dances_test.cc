@@ -14,7 +14,7 @@ namespace {
 using etude::testing::RefusalOf;
 using ::testing::HasSubstr;
 
-/// A player who dances along, and stands still from the 600th frame on.
+/// A player who dances along, and stands still from frame 600 on.
 SensedFrame PlayerAt(const BodyMotion& motion, std::size_t frame) {
   return StreamOf({.poses = {motion.poses[std::min<std::size_t>(frame, 600)]}}).frames.front();
 }

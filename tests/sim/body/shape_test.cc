@@ -42,7 +42,7 @@ double DistanceToSurface(const Capsule& capsule, const glm::dvec3& point) {
   return glm::distance(point, capsule.a + along * axis) - capsule.radius;
 }
 
-/// The second implementation: walk the ray by the distance to the surface until it is reached.
+/// A second implementation: walks along the ray by the distance to the surface until it reaches the surface.
 double MarchedDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   double t = 0;
   for (int step = 0; step < 20000 && t < 20; ++step) {
@@ -63,7 +63,7 @@ TEST(HitDistance, AgreesWithSphereMarching) {
     const glm::dvec3 direction = glm::normalize(aim - origin);
     const double exact = HitDistance(capsule, origin, direction), marched = MarchedDistance(capsule, origin, direction);
     if (std::isinf(exact)) {
-      // A grazing ray may be called either way within the marcher's precision.
+      // For a grazing ray either answer is right, within the marcher's precision.
       if (!std::isinf(marched)) {
         EXPECT_NEAR(DistanceToSurface(capsule, origin + marched * direction), 0, 1e-8);
       }
@@ -164,7 +164,7 @@ TEST(CuboidHitDistance, MeetsItsFacesWhereGeometrySays) {
 }
 
 TEST(CuboidHitDistance, TurnsItsOwnZTowardsItsHeading) {
-  const Cuboid long_box{{0, 0, 0}, {0.1, 1, 2}, Radians(90)};  // its long side lies along +X now
+  const Cuboid long_box{{0, 0, 0}, {0.1, 1, 2}, Radians(90)};  // its long side now lies along +X
   EXPECT_NEAR(HitDistance(long_box, {5, 0, 0}, {-1, 0, 0}), 3, 1e-12);
   EXPECT_NEAR(HitDistance(long_box, {0, 0, 5}, {0, 0, -1}), 4.9, 1e-12);
   const Cuboid oblique{{0, 0, 0}, {0.1, 1, 2}, Radians(30)};
@@ -180,7 +180,7 @@ bool IsInBox(const Cuboid& box, const glm::dvec3& point) {
          std::abs(glm::dot(from, z)) <= box.half_size.z;
 }
 
-/// The second implementation: small steps until the point lies inside.
+/// A second implementation: takes small steps until the point lies inside.
 TEST(CuboidHitDistance, AgreesWithSteppingAlongTheRay) {
   constexpr double kStep = 1e-3;
   RandomStream random({}, "rays");
@@ -195,7 +195,7 @@ TEST(CuboidHitDistance, AgreesWithSteppingAlongTheRay) {
     if (stepped < 12) {
       EXPECT_NEAR(hit, stepped, 2 * kStep);
       ++hits;
-    } else if (hit < 11) {  // no more than a grazed edge
+    } else if (hit < 11) {  // only a grazed edge
       EXPECT_FALSE(IsInBox(box, origin + (hit + 5 * kStep) * direction));
     } else {
       ++misses;

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// Something of everything: flat parts, edges, what moves with time.
+// Returns a pattern with flat parts, edges, and parts that move with time.
 Rgb8 Pattern(int x, int y, double frame) {
   const int shift = static_cast<int>(8 * frame);
   if ((x + shift) / 40 % 2 == y / 40 % 2) return {210, 190, 40};
@@ -65,8 +65,7 @@ TEST(CameraModel, IsChangedByEachEffectAndByNoneOfStrengthZero) {
   }
 }
 
-// The way through linear light, which any effect there opens, must itself change nothing: an effect too weak to be
-// seen leaves the bytes of the short way.
+// Any such effect makes the model compute in linear light. An effect too weak to be seen must leave the same bytes.
 TEST(CameraModel, TheWayThroughLightGivesTheBytesOfTheShortWay) {
   const ColourImage plain = ShotWith({.noise = 1});
   for (double CameraEffects::*strength : {&CameraEffects::vignette, &CameraEffects::exposure_ev,
@@ -104,12 +103,12 @@ TEST(CameraModel, ShowsTheBackgroundWithDiceOfItsOwn) {
 
 constexpr int kWidth = 640, kHeight = 96;
 
-/// Bright to the left of an edge that stands at `edge` at a time.
+/// Paints bright left of an edge that is at `edge(frame)`.
 Painter MovingEdge(const std::function<double(double)>& edge) {
   return [edge](int x, int, double frame) { return x + 0.5 < edge(frame) ? Rgb8{230, 230, 230} : Rgb8{30, 30, 30}; };
 }
 
-/// Finds the edge in a row: it has as many pixels as there is light.
+/// Returns the edge's position in a row: the sum of the pixels' relative brightness.
 double EdgeInRow(const ColourImage& picture, int y) {
   const double dark = LightOfCodes()[30], bright = LightOfCodes()[230];
   double sum = 0;
@@ -121,13 +120,13 @@ CameraModel Wide(const CameraEffects& effects, bool is_reference = true) {
   return ModelOf(effects, PlainCamera(kWidth, kHeight), is_reference);
 }
 
-// A vertical edge that moves leans over in the picture: its slant, rows apart, gives the time between them.
+// A moving vertical edge becomes slanted; the slant shows the time between rows.
 double ReadOutMs(double effect_ms) {
   constexpr double kPixelsPerFrame = 300;
   CameraModel model = Wide({.rolling_shutter_ms = effect_ms, .noise = 0});
   const ColourImage picture =
       Shoot(model, MovingEdge([](double frame) { return 320 + kPixelsPerFrame * (frame - 4); }), 4);
-  std::vector<std::pair<double, double>> middles;  // of the bands, whose rows are seen at the band's middle
+  std::vector<std::pair<double, double>> middles;  // (row, edge) per band; each band is read out at its middle row
   for (int band = 0; band < Shutter::kBands; ++band) {
     const int rows = kHeight / Shutter::kBands;
     middles.push_back({band * rows + rows / 2.0, EdgeInRow(picture, band * rows + rows / 2)});
@@ -156,8 +155,8 @@ TEST(RollingShutter, IsExactInEachOfItsBands) {
   EXPECT_EQ(next, kHeight);
 }
 
-// An edge that moves is a ramp as wide as its way while the shutter is open; its standard deviation, of nine equal
-// steps, tells how wide.
+// Blur turns a moving edge into a ramp as wide as its way during the exposure; the standard deviation of nine equal
+// steps measures the width.
 double BlurPixels(double blur, double pixels_per_frame) {
   CameraModel model = Wide({.motion_blur = blur, .noise = 0});
   const ColourImage picture =
@@ -181,19 +180,19 @@ TEST(MotionBlur, IsRecoveredFromAMovingEdge) {
   EXPECT_EQ(BlurPixels(0, 160), 0);
 }
 
-// Nine levels of light, evenly spaced: codes would be evenly spaced if they, not light, had been averaged.
+// Nine equally spaced levels of light; averaging codes would give equally spaced codes.
 TEST(MotionBlur, IsAMeanOfLightAndNotOfCodes) {
   CameraModel model = Wide({.motion_blur = 1, .noise = 0});
   const ColourImage picture = Shoot(model, MovingEdge([](double frame) { return 320 + 180 * (frame - 4); }), 4);
   const double dark = LightOfCodes()[30], bright = LightOfCodes()[230];
   for (int level = 0; level <= 9; ++level) {
-    const int x = 230 + 20 * level;  // sub-frames' edges stand at 240, 260, … 400
+    const int x = 230 + 20 * level;  // the sub-frames' edges are at 240, 260, … 400
     EXPECT_NEAR(LightAt(picture, x, 5), bright + (dark - bright) * level / 9, 0.004);
   }
   EXPECT_GT(picture.At(310, 5).g - (230 - (230 - 30) * 4 / 9), 20) << "the mean of codes is darker";
 }
 
-// --- Two cameras that see one thing move.
+// --- Two cameras that see the same motion.
 
 double Dance(double frame) {
   return 320 + 120 * std::sin(frame / 5.9) + 60 * std::sin(frame / 2.3 + 1) + 30 * std::sin(frame / 17.0);
@@ -213,7 +212,7 @@ double Between(const std::vector<double>& values, double at) {
          t * u * u * 0.5 * (values[k + 1] - values[k - 1]) - t * t * u * 0.5 * (values[k + 2] - values[k]);
 }
 
-// By how many frames `other` is ahead of `reference` within frames from…to: where their correlation is largest.
+// Returns by how many frames `other` is ahead of `reference` within frames from…to: the shift of largest correlation.
 double LagOf(const std::vector<double>& reference, const std::vector<double>& other, std::size_t from, std::size_t to) {
   double best = -2, best_lag = 0;
   for (double lag = -8; lag <= 8; lag += 0.01) {
@@ -246,7 +245,7 @@ TEST(SyncOffset, IsRecoveredByCrossCorrelationOfWhatBothCamerasSee) {
   EXPECT_GT(LagMs(10), 8.7) << "told apart from 8 ms";
 }
 
-// The lag of one second after the other, against time.
+// Returns the drift of the lag, from one-second windows.
 double DriftPpm(double effect_ppm) {
   const CameraEffects effects{.clock_drift_ppm = effect_ppm, .noise = 0};
   const std::vector<double> reference = Seen(effects, true, 330), other = Seen(effects, false, 330);

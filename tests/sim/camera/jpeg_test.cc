@@ -26,7 +26,7 @@ ColourImage Smooth(int width = 160, int height = 120) {
   return picture;
 }
 
-// The luminance table of a file: what stands behind its first DQT marker, in zigzag order.
+// Returns a file's luminance table: the content of its first DQT marker, in zigzag order.
 std::array<int, 64> LuminanceTable(const std::string& jpeg) {
   const std::size_t at = jpeg.find(std::string("\xff\xdb", 2)) + 5;
   std::array<int, 64> table;
@@ -34,7 +34,7 @@ std::array<int, 64> LuminanceTable(const std::string& jpeg) {
   return table;
 }
 
-// ITU-T T.81, table K.1 in zigzag order, scaled as libjpeg does.
+// Returns the quality by which libjpeg scales table K.1 of ITU-T T.81 (zigzag order).
 int QualityOf(const std::string& jpeg) {
   constexpr std::array<int, 64> kTable = {16, 11, 12,  14,  12,  10, 16, 14,  13,  14,  18,  17,  16, 19,  24,  40,
                                           26, 24, 22,  22,  24,  49, 35, 37,  29,  40,  58,  51,  61, 60,  57,  51,
@@ -56,7 +56,7 @@ TEST(Jpeg, TellsItsQualityByItsQuantisationTable) {
   for (const int quality : {10, 35, 50, 75, 92}) EXPECT_EQ(QualityOf(EncodeJpeg(Smooth(), quality)), quality);
 }
 
-// How much more neighbours differ across the borders of 8 × 8 blocks than within them.
+// Returns the ratio of neighbours' differences across borders of 8 × 8 blocks to those within blocks.
 double Blockiness(const ColourImage& picture) {
   double across = 0, within = 0;
   int borders = 0, others = 0;
@@ -113,13 +113,13 @@ TEST(Jpeg, RefusesWhatIsDamagedOrTooLarge) {
   const std::string jpeg = EncodeJpeg(Smooth(), 90);
   EXPECT_NE(ToString(ReadJpeg(jpeg, 160 * 120 - 1).error()).find("160 x 120 pixels; allowed: at most 19199"),
             std::string::npos);
-  // Wherever it breaks off.
+  // The file is cut off at many places.
   for (std::size_t size = 0; size < jpeg.size(); size += 1 + size / 40) {
     const auto read = ReadJpeg(std::string_view(jpeg).substr(0, size), 160 * 120);
     ASSERT_FALSE(read) << size;
     EXPECT_NE(ToString(read.error()).find("a damaged JPEG picture: "), std::string::npos);
   }
-  // Any byte of its head, and many others, changed: a picture or a complaint, never an end.
+  // Every byte of the head, and many others, are changed: the result is a picture or a complaint, never a crash.
   for (std::size_t at = 0; at < jpeg.size(); at += at < 700 ? 1 : 7) {
     for (const char other : {'\0', '\x7f', '\xff'}) {
       std::string changed = jpeg;
@@ -132,7 +132,7 @@ TEST(Jpeg, RefusesWhatIsDamagedOrTooLarge) {
   }
 }
 
-// A processor without vector instructions: libjpeg-turbo asks once in a process, so another process must be told.
+// libjpeg-turbo detects vector instructions once per process, so another process disables them.
 TEST(Jpeg, GivesTheSameBytesWithoutVectorInstructions) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);

@@ -10,7 +10,7 @@ namespace etude {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSlope = 0.0875;  // five degrees: the edge passes through pixels at all phases
+constexpr double kSlope = 0.0875;  // five degrees, so that the edge crosses pixels at all phases
 
 ColourImage SlantedEdge(const CameraEffects& effects) {
   CameraModel model = ModelOf(effects, PlainCamera(200, 160));
@@ -20,9 +20,9 @@ ColourImage SlantedEdge(const CameraEffects& effects) {
   });
 }
 
-// ISO 12233's way: pixels are laid along the edge's normal into quarter-pixel bins (edge spread function), whose
-// differences (line spread function) are transformed. The frequency at which half of the contrast is left, cycles per
-// pixel across the edge.
+// Measures by ISO 12233: pixels are sorted along the edge's normal into quarter-pixel bins (edge spread function); the
+// differences (line spread function) are transformed. Returns the frequency with half the contrast, cycles per pixel
+// across the edge.
 double Mtf50(const ColourImage& picture) {
   constexpr int kReach = 24, kBins = 8 * kReach;
   std::vector<double> sum(kBins), count(kBins);
@@ -52,7 +52,7 @@ double Mtf50(const ColourImage& picture) {
   return frequency;
 }
 
-// exp(−2π²σ²f²) = ½
+// From exp(−2π²σ²f²) = ½.
 double GaussianMtf50(double sigma) { return std::sqrt(std::log(2.0) / 2) / (kPi * sigma); }
 
 TEST(Defocus, HasTheModulationTransferOfItsGaussian) {
@@ -87,7 +87,7 @@ TEST(Defocus, SpreadsAPointAlikeInBothDirections) {
   EXPECT_NEAR(sum, 1, 1e-5);
 }
 
-// Of a flat field: the exponent with which light falls off with 1 / cos² of the angle to the axis.
+// Returns the exponent of a flat field's falloff as a power of cos² of the angle to the axis.
 double FalloffOf(const CameraEffects& effects) {
   CameraModel model = ModelOf(effects, PlainCamera());
   const ColourImage picture = ShootFlat(model, {220, 220, 220});
@@ -125,7 +125,7 @@ struct Shadow {
   double x = 0, y = 0, radius = 0, depth = 0;
 };
 
-// What a technician does with a flat field: pixels that lack more than half of `strength`, in connected pieces.
+// Finds shadows in a flat field: connected pixels that lack more than half of `strength`.
 std::vector<Shadow> FindShadows(const ColourImage& flat_field, double light, double strength) {
   Image<float> lacks(flat_field.width, flat_field.height);
   for (int y = 0; y < lacks.height; ++y) {

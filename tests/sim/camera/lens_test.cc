@@ -19,8 +19,7 @@ namespace {
 
 using Curve = std::vector<glm::dvec2>;
 
-/// Stripes of 40 pixels in the world before the camera, upright or level; covered exactly, so that edges have places
-/// between pixels.
+/// Paints stripes of 40 pixels, vertical or horizontal; exact pixel coverage gives their edges sub-pixel positions.
 Painter Stripes(const CameraModel& model, bool upright) {
   const double middle = upright ? model.pinhole().intrinsics.cx : model.pinhole().intrinsics.cy;
   return [=](int x, int y, double) {
@@ -34,7 +33,7 @@ Painter Stripes(const CameraModel& model, bool upright) {
   };
 }
 
-/// Finds where light passes its middle along rows (upright stripes) or columns, followed from row to row.
+/// Finds where brightness crosses its middle along rows (vertical stripes) or columns, followed from row to row.
 std::vector<Curve> FindEdges(const ColourImage& picture, bool upright) {
   constexpr double kMiddle = 0.35;
   const int along = upright ? picture.height : picture.width, across = upright ? picture.width : picture.height;
@@ -58,7 +57,7 @@ std::vector<Curve> FindEdges(const ColourImage& picture, bool upright) {
   return edges;
 }
 
-/// The sum of squared distances of points from their best line.
+/// Returns the sum of squared distances of points from their best line.
 double Crookedness(const Curve& points) {
   glm::dvec2 mean(0);
   for (const glm::dvec2& p : points) mean += p / static_cast<double>(points.size());
@@ -72,7 +71,7 @@ double Crookedness(const Curve& points) {
   return 0.5 * (xx + yy - std::hypot(xx - yy, 2 * xy));
 }
 
-/// The formula's inverse by fixed-point iteration, written apart from the product's Newton method.
+/// A second implementation: inverts the formula by fixed-point iteration, where the product uses Newton's method.
 glm::dvec2 Straightened(const glm::dvec2& pixel, const Distortion& d) {
   const glm::dvec2 seen((pixel.x - 320) / 600, (pixel.y - 240) / 600);
   glm::dvec2 ray = seen;
@@ -85,7 +84,7 @@ glm::dvec2 Straightened(const glm::dvec2& pixel, const Distortion& d) {
   return 600.0 * ray;
 }
 
-/// k1, p1, p2 that make all edges straightest: descent along one axis after the other with shrinking steps.
+/// Finds the k1, p1, p2 that make all edges straightest, by coordinate descent with shrinking steps.
 Distortion PlumbLine(const std::vector<Curve>& edges) {
   const auto cost = [&](const Distortion& d) {
     double sum = 0;
@@ -159,9 +158,9 @@ TEST(Lens, MovesTheCornerAsFarAsItsStrengthSays) {
   EXPECT_TRUE(Set({}).IsNone());
 }
 
-// --- What a lens shows is where `Project` says.
+// --- A lens shows points where `Project` says.
 
-/// A chessboard of 0.25 m squares in the plane z = 0, each pixel the mean of 64 rays.
+/// Paints a chessboard of 0.25 m squares in the plane z = 0; each pixel is the mean of 64 rays.
 Painter Board(const CameraModel& model) {
   const Camera pinhole = model.pinhole();
   return [=](int x, int y, double) {
@@ -180,7 +179,6 @@ Painter Board(const CameraModel& model) {
   };
 }
 
-/// Light between four pixels.
 double LightBetween(const ColourImage& picture, const glm::dvec2& at) {
   const int x = static_cast<int>(std::floor(at.x - 0.5)), y = static_cast<int>(std::floor(at.y - 0.5));
   const double right = at.x - 0.5 - x, down = at.y - 0.5 - y;
@@ -188,7 +186,7 @@ double LightBetween(const ColourImage& picture, const glm::dvec2& at) {
          down * ((1 - right) * LightAt(picture, x, y + 1) + right * LightAt(picture, x + 1, y + 1));
 }
 
-/// The corner near a place: about it, the board looks the same when turned by half a circle.
+/// Finds the corner near a place, as the centre about which the board is symmetric under a half turn.
 glm::dvec2 FindCorner(const ColourImage& picture, glm::dvec2 corner) {
   const auto asymmetry = [&](const glm::dvec2& centre) {
     double sum = 0;
@@ -224,7 +222,7 @@ struct Misses {
 Misses CornersMissed(const CameraEffects& effects, bool with_lens) {
   Camera camera = LookAt({}, {0.7, 1.4, 3.0}, {0.05, 1, 0});
   CameraEffects soft = effects;
-  soft.defocus_px = 1.2;  // edges as wide as the estimator's differences; alike on all sides, so no corner moves
+  soft.defocus_px = 1.2;  // edges as wide as the estimator needs; the blur is symmetric, so no corner moves
   CameraModel model = ModelOf(soft, camera);
   camera.distortion = Set(effects);
   const ColourImage picture = Shoot(model, Board(model));
@@ -253,15 +251,15 @@ TEST(Lens, ShowsTheCornersOfABoardWhereProjectSays) {
   EXPECT_GT(CornersMissed({.radial_distortion = -0.1, .noise = 0}, false).worst, 10) << "a pinhole would be wrong";
 }
 
-// --- Projected joints lie on the labels of the body.
+// --- Projected joints lie on the body's labels.
 
 BodyPose RandomPose(RandomStream& random) {
   constexpr std::array kTrunk = {Role::kSpine,         Role::kShoulderCentre, Role::kHead,    Role::kLeftShoulder,
                                  Role::kRightShoulder, Role::kLeftHip,        Role::kRightHip};
   BodyPose pose = StandingPose();
-  // Limbs from their roots anywhere, their lengths kept.
+  // Each limb points in a random direction from its root; its length is kept.
   for (const Bone& bone : AllBones()) {
-    // The trunk stays as it is.
+    // The trunk stays.
     const bool is_limb = std::find(kTrunk.begin(), kTrunk.end(), bone.child) == kTrunk.end();
     const glm::dvec3 old = StandingPose()[bone.child] - StandingPose()[bone.parent];
     const glm::dvec3 turned = glm::length(old) * glm::normalize(old / glm::length(old) + 0.6 * random.Normal3());
@@ -323,7 +321,7 @@ TEST(Lens, TakesLabelsAndDepthsFromTheNearestPixel) {
     for (int x = 0; x < 640; x += 7) {
       const int from_x = static_cast<int>(warped.At(x, y)) % in.width,
                 from_y = static_cast<int>(warped.At(x, y)) / in.width;
-      // Forward, through the lens: less than a pixel's diagonal from where it was taken to.
+      // Distorting the source pixel gives the target pixel to within half a pixel.
       const glm::dvec2 straight(from_x + 0.5 - in.cx + 320, from_y + 0.5 - in.cy + 240);
       const glm::dvec2 there = *DistortPixel(camera, straight) - glm::dvec2(x + 0.5, y + 0.5);
       EXPECT_LT(std::max(std::abs(there.x), std::abs(there.y)), 0.51);

@@ -13,7 +13,7 @@ TEST(Light, GivesEveryCodeBack) {
   }
 }
 
-// IEC 61966-2-1, written down once more.
+// Returns the code by IEC 61966-2-1, a second implementation.
 double ExactCode(double light) {
   return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
 }

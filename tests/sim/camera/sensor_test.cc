@@ -61,7 +61,7 @@ TEST(Bayer, IsExactOnRampsWithinThePicture) {
   }
 }
 
-// The textbook's convolution with [1 2 1; 2 4 2; 1 2 1]/4 of the pixels that have the colour, green with a cross.
+// The textbook's convolution of the pixels of a colour with [1 2 1; 2 4 2; 1 2 1]/4, and a cross for green.
 TEST(Bayer, IsTheConvolutionOfTheTextbook) {
   constexpr int kSide = 13;
   RandomStream random(kShotWorld, "bayer");
@@ -88,8 +88,8 @@ TEST(Bayer, IsTheConvolutionOfTheTextbook) {
   }
 }
 
-// A grey grating, f cycles per pixel: where red is the mean of its neighbours on either side, cos 2πf of its contrast
-// is left. From that, how much of the picture came through the mosaic.
+// In a grey grating of f cycles per pixel, interpolating red from both neighbours leaves cos 2πf of the contrast.
+// Returns from that the share of the mosaic in the picture.
 double ShareOfBayer(double strength) {
   constexpr double kCycles = 0.11;
   CameraModel model = ModelOf({.bayer = strength, .noise = 0}, PlainCamera(200, 40));
@@ -98,7 +98,7 @@ double ShareOfBayer(double strength) {
     return Rgb8{code, code, code};
   };
   const ColourImage seen = Shoot(model, grating);
-  // Against what the mosaic alone makes of it: own value x, neighbours' mean m; seen = x + share (m − x).
+  // For the own value x and the neighbours' mean m, the mosaic shows x + share (m − x).
   double product = 0, square = 0;
   for (int y = 2; y < 38; y += 2) {
     for (int x = 3; x < 197; x += 2) {
@@ -138,7 +138,7 @@ TEST(Bayer, FringesEdgesWithColour) {
   EXPECT_EQ(out.At(5, 4).r, out.At(5, 4).g) << "no fringe away from it";
 }
 
-// The throws of a pixel's own colour are those that it has without a mosaic.
+// A pixel's own colour has the same noise with and without a mosaic.
 TEST(Bayer, KeepsTheNoiseOfTheColoursThatAreThere) {
   CameraModel full = ModelOf({.vignette = 1, .noise = 1}, PlainCamera(64, 48));
   CameraModel mosaic = ModelOf({.vignette = 1, .bayer = 1, .noise = 1}, PlainCamera(64, 48));
@@ -155,11 +155,11 @@ TEST(Bayer, KeepsTheNoiseOfTheColoursThatAreThere) {
 }
 
 struct Patch {
-  double stops = 0;   ///< brighter than it is
-  double warmth = 0;  ///< red against blue, stops
+  double stops = 0;   ///< brightness against the truth
+  double warmth = 0;  ///< ratio of red to blue, stops
 };
 
-// A grey card in the middle of the picture, in linear light.
+// Measures a grey card in the middle of the picture, in linear light.
 Patch GreyCard(CameraModel& model, std::size_t frame) {
   const ColourImage picture = ShootFlat(model, {120, 120, 120}, frame);
   double red = 0, green = 0, blue = 0;
@@ -194,7 +194,7 @@ TEST(WhiteBalance, IsRecoveredFromAGreyCard) {
   EXPECT_GT(GreyCard({.white_balance_ev = 0.4, .noise = 0}).warmth, 0.36);
 }
 
-// Of a minute of pictures of the card: half of the way between the extremes.
+// Returns half the range of a value over a minute of the card's pictures.
 template <typename Value>
 double SwingOf(const CameraEffects& effects, Value value) {
   CameraModel model = ModelOf(effects, PlainCamera(32, 32));
@@ -227,7 +227,7 @@ TEST(Exposure, WandersSlowly) {
   }
 }
 
-// Less light for the same picture: the noise tells gain from exposure.
+// Gain compensates for less light, so only the noise differs.
 TEST(Gain, LeavesThePictureAsBright) {
   EXPECT_NEAR(GreyCard({.gain_db = 12, .noise = 1}).stops, 0, 0.02);
   EXPECT_EQ(GreyCard({.gain_db = 12, .noise = 0}).stops, GreyCard(NoEffects()).stops);
@@ -237,7 +237,6 @@ struct Statistics {
   double mean = 0, variance = 0;
 };
 
-// Of one colour, in linear light.
 Statistics Measure(const ColourImage& picture, char colour) {
   double sum = 0, squares = 0;
   for (int y = 0; y < picture.height; ++y) {
@@ -251,15 +250,15 @@ Statistics Measure(const ColourImage& picture, char colour) {
   return {sum / count, squares / count - sum * sum / count / count};
 }
 
-// What rounding to a code adds: a twelfth of the square of a code's width in light.
+// Returns the variance of rounding to a code: a twelfth of the squared width of a code in light.
 double RoundingVariance(int code) {
   const double width =
       (LightOfCodes()[static_cast<std::size_t>(code + 1)] - LightOfCodes()[static_cast<std::size_t>(code - 1)]) / 2;
   return width * width / 12;
 }
 
-// The photon transfer curve (Janesick): of flat fields, the variance against the mean; its slope is the light of one
-// electron, its intercept the variance of reading.
+// The photon transfer curve (Janesick): variance against mean over flat fields. Its slope is the light of an electron,
+// its intercept the read-out variance.
 Line PhotonTransfer(const CameraEffects& effects) {
   std::vector<std::pair<double, double>> points;
   CameraModel model = ModelOf(effects);

@@ -12,7 +12,6 @@ namespace etude {
 
 inline constexpr WorldKey kShotWorld{.suite_seed = 7, .scenario = "camera", .trial = 0};
 
-/// Returns camera effects without any effect or noise.
 inline CameraEffects NoEffects() { return {.noise = 0}; }
 
 inline Camera PlainCamera(int width = 640, int height = 480) {
@@ -25,7 +24,7 @@ inline CameraModel ModelOf(const CameraEffects& effects, Camera camera = PlainCa
   return {camera, effects, 30, {kShotWorld, "camera", is_reference}};
 }
 
-/// A scene, given by the colour of each pixel of the pinhole camera at a time.
+/// A scene: the colour of each pixel of the pinhole camera at a time.
 using Painter = std::function<Rgb8(int x, int y, double frame)>;
 
 inline CameraModel::Scene SceneOf(const CameraModel& model, Painter painter) {

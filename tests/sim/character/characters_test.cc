@@ -25,7 +25,7 @@ std::vector<GlobalTransform> GlobalsAt(const Character& character, const BodyPos
   return globals;
 }
 
-/// Numbers of the pieces that vertices hang together in.
+/// Returns for each vertex the number of its connected piece.
 std::vector<std::size_t> PieceOfVertex(const SkinnedMesh& mesh) {
   std::vector<std::size_t> piece(mesh.vertices.size());
   for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = i;
@@ -41,7 +41,7 @@ std::vector<std::size_t> PieceOfVertex(const SkinnedMesh& mesh) {
   return piece;
 }
 
-/// The smallest and largest factor by which edges of at least a centimetre change their lengths.
+/// The smallest and largest stretch of edges of at least a centimetre.
 struct Stretch {
   double least = 1, most = 1;
 };
@@ -187,7 +187,7 @@ TEST(FiguresStretch, IsSeenWhereSkinTears) {
   EXPECT_GT(most, 3);
 }
 
-/// Rounds to the micrometre, so that a last bit of a library's sine is not seen.
+/// Returns a digest of positions rounded to micrometres, which hides a library's last bits.
 std::string DigestOf(const Character& character) {
   const auto micro = [](double value) { return static_cast<std::int64_t>(std::llround(1e6 * value)); };
   Digest digest;

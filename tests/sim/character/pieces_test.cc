@@ -50,7 +50,7 @@ TEST(Pieces, ATubePassesFromBoneToBoneAcrossTheJoint) {
   for (const Piece::Vertex& vertex : MakePiece(tube, rest).vertices) {
     EXPECT_NEAR(vertex.weights[0] + vertex.weights[1], 1, 1e-15);
     const double below_elbow = 0.7 - vertex.position.y;
-    if (below_elbow > 0.2) continue;  // where the wrist's part begins
+    if (below_elbow > 0.2) continue;  // belongs to the wrist
     double forearm = 0;
     for (int k = 0; k < 2; ++k) forearm += vertex.joints[k] == kLeftElbow ? vertex.weights[k] : 0;
     const double t = std::clamp((below_elbow + 0.1) / 0.2, 0.0, 1.0);

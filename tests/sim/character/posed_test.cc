@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-// An arm along +X: the shoulder at the origin, the elbow 1 away, something without a role in the hand's place. Of three
-// triangles the first hangs from the shoulder, the second is shared, the last is carried by that something.
+// An arm along +X: shoulder at the origin, elbow at 1, and a joint without a role in the hand's place. The first of
+// three triangles hangs from the shoulder, the second is shared, the last is carried by that joint.
 Character Arm() {
   Character arm;
   const auto at = [](double x) { return LocalTransform{.translation = {x, 0, 0}}; };
@@ -60,13 +60,13 @@ TEST(PosedFigure, FollowsItsSkeleton) {
   EXPECT_EQ(sleeve.triangles, arm.meshes[0].triangles);
   ExpectNear(sleeve.positions[1], {0.5, 0, 0});
   ExpectNear(sleeve.positions[3], glm::mix(glm::dvec3(0.9, 0, 0), glm::dvec3(1, -0.1, 0), 0.6));
-  ExpectNear(sleeve.positions[7], {1, 1.3, 0});  // 1.3 beyond an elbow that points up
+  ExpectNear(sleeve.positions[7], {1, 1.3, 0});  // 1.3 above an elbow that points up
   ExpectNear(sleeve.positions[8], {0.8, 1.1, 0});
 }
 
 TEST(PosedFigure, IsMovedIntoTheWorldWithItsNormals) {
   const Character arm = Arm();
-  // Inches, Z up, stretched: a normal must go the inverse transposed way.
+  // Inches, Z up, non-uniform scale: normals need the inverse transpose.
   glm::dmat4 to_world = glm::translate(glm::dmat4(1), {0.5, 0.9, -1});
   to_world = glm::rotate(to_world, Radians(-90), {1, 0.3, 0});
   to_world = glm::scale(to_world, glm::dvec3(0.0254, 0.05, 0.1));
@@ -94,7 +94,7 @@ TEST(PosedFigure, LabelsEachTriangleByTheRoleThatMovesItMost) {
 
 TEST(PosedFigure, TurnsLinearColoursIntoThoseOfPictures) {
   const Character arm = Arm();
-  // Half the light is 188 of 255; what is out of range is brought to its ends.
+  // Half the light is code 188; values out of range are clamped.
   EXPECT_EQ(PosedFigure(arm, RestPose(arm.skeleton)).surfaces[0].colour, (Rgb8{188, 0, 255}));
 }
 
@@ -119,7 +119,7 @@ TEST(PosedFigure, OfABodysPoseHasItsJointsThere) {
 }
 
 TEST(PosedFigure, FillsABodyOfOtherProportions) {
-  // Short legs, a long trunk, broad hips: corners half way along a thigh and where a hip sits in the pelvis.
+  // Short legs, a long trunk, broad hips. The corners are half-way along a thigh, and at the hip in the pelvis.
   BodyPose other = StandingPose();
   for (glm::dvec3& joint : other.joints) joint *= glm::dvec3(1.5, joint.y < 0.95 ? 0.6 : 1.2, 1);
   const auto half_thigh = [](const BodyPose& pose) { return 0.5 * (pose[Role::kLeftHip] + pose[Role::kLeftKnee]); };
@@ -153,8 +153,8 @@ TEST(PartsOfJoints, BetweenNeckAndHeadAreHeadAndInsideALimbAreThatLimb) {
   for (const char* name : {"hips", "chest", "neck", "skull", "crown", "jaw", "arm", "twist", "elbow", "finger"}) {
     skeleton.joints.push_back({.name = name, .parent = static_cast<int>(skeleton.joints.size()) - 1, .rest = {}});
   }
-  skeleton.joints[5].parent = 3;  // the jaw hangs from the skull
-  skeleton.joints[6].parent = 1;  // the arm from the chest
+  skeleton.joints[5].parent = 3;  // the jaw, on the skull
+  skeleton.joints[6].parent = 1;  // the arm, on the chest
   JointMap map;
   for (RolePoint& point : map.points) point.joint = 0;
   const auto at = [&map](Role role, int joint) { map.points[Index(role)].joint = joint; };
@@ -177,14 +177,14 @@ TEST(RecordedFigure, IsTheCharacterInTheBodysPosesMovedAlongTheFloor) {
   Clip clip = RigClip(motion, StandingPose(), "ready");
   clip.skeleton = mannequin->skeleton;
   ASSERT_OK(map, FindJointMap(clip.skeleton, "ready"));
-  // The file's own rate is twice the body's, and its first two frames were dropped.
+  // The file's rate is twice the body's, and its first two frames were dropped.
   clip.frames.insert(clip.frames.begin(), 2, clip.frames.front());
   clip.rate_hz = 60;
   BodyConversion body{.metres_per_unit = 0.5, .dropped_frames = 2, .motion = motion};
   const RecordedFigure figure(mannequin, clip, *map, body);
 
   const FloorMove move{.yaw = 0.7, .x = 0.2, .z = -1};
-  // Frame 1/2 of the motion is frame 2 + 1 of the file: the ready stance at half its size.
+  // Frame 0.5 of the motion is frame 2 + 1 of the file: the ready stance at half size.
   const Figure seen = figure.At(0.5, move), wanted = PosedFigure(*mannequin, clip.frames[3]);
   ASSERT_EQ(seen.surfaces.size(), wanted.surfaces.size());
   for (std::size_t s = 0; s < seen.surfaces.size(); ++s) {

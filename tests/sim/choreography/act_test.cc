@@ -47,7 +47,7 @@ double Nearest(const Move& move, Role a, Role b) {
   return nearest;
 }
 
-/// Counts how often `role` changes its direction from side to side by more than 2 cm, seen from the hips.
+/// Counts how often `role` reverses its sideways motion by more than 2 cm, seen from the hips.
 int SideToSide(const Move& move, Role role) {
   int turns = 0, direction = 0;
   double extreme = 0;
@@ -141,7 +141,7 @@ TEST(BuiltinActs, NeverMoveFasterThanADancerNorSlideOnAStandingFoot) {
   }
 }
 
-// What each act must show to be understood, measured on its joints.
+// What makes each act recognisable, measured on its joints.
 
 TEST(BuiltinActs, DozeWithTheHeadOnTheChestAndWakeWithTheHandsAboveIt) {
   const BodyPose asleep = Load("doze").motion.poses.front();
@@ -217,7 +217,7 @@ TEST(ParseMove, ReadsAnActThatStaysInItsLastPose) {
   const auto bend = [&](double beat) { return Degrees(act->curves.At(beat)[MiddleControl::kNeckBend]); };
   for (double beat : {-3.0, 0.0}) EXPECT_NEAR(bend(beat), 10, 1e-9) << beat;
   for (double beat : {2.2, 4.0, 40.0}) EXPECT_NEAR(bend(beat), 40, 1e-9) << beat;
-  // At rest at both ends, and halfway in the middle (the neck comes 0.1 beats late).
+  // At rest at both ends, half-way in the middle (the neck follows 0.1 beats later).
   EXPECT_NEAR(bend(0.11), 10, 0.01);
   EXPECT_NEAR(bend(1.1), 25, 1e-9);
 }
@@ -240,7 +240,7 @@ TEST(SlowDemonstration, HoldsEveryKeyPoseForABeatAtHalfTheTempo) {
     ASSERT_EQ(slow.key_poses.size(), move.key_poses.size());
     for (std::size_t i = 0; i < move.key_poses.size(); ++i) {
       const BodyPose shown = PoseOf(move.curves.At(move.key_poses[i].beat));
-      // The curves are read off at sixteenths of a beat, between which a hold begins and ends.
+      // Curves are sampled at sixteenths of a beat, and a hold begins and ends between samples.
       for (double into : {0.07, 0.5, 0.93}) {
         const double apart = WorstJointDistance(shown, PoseOf(slow.curves.At(slow.key_poses[i].beat + into)));
         EXPECT_LT(apart, 1e-3) << name << " key pose " << i;
@@ -261,7 +261,7 @@ TEST(SlowDemonstration, GoesTheSameWayAtHalfTheSpeed) {
     };
     EXPECT_LT(fastest(slow.motion), 0.65 * fastest(move.motion)) << name;
     EXPECT_LT(WorstJointDistance(slow.motion.poses.front(), move.motion.poses.front()), 0.01) << name;
-    // Before the first key pose nothing is held: beat for beat the same bodies.
+    // Nothing is held before the first key pose, so poses agree beat for beat.
     const double beat = 0.4 * move.key_poses.front().beat;
     EXPECT_LT(WorstJointDistance(PoseOf(slow.curves.At(beat)), PoseOf(move.curves.At(beat))), 0.01) << name;
   }

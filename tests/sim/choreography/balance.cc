@@ -12,8 +12,8 @@ using enum Role;
 
 struct Segment {
   Role from, to;
-  double mass;    // share of the body's
-  double centre;  // share of the way
+  double mass;    // share of the body's mass
+  double centre;  // share of the way along the segment
 };
 
 constexpr double kLowerTrunk = CanonicalBody::kSpine / (CanonicalBody::kSpine + CanonicalBody::kChest);
@@ -37,7 +37,7 @@ constexpr Segment kSegments[] = {
 
 double Cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-/// Andrew's monotone chain; counter-clockwise.
+/// Returns the convex hull, counter-clockwise (Andrew's monotone chain).
 std::vector<glm::dvec2> ConvexHull(std::vector<glm::dvec2> points) {
   std::ranges::sort(points, [](const auto& a, const auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   std::vector<glm::dvec2> hull;
@@ -49,7 +49,7 @@ std::vector<glm::dvec2> ConvexHull(std::vector<glm::dvec2> points) {
       }
       hull.push_back(point);
     }
-    hull.pop_back();  // the other side starts with it
+    hull.pop_back();  // the other half begins with this point
     std::ranges::reverse(points);
   }
   return hull;

@@ -55,7 +55,7 @@ TEST(ToBeats, PutsEveryTagOnItsBeat) {
   const auto shifted = ToBeats(*dance, even), swung = ToBeats(*dance, swinging);
   for (std::size_t i = 0; i < dance->tags.size(); ++i) {
     EXPECT_NEAR(shifted->tags[i].music_s, dance->tags[i].music_s + 1, 1e-9);
-    // Tags of whole moves stand on even beats.
+    // Tags of whole moves are at even beats.
     EXPECT_NEAR(swung->tags[i].music_s, dance->tags[i].music_s + 1, 1e-9);
   }
   even.resize(50);

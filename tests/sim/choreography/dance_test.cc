@@ -1,4 +1,4 @@
-// Properties that make a performance possible for a body, measured on every built-in move, 120 times a second.
+// Properties without which no body could perform a move, measured on every built-in move at 120 Hz.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ constexpr double kRateHz = 120;
 using Change = std::function<void(Controls&)>;
 void Unchanged(Controls&) {}
 
-/// One loop and the frame after it, every pose changed before joints are made of it.
+/// Returns one loop and the next frame; `change` is applied to every pose before joints are computed.
 BodyMotion Danced(const Move& move, const Change& change = Unchanged) {
   const double seconds_per_beat = 60 / move.tempo_bpm;
   const auto frames = static_cast<int>(std::lround(move.beats * seconds_per_beat * kRateHz));
@@ -54,7 +54,7 @@ const std::map<std::string, BodyMotion>& AllDances() {
   return dances;
 }
 
-/// The largest of a measure, and how often it was taken: a check of nothing must not pass.
+/// The largest value of a measure and the number of values, so that a check of nothing fails.
 struct Worst {
   double value = 0;
   int count = 0;
@@ -65,13 +65,13 @@ struct Worst {
   }
 };
 
-/// Metres per second along the floor of toes on it and of ankles of flat feet.
+/// Returns the speed (m/s) along the floor of toes on it and of the ankles of flat feet.
 Worst FootSpeed(const BodyMotion& motion) {
   struct Point {
     Role role;
     double rest, slack;
   };
-  // A rising heel carries the ankle forward, a quarter as far as up, so hardly any rise may pass as flat.
+  // A rising heel moves the ankle forward by a quarter of the rise, so a foot counts as flat only within a tiny rise.
   const Point points[] = {{kLeftFoot, CanonicalBody::kToeHeight, 1e-4},
                           {kRightFoot, CanonicalBody::kToeHeight, 1e-4},
                           {kLeftAnkle, CanonicalBody::kAnkleHeight, 1e-5},
@@ -102,7 +102,7 @@ TEST(Dance, PlantedFeetDoNotSlide) {
   EXPECT_GT(FootSpeed(drifting).value, kSliding);
 }
 
-/// Metres by which the centre of mass lies outside what the body stands on, on one foot and on both.
+/// The distances (m) of the centre of mass outside the support, on one foot and on both.
 struct Imbalance {
   Worst one_foot, two_feet;
 };
@@ -122,7 +122,7 @@ Imbalance ImbalanceOf(const BodyMotion& motion) {
 }
 
 TEST(Dance, TheWeightIsOverTheStandingFoot) {
-  // Dancers fall into their steps, a little; what they hold, they hold over the foot.
+  // Dancers fall slightly into their steps, but hold poses above the foot.
   constexpr double kOffTheFoot = 0.06, kOffTheFeet = 0.015;
   for (const auto& [name, motion] : AllDances()) {
     const Imbalance imbalance = ImbalanceOf(motion);
@@ -138,11 +138,11 @@ TEST(Dance, TheWeightIsOverTheStandingFoot) {
   EXPECT_GT(ImbalanceOf(Danced(LoadMove("bird"), leans)).two_feet.value, kOffTheFeet);
 }
 
-/// The free fall that fits best to the centre of mass while both feet are in the air.
+/// The best-fitting free fall of the centre of mass while both feet are in the air.
 struct Flight {
   int frames = 0;
   double gravity = 0;  // m/s²
-  double misfit = 0;   // metres, the largest
+  double misfit = 0;   // largest deviation, metres
 };
 
 constexpr double kGravity = 9.80665, kFlightTolerance = 0.04 * kGravity;
@@ -154,7 +154,7 @@ Flight FlightOf(const BodyMotion& motion, double rate_hz = kRateHz) {
   }
   Flight flight{.frames = static_cast<int>(heights.size())};
   if (flight.frames < 5) return flight;
-  // Least squares on times symmetric about 0: a + b·t + c·t².
+  // Least squares with times symmetric about 0: a + b·t + c·t².
   const double half = 0.5 * (flight.frames - 1) / rate_hz;
   double n = 0, t2 = 0, t4 = 0, y0 = 0, y1 = 0, y2 = 0;
   const auto time = [&](int i) { return i / rate_hz - half; };
@@ -201,7 +201,7 @@ LimbLengths CanonicalLengths() {
           .hand = CanonicalBody::kHand};
 }
 
-/// Radians by which a joint's angles lie outside an adult's limits.
+/// Returns the excess (rad) of joint angles over an adult's limits.
 Worst BeyondLimits(const BodyMotion& motion) {
   const KinematicTree body = MakeBodyTree(CanonicalLengths());
   const std::vector<AngleRange> any(body.limits.size(), {-kPi, kPi});
@@ -263,7 +263,7 @@ TEST(Dance, StaysADancersAtEveryTempoOfTheMovesRange) {
   }
 }
 
-/// The largest second difference of any joint, m/s².
+/// Returns the largest second difference of a joint, m/s².
 double TopAcceleration(const std::vector<BodyPose>& poses, double rate_hz) {
   double top = 0;
   for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
@@ -276,7 +276,7 @@ double TopAcceleration(const std::vector<BodyPose>& poses, double rate_hz) {
 }
 
 TEST(Dance, NothingJerks) {
-  constexpr double kJerky = 110;  // m/s²: a hand that claps stops from 6 m/s within 6 hundredths of a second
+  constexpr double kJerky = 110;  // m/s²: a clapping hand stops from 6 m/s within 0.06 s
   for (const std::string& name : BuiltinMoveNames()) {
     std::vector<BodyPose> poses = LoadMove(name).motion.poses;
     EXPECT_LT(TopAcceleration(poses, kJudgedRateHz), kJerky) << name;

@@ -20,14 +20,14 @@ inline bool ShowsKeyPose(const KeyPose& key_pose, const BodyPose& pose, double s
   });
 }
 
-/// Returns the first time, in seconds from the motion's first frame, by which every key pose has been shown in frames
-/// of [from_s, to_s], in any order; nothing if one of them is never shown. A move must contain all key poses that
-/// recognisers learn for it; but this is no truth to judge recognisers by.
+/// Returns the first time (s from the motion's first frame) by which every key pose was shown in frames of [from_s,
+/// to_s], in any order; nothing if one is never shown. A move must contain all key poses that recognisers learn, but
+/// this is no truth to judge recognisers by.
 inline std::optional<double> FirstReached(std::span<const KeyPose> key_poses, const BodyMotion& motion, double from_s,
                                           double to_s) {
   if (motion.poses.empty()) return std::nullopt;
   const double standing = StandingHipHeight(motion.poses.front());
-  // Count frames instead of adding times, because the end of a window must not depend on rounding.
+  // Frames are counted, because the window's end must not depend on rounding.
   constexpr double kSlack = 1e-9;
   const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(from_s * motion.rate_hz - kSlack)));
   double reached_s = from_s;

@@ -10,11 +10,10 @@
 
 namespace etude {
 
-/// The speed below which a toe counts as standing still.
+/// A toe slower than this stands still.
 constexpr double kStillMmps = 5;
 
-/// Returns the highest speed of a toe along the floor while it is down, mm/s, and the number of frames in which it is
-/// down.
+/// Returns the highest speed (mm/s) of a toe along the floor while it is down, and the number of such frames.
 inline std::pair<double, int> FastestSlide(const BodyMotion& motion, Role toe) {
   constexpr double kDown = 0.0005;
   double fastest = 0;

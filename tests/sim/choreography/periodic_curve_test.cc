@@ -11,7 +11,6 @@ namespace {
 
 constexpr Ease kAllEases[] = {Ease::kSmooth, Ease::kLinger, Ease::kRush, Ease::kSnap, Ease::kStep};
 
-/// Keys with every ease.
 std::vector<PeriodicCurve::Key> RandomKeys(RandomStream& random) {
   std::vector<PeriodicCurve::Key> keys;
   double at = random.Uniform(0, 0.3);
@@ -37,8 +36,7 @@ TEST(PeriodicCurve, IsExactlyConstantBetweenEqualKeys) {
   EXPECT_EQ(PeriodicCurve({{1, 0.3}}, 4).At(2.2), 0.3);
 }
 
-/// Slope and second derivative on one side of `at` alone (step < 0: the left), by differences that are
-/// exact up to the fourth derivative.
+/// One-sided slope and second derivative at `at` (step < 0: from the left), exact up to the fourth derivative.
 struct Derivatives {
   double slope, bend;
 };

@@ -37,7 +37,7 @@ const std::vector<Song>& AllSongs() {
 double Seconds(const Song& song, double beat) { return beat * 60 / song.tempo_bpm; }
 double EndBeat(const SongPart& part) { return part.start_beat + part.beats; }
 
-/// The moments, beats, where a move follows on the ready stance or another move, and the last one's end.
+/// Returns the beats at which one move follows another or the ready stance, and at which the last move ends.
 std::vector<double> JoinsOf(const Song& song) {
   std::vector<double> joins;
   for (const SongPart& part : song.parts) joins.push_back(part.start_beat);
@@ -45,7 +45,7 @@ std::vector<double> JoinsOf(const Song& song) {
   return joins;
 }
 
-/// The largest second difference of any joint, cm per frame².
+/// Returns the largest second difference of a joint, cm per frame².
 double JumpAt(const BodyPose& before, const BodyPose& at, const BodyPose& after) {
   double worst = 0;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
@@ -129,8 +129,8 @@ TEST(BuiltinSongs, DanceTheirMovesAsTheyAreBetweenTheJoins) {
   }
 }
 
-/// The most that a join may jerk: as much as all but the quickest twentieth of the dancing itself, or hardly more than
-/// one of both moves does around its own beginning.
+/// Returns the largest allowed jump at a join: the 95th percentile within the dance, or 5 % more than that of both
+/// moves at their own beginnings.
 double AllowedJump(std::vector<double> within, double of_neighbours) {
   std::ranges::sort(within);
   return std::max(within[within.size() * 95 / 100], 1.05 * of_neighbours);
@@ -159,7 +159,7 @@ TEST(BuiltinSongs, FlowFromMoveToMove) {
     double worst_cut = 0;
     for (std::size_t i = 0; i + 1 < moves.size(); ++i) {
       const double join = joins[i + 1];
-      // Poses of the two moves danced alone, `beat` of the music from where they meet.
+      // Returns the pose of a move danced alone, `beat` beats of music after the join.
       const auto alone = [&](std::size_t part, double beat) {
         return PoseOf(moves[part].curves.At((song.parts[part].half_time ? 0.5 : 1) * beat));
       };
@@ -177,7 +177,7 @@ TEST(BuiltinSongs, FlowFromMoveToMove) {
       }
       const double allowed = AllowedJump(within, of_neighbours);
       EXPECT_LE(at_join, allowed) << song.name << ": " << song.parts[i].move << " to " << song.parts[i + 1].move;
-      // The control: one move cut off where the other begins.
+      // The control: a cut from one move to the other.
       const double cut = JumpAt(alone(i, -beats_per_frame), alone(i + 1, 0), alone(i + 1, beats_per_frame));
       worst_cut = std::max(worst_cut, cut / allowed);
     }
@@ -193,7 +193,7 @@ TEST(BuiltinSongs, NeverSlideOnAStandingFoot) {
       EXPECT_GT(down, static_cast<int>(song.motion.poses.size() / 3)) << song.name;
     }
   }
-  // The control: the same dance drifting along at 1 cm/s.
+  // The control: the same dance, drifting at 1 cm/s.
   BodyMotion drifting = AllSongs().front().motion;
   for (std::size_t i = 0; i < drifting.poses.size(); ++i) {
     drifting.poses[i] = FloorMove{.x = 0.01 * static_cast<double>(i) / kJudgedRateHz}.Apply(drifting.poses[i]);
@@ -267,7 +267,7 @@ const Move& Kick() {
   return move;
 }
 
-/// A bar of waiting, boxing from beat 4, kicks from beat 12 in half time, waiting again from beat 28.
+/// A bar of waiting, boxing from beat 4, half-time kicks from beat 12, waiting from beat 28.
 std::vector<Turn> Turns() {
   return {{.start_beat = 0, .beats = 4},
           {.start_beat = 4, .beats = 8, .move = &Boxing()},
@@ -293,7 +293,7 @@ TEST(SequenceAt, DancesEachTurnAtItsPaceOutsideTheBlends) {
 TEST(SequenceAt, BeginsAndEndsInTheReadyStance) {
   for (double beat : {-3.0, 0.0, 32.0, 40.0}) {
     Controls at = SequenceAt(Turns(), beat);
-    at[MiddleControl::kHipsDrop] = ReadyStance()[MiddleControl::kHipsDrop];  // the knees give way to the music
+    at[MiddleControl::kHipsDrop] = ReadyStance()[MiddleControl::kHipsDrop];  // the knees follow the music
     EXPECT_LT(Difference(at, ReadyStance()), 1e-12) << beat;
   }
   for (double beat : {0.0, 32.0}) EXPECT_LT(Difference(SequenceAt(Turns(), beat), ReadyStance()), 1e-12);
@@ -323,7 +323,7 @@ TEST(SequenceAt, LeavesTheFeetToOneTurnAtATime) {
   for (Side side : {Side::kLeft, Side::kRight}) {
     for (SideControl control : {SideControl::kLegFree, SideControl::kLegSide, SideControl::kFootSide,
                                 SideControl::kFootAhead, SideControl::kFootLift, SideControl::kFootTurn}) {
-      // In its blend the turn before has come to beat 8 of its 8; the kick's clock stands before its beginning.
+      // During the blend boxing runs to its beat 8, and the kick's clock is still before its beginning.
       for (double beat : {11.1, 11.6, 11.99}) {
         EXPECT_EQ(SequenceAt(turns, beat).Of(side, control), Boxing().curves.At(beat - 4).Of(side, control));
       }

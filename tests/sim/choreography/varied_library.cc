@@ -9,7 +9,7 @@
 #include "engine/base/directions.h"
 #include "engine/motion/edit.h"
 
-// A named namespace, because this file is compiled together with others that have types of these names.
+// A named namespace, because this file is compiled together with others that have types of the same names.
 namespace etude {
 namespace varied_library {
 
@@ -18,7 +18,7 @@ using enum Role;
 /// The parts of the body whose rotations are scaled together.
 enum class Part { kTrunk, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
 constexpr std::size_t kPartCount = 5;
-/// Marks the roles of hips and shoulders: they carry the other parts and are not scaled.
+/// Marks hips and shoulders, which carry the other parts and are not scaled.
 constexpr Part kNoPart{kPartCount};
 
 Part PartOf(Role child) {
@@ -74,7 +74,6 @@ Directions DirectionsOf(const BodyPose& pose) {
   return directions;
 }
 
-/// The mean pose of a motion.
 struct MeanPose {
   Directions directions{};
   double hip_height = 0;
@@ -103,8 +102,7 @@ glm::dvec3 ScaleTurn(const glm::dvec3& direction, const glm::dvec3& centre, doub
   return std::cos(angle) * centre + std::sin(angle) * (across / sine);
 }
 
-/// Returns the pose at a fractional frame of a motion, by linear interpolation of joints. `Vary` restores the limb
-/// lengths.
+/// Returns the pose at a fractional frame, by linear interpolation of joints. `Vary` restores the limb lengths.
 BodyPose PoseAt(const BodyMotion& motion, double frame) {
   const auto before = static_cast<std::size_t>(frame);
   const std::size_t after = std::min(before + 1, motion.poses.size() - 1);
@@ -114,7 +112,6 @@ BodyPose PoseAt(const BodyMotion& motion, double frame) {
   return pose;
 }
 
-/// The style in which a dancer performs a clip.
 struct Style {
   Oscillation tempo;
   std::array<Oscillation, kPartCount> amplitudes;

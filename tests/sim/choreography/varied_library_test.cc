@@ -26,7 +26,7 @@ std::vector<BodyMotion> Vary(const std::vector<BodyMotion>& seeds, const char* p
   return VariedLibrary(seeds, frames, dice);
 }
 
-/// Joints relative to the hips, as the body faces: where it stands makes no pose another.
+/// Returns joints relative to the hips and heading, so that the place does not matter.
 std::vector<double> Shape(const BodyPose& pose) {
   const BodyPose at_origin = ToOrigin(pose).Apply(pose);
   std::vector<double> numbers;
@@ -61,7 +61,7 @@ TEST(VariedLibrary, VariesTempoWithinItsBounds) {
   const std::vector<BodyMotion> seeds = {Seeds()[0]};
   const auto length = static_cast<double>(seeds[0].poses.size());
   std::vector<BodyMotion> clips = Vary(seeds, "tempo");
-  clips.pop_back();  // cut off
+  clips.pop_back();  // the last clip is cut off
   double shortest = 1e9, longest = 0;
   for (const BodyMotion& clip : clips) {
     shortest = std::min(shortest, static_cast<double>(clip.poses.size()));

@@ -23,7 +23,7 @@ Camera ACamera() {
 
 DepthImage Flat(double z) { return DepthImage(kDepthWidth, kDepthHeight, static_cast<float>(z)); }
 
-/// Near from column 200 on, far before.
+/// Returns a near surface in the columns from 200 on, and a far one in the others.
 DepthImage StepEdge(double near, double far) {
   DepthImage depth = Flat(far);
   for (int y = 0; y < kDepthHeight; ++y) {
@@ -32,7 +32,7 @@ DepthImage StepEdge(double near, double far) {
   return depth;
 }
 
-/// A wall turned by `angle` about the vertical through the picture's middle, where its depth is `z`.
+/// Returns a wall turned by `angle` about the vertical axis through the middle, where its depth is `z`.
 DepthImage TurnedWall(double z, double angle) {
   DepthImage depth(kDepthWidth, kDepthHeight);
   for (int y = 0; y < kDepthHeight; ++y) {
@@ -85,7 +85,7 @@ Line Regress(const std::vector<double>& x, const std::vector<double>& y) {
   return {(sy - slope * sx) / n, slope};
 }
 
-/// Deviations of flat walls against (z − 0.4)².
+/// Fits the deviations of flat walls against (z − 0.4)².
 Line AxialLaw(const DepthCameraOptions& options) {
   std::vector<double> squares, deviations;
   for (double z = 1; z < 3.8; z += 0.2) {
@@ -164,7 +164,7 @@ TEST(DepthCamera, MeasuresWithinItsRangeOnly) {
 
 TEST(DepthCamera, WhatIsSeenAtASlantIsLost) {
   const DepthCameraOptions options = Only(KinectV1Depth(), &DepthCameraOptions::grazing);
-  // A ray's angle to the wall's normal is the wall's turn less or more the ray's own angle to the axis.
+  // The angle between a ray and the wall's normal is the wall's turn minus or plus the ray's angle to the axis.
   const auto lost_at = [&](double degrees, double strength) {
     DepthCameraOptions weaker = options;
     weaker.grazing = strength;
@@ -179,7 +179,7 @@ TEST(DepthCamera, WhatIsSeenAtASlantIsLost) {
   EXPECT_FALSE(lost_at(86, 0));
 }
 
-/// Returns the share of pixels that show what is near, of those whose middle is so far on the far side of a step edge.
+/// Returns the share of pixels that show the near surface, of those `pixels_away` on the far side of an edge.
 double ShareOfNear(const DepthCameraOptions& options, int pixels_away) {
   int shown = 0, all = 0;
   for (int trial = 0; trial < 8; ++trial) {
@@ -218,7 +218,7 @@ TEST(DepthCamera, EdgesShiftInBothDirectionsByPixelsOfTheSensor) {
     for (int i = 0; i < 100; ++i) above += measured.At(200 + i, 119) < 2, beside += measured.At(159, 130 + i) < 2;
     diagonal += measured.At(159, 119) < 2;
   }
-  // The picture's focal length is 580, the sensor's 365.
+  // The picture's focal length is 580 px, the sensor's 365 px.
   const double share = 0.5 * std::erfc(0.5 / (0.8 * 580 / 365) / std::numbers::sqrt2);
   const double both = share * share;
   EXPECT_NEAR(static_cast<double>(above) / pixels, share, 4 * std::sqrt(share * (1 - share) / pixels));
@@ -239,7 +239,7 @@ TEST(DepthCamera, StrengthsDoNotChangeTheDice) {
   EXPECT_EQ(next(KinectV1Depth(), Flat(kNotMeasured)), expected);
   EXPECT_NE(next(KinectV1Depth(), DepthImage(kDepthWidth, kDepthHeight - 1, 2)), expected)
       << "fewer pixels, fewer throws";
-  // Half of the noise is half of each pixel's error.
+  // Half the strength halves each pixel's error.
   DepthCameraOptions half = Only(KinectV1Depth(), &DepthCameraOptions::axial_noise), whole = half;
   half.axial_noise = 0.5;
   const DepthImage a = Measure(Flat(2), half), b = Measure(Flat(2), whole);
@@ -254,7 +254,7 @@ Camera FewRows(double focus = kFocusPx) {
                 {0, 1, 0});
 }
 
-/// A near strip from column `from` to `to` − 1 before a far wall.
+/// Returns a near strip of columns `from` to `to` − 1 in front of a far wall.
 DepthImage Strip(double near, double far, int from, int to) {
   DepthImage depth(kColumns, kRows, static_cast<float>(far));
   for (int y = 0; y < kRows; ++y) {
@@ -285,7 +285,7 @@ TEST(ProjectorShadow, OfAnEdgeIsAsWideAsTheDisparitiesDiffer) {
 }
 
 TEST(ProjectorShadow, FallsToTheLeftOnly) {
-  // The strip reaches the picture's left border: behind its right edge the projector sees more than the camera.
+  // The strip touches the picture's left border; at its right edge the projector sees more than the camera.
   EXPECT_EQ(Count(ProjectorShadow(Strip(1, 4, 0, 200), FewRows(), kBaselineM), 0), 0);
 }
 
@@ -310,13 +310,13 @@ TEST(ProjectorShadow, NeedsABaselineAndAnEdge) {
       << "nothing is there to shade";
 }
 
-// A second way to the same: rays from the projector to points of the wall against a disc (a pillar seen from above).
+// A second implementation: rays from the projector to the wall, against a disc (a pillar from above).
 TEST(ProjectorShadow, OfAPillarIsWhereRaysFromTheProjectorMeetIt) {
   const double middle_x = 0.1, middle_z = 1.5, radius = 0.12, wall = 3;
   const auto meets = [&](double from_x, double to_x, double to_z) -> double {
     const double dx = to_x - from_x, dz = to_z, fx = from_x - middle_x, fz = -middle_z;
     const double a = dx * dx + dz * dz, b = dx * fx + dz * fz, c = fx * fx + fz * fz - radius * radius;
-    return b * b < a * c ? 2 : (-b - std::sqrt(b * b - a * c)) / a;  // as a share of the way
+    return b * b < a * c ? 2 : (-b - std::sqrt(b * b - a * c)) / a;  // share of the ray's length
   };
   DepthImage depth(kColumns, kRows);
   for (int y = 0; y < kRows; ++y) {

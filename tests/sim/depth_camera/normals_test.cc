@@ -17,7 +17,7 @@ Camera ACamera(const Distortion& distortion) {
   return camera;
 }
 
-/// The depth of what a pixel's ray meets; `distance` along the ray, whose z in the camera's frame is 1.
+/// Returns the depth that each ray meets at `distance` along it; the ray's z is 1 in the camera's frame.
 template <typename Distance>
 DepthImage DepthsOf(const Camera& camera, Distance distance) {
   DepthImage depth(160, 120);
@@ -63,7 +63,7 @@ TEST(Normals, OfASpherePointAwayFromItsMiddle) {
       const glm::dvec3 out =
           camera.p_WC + static_cast<double>(depth.At(x, y)) * (glm::transpose(camera.R_CW) * ray_C) - middle;
       const glm::dvec3 ray = glm::normalize(glm::transpose(camera.R_CW) * ray_C);
-      if (glm::dot(out, ray) > -0.5) continue;  // seen at a slant, neighbours are far apart
+      if (glm::dot(out, ray) > -0.5) continue;  // at grazing angles neighbours are far apart
       ++checked;
       EXPECT_GT(glm::dot(glm::dvec3(found.At(x, y)), out), std::cos(0.05));
     }

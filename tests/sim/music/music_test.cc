@@ -32,7 +32,7 @@ TEST(MusicClock, Drifts) {
   EXPECT_NEAR(clock.Now(), 98, 1e-9);
 }
 
-/// Frames of a minute at which the clock stands.
+/// Returns the frames of a minute in which the clock stands still.
 std::vector<int> Standing(MusicClock clock) {
   std::vector<int> frames;
   clock.PlayFrom(0);
@@ -92,7 +92,7 @@ TEST(WriteWav, WritesAHeadAndSamplesAsTheyStandInTheFormat) {
   ASSERT_EQ(wav.size(), 44U + 8);
   EXPECT_EQ(wav.substr(0, 4), "RIFF");
   EXPECT_EQ(wav.substr(8, 8), "WAVEfmt ");
-  EXPECT_EQ(wav.substr(24, 4), std::string("\x44\xAC\x00\x00", 4));  // 44100
+  EXPECT_EQ(wav.substr(24, 4), std::string("\x44\xAC\x00\x00", 4));  // 44100 Hz
   EXPECT_EQ(wav.substr(36, 4), "data");
   EXPECT_EQ(wav.substr(44), std::string("\x00\x00\xFF\x7F\x01\x80\xFF\x7F", 8));
 }

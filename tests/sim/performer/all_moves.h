@@ -9,7 +9,6 @@
 
 namespace etude {
 
-/// Returns every built-in move.
 inline const std::vector<Move>& AllMoves() {
   static const std::vector<Move> moves = [] {
     std::vector<Move> loaded;
@@ -19,7 +18,7 @@ inline const std::vector<Move>& AllMoves() {
   return moves;
 }
 
-/// Returns the built-in moves with these names, one after the other, as one motion.
+/// Returns the built-in moves with these names in sequence, as one motion.
 inline BodyMotion AfterEachOther(const std::vector<std::string>& names) {
   BodyMotion motion;
   for (const std::string& name : names) {

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// One performance, normalised for distances: hips at the origin, trunk 50 cm long, 15 Hz.
+/// One performance, normalised: hips at the origin, trunk 50 cm long, 15 Hz.
 using NormalisedClip = std::vector<BodyPose>;
 
 inline NormalisedClip Normalised(const std::vector<BodyPose>& poses) {

@@ -1,4 +1,4 @@
-// The figures of fidelity_test.cc for a crowd, and the order of the presets by them.
+// The figures of fidelity_test.cc for a crowd, and the order of the presets by these figures.
 
 #include <gtest/gtest.h>
 

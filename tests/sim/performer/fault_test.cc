@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// Standing, the right arm raised sideways by so many degrees.
+/// Returns a standing body with the right arm raised sideways by `degrees`.
 BodyPose ArmRaised(double degrees) {
   BodyPose pose = StandingPose();
   const glm::dvec3 shoulder = pose[Role::kRightShoulder];
@@ -28,20 +28,20 @@ TEST(Stray, OfOneLimbIsItsAngle) {
   const auto meant = [](double) { return ArmRaised(30); };
   EXPECT_NEAR(LimbStrayDeg(meant, [](double) { return ArmRaised(50); }), 20, 1e-6);
   EXPECT_EQ(LimbStrayDeg(meant, meant), 0);
-  // A quarter of the time: the root of a quarter.
+  // A quarter of the time: the RMS is the square root of a quarter.
   EXPECT_NEAR(LimbStrayDeg(meant, [](double share) { return ArmRaised(share < 0.25 ? 50 : 30); }), 10, 1e-6);
-  // Rising evenly to 60 degrees away: 60 / √3, but for 32 samples.
+  // A linear rise to 60 degrees away has the RMS 60 / √3, up to the error of 32 samples.
   EXPECT_NEAR(LimbStrayDeg(meant, [](double share) { return ArmRaised(30 + 60 * share); }), 60 / std::sqrt(3), 0.02);
 }
 
 TEST(Stray, OfTheClockIsCountedInBeats) {
   const auto even = [](double due) { return due; };
   EXPECT_EQ(TimingStrayBeats(even, even, 4), 0);
-  // One beat of four late: it lags by 0…1 beat during the first, by 1 in the other three. √((1/3 + 3) / 4).
+  // One beat of four late: the lag rises to 1 beat in the first beat, and stays 1 in the others. √((1/3 + 3) / 4).
   EXPECT_NEAR(TimingStrayBeats(
                   even, [](double due) { return due - 0.25; }, 4),
               std::sqrt((1.0 / 3 + 3) / 4), 1e-3);
-  // Half a wave of 0.1 of eight beats: 0.8 / √2.
+  // A sine of amplitude 0.1 of eight beats: 0.8 / √2.
   EXPECT_NEAR(TimingStrayBeats(
                   even, [](double due) { return due + 0.1 * std::sin(kPi * due); }, 8),
               0.8 / std::sqrt(2), 1e-2);
@@ -71,7 +71,7 @@ TEST(Stray, IsOfThePersonsOwnMotionSoThatNoHabitIsAFault) {
   }
 }
 
-/// A measure that grows with either part of a stray.
+/// Grows with either part of a stray.
 double Badness(const Stray& stray) { return stray.limb_deg / 25 + stray.timing_beats / 0.5; }
 
 TEST(Stray, GrowsWithTheSeverityOfEveryFault) {

@@ -1,7 +1,7 @@
-// Simulated people differ as real people do. Measured on recordings of 20 people and 14 moves (10 people and 10
-// actions), by dynamic time warping, root mean square per joint, trunk scaled to 50 cm: the same move by another person
-// is 10.4 cm (16–28) away, the nearest other move 11.5 cm (15–38). With one taught clip by one other person,
-// one-nearest-neighbour classification finds 82 %. Durations vary with a coefficient of variation of 0.2–0.4.
+// Simulated people differ as real people do. Recordings of 20 people and 14 moves (10 people and 10 actions), compared
+// by dynamic time warping, RMS per joint, trunk scaled to 50 cm: the same move by another person is 10.4 cm (16–28)
+// away, the nearest other move 11.5 cm (15–38). With one taught clip by one other person, one-nearest-neighbour
+// classification finds 82 %. Durations vary with a coefficient of variation of 0.2–0.4.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ TEST(Fidelity, TheDistanceIsWhatItSays) {
   NormalisedClip still = Normalised({standing, standing, standing}), moved = still;
   for (BodyPose& pose : moved) pose[Role::kLeftHand].x += 0.1;
   EXPECT_NEAR(WarpedDistanceCm(still, moved), 10 / std::sqrt(20.0), 1e-9);
-  // Time does not count: a pose held twice as long is the same clip.
+  // Time does not count: holding a pose twice as long gives the same clip.
   NormalisedClip quick = {still[0], moved[0]}, slow = {still[0], still[0], moved[0], moved[0]};
   EXPECT_EQ(WarpedDistanceCm(quick, slow), 0);
   EXPECT_GT(WarpedDistanceCm(quick, still), 0);

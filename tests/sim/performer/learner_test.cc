@@ -22,7 +22,7 @@ std::size_t IndexOf(const char* name) {
   return static_cast<std::size_t>(std::ranges::find(AllMoves(), name, &Move::name) - AllMoves().begin());
 }
 
-/// A coach by hand: dances moves, and does something after each.
+/// A coach under the test's control: dances moves and acts after each.
 class Coaching {
  public:
   explicit Coaching(const LearnerOptions& options = {}, People people = People::kAdult, int trial = 4)
@@ -32,7 +32,7 @@ class Coaching {
   const std::vector<BodyPose>& poses() const { return poses_; }
 
   void Show(const Shown& shown) { poses_.push_back(learner_.Step(shown)); }
-  /// Dances a move once, or only its first `beats`; the truth of it.
+  /// Dances a move once, or only its first `beats`; returns its truth.
   Truth Dance(std::size_t move, double beats = 1e9) {
     const Move& danced = AllMoves()[move];
     const double per_frame = danced.tempo_bpm / 60 / kJudgedRateHz;
@@ -90,7 +90,7 @@ TEST(Learner, MakesFullMistakesWhereAskedTo) {
   for (std::size_t i = 0; i < full.learner().performances().size(); ++i) {
     const auto& as_thrown = thrown.learner().performances()[i].event.faults;
     const auto& as_asked = full.learner().performances()[i].event.faults;
-    ASSERT_EQ(as_thrown.size(), as_asked.size());  // the same luck
+    ASSERT_EQ(as_thrown.size(), as_asked.size());  // the same draws
     for (std::size_t f = 0; f < as_asked.size(); ++f) {
       EXPECT_EQ(as_asked[f].fault, as_thrown[f].fault);
       EXPECT_EQ(as_asked[f].severity, 1);
@@ -113,7 +113,7 @@ TEST(Learner, DoesWhatIsShownOneLagLater) {
     coaching.Wait();
     for (int i = 0; i < 3; ++i) coaching.Dance(jump);
     coaching.Wait(60);
-    // The top of the jump is at beat 2.
+    // The jump's top is at beat 2.
     for (const LearnerPerformance& performance : coaching.learner().performances()) {
       const double top_shown_s = performance.event.start_s + 2 * 60 / AllMoves()[jump].tempo_bpm;
       const auto from = static_cast<std::size_t>(performance.event.start_s * 30), to = from + 75;
@@ -130,7 +130,7 @@ TEST(Learner, DoesWhatIsShownOneLagLater) {
 }
 
 TEST(Learner, IsCausal) {
-  // Two coaches who do the same for two seconds, and then not.
+  // The coaches act alike for two seconds, then differ.
   Coaching one, other;
   for (Coaching* coaching : {&one, &other}) {
     coaching->Wait(20);
@@ -148,7 +148,7 @@ TEST(Learner, MovesSmoothlyThroughWhateverIsShown) {
   for (int round = 0; round < 2; ++round) {
     for (std::size_t move = 0; move < AllMoves().size(); ++move) {
       coaching.Dance(move);
-      coaching.Dance(move, 1.3);  // cut
+      coaching.Dance(move, 1.3);  // cut short
       coaching.Correct(move);
       coaching.Do(Shown::Act::kDemonstrate, move, 60);
     }
@@ -163,7 +163,6 @@ TEST(Learner, MovesSmoothlyThroughWhateverIsShown) {
   EXPECT_LT(worst, 0.3);
 }
 
-/// Faults and severities of every attempt at a move.
 std::vector<std::string> LuckOf(const Learner& learner, std::size_t move) {
   std::vector<std::string> luck;
   for (const LearnerPerformance& performance : learner.performances()) {
@@ -176,7 +175,7 @@ std::vector<std::string> LuckOf(const Learner& learner, std::size_t move) {
 }
 
 TEST(Learner, MeetsTheSameLuckUnderEveryCoach) {
-  // Nothing is learnt, so that only luck is left.
+  // Nothing is learnt, so only chance remains.
   const LearnerOptions options{.rates = {.rate = 1e-12}, .skill = 0.2, .gives_up = false};
   Coaching plain(options), busy(options);
   const std::size_t clap = IndexOf("clap"), sway = IndexOf("sway");
@@ -211,7 +210,7 @@ TEST(Learner, LessSkillNeverTakesAFaultAway) {
   EXPECT_GT(faults(0.1), faults(1));
 }
 
-/// Dances a move until it was wrong.
+/// Dances a move until an attempt has the truth `truth`.
 void DanceUntil(Coaching& coaching, std::size_t move, Truth truth) {
   for (int i = 0; i < 40; ++i) {
     const Truth was = coaching.Dance(move);
@@ -281,7 +280,7 @@ TEST_P(UnderEveryLaw, PraiseForAMistakeUnteachesAndCostsPatience) {
   const std::size_t clap = IndexOf("clap");
   Coaching coaching(Options());
   DanceUntil(coaching, clap, Truth::kRight);
-  coaching.Correct(clap);  // patience below one, so that it can rise
+  coaching.Correct(clap);  // lowers patience below one, so that it can rise
   const double spent = coaching.learner().patience();
   coaching.Praise();
   EXPECT_GT(coaching.learner().patience(), spent);
@@ -312,7 +311,7 @@ TEST_P(UnderEveryLaw, TheMoreFrequentFeedbackTheLessEachTeaches) {
       coaching.Wait(3);
       if (fed_before) coaching.Do(Shown::Act::kDemonstrate, clap, 3);
     }
-    // What is left to be learnt differs, so the gain is measured on it.
+    // The gain is measured relative to what is left to be learnt.
     const double before = 1 - coaching.learner().RetainedChanceOfRight(clap, 0);
     coaching.Wait(3);
     coaching.Do(Shown::Act::kDemonstrate, clap, 3);

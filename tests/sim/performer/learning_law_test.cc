@@ -20,7 +20,7 @@ TEST(LearningLaw, ExponentialFallsByTheSameShareEveryTrial) {
 TEST(LearningLaw, PowerIsALineInLogarithmsOfExperience) {
   const LearningRates rates{.rate = 0.15, .exponent = 0.5};
   Skill skill(LearningLaw::kPower, 0.8, 0.05, rates);
-  const double experience = rates.exponent / rates.rate;  // what was practised before, in trials
+  const double experience = rates.exponent / rates.rate;  // earlier practice, in trials
   for (int n = 0; n < kTrials; ++n) {
     EXPECT_NEAR(skill.Error(), 0.05 + 0.75 * std::pow((n + experience) / experience, -0.5), 1e-12);
     skill.Practise(1);
@@ -37,8 +37,8 @@ TEST(LearningLaw, ThePowerLawBeginsAsSteeplyAsTheExponentialOneAndEndsSlower) {
   EXPECT_GT(after(LearningLaw::kPower, 30), after(LearningLaw::kExponential, 30) + 0.1);
 }
 
-/// Smith et al.'s model in closed form: with e = 1 − x, the two states follow a linear recurrence. Its fixed point, and
-/// the decay of the difference from it along the matrix' eigenvectors.
+/// Smith et al.'s model in closed form: with e = 1 − x, the two states follow a linear recurrence; the result is its
+/// fixed point plus the decay along the matrix's eigenvectors.
 double TwoRateError(int n, const LearningRates& r) {
   const double a = r.fast_kept - r.fast_learnt, b = -r.fast_learnt, c = -r.slow_learnt, d = r.slow_kept - r.slow_learnt;
   // (I − M) x* = (fast_learnt, slow_learnt)

@@ -27,12 +27,12 @@ TEST(Person, AnAdultOfTheCanonicalStatureIsTheCanonicalBody) {
 
 TEST(Person, AToddlerIsNoSmallAdult) {
   const BodyDimensions toddler = DimensionsOf(1, 1), adult = DimensionsOf(1, 0);
-  // Hip height is less than half of a child's stature (Snyder 1977, four years: trochanter 0.46), an adult's is 0.53.
+  // Hips are below half of a child's stature (Snyder 1977, four years: trochanter 0.46); an adult's share is 0.53.
   EXPECT_NEAR(toddler.HipHeight(), 0.465, 0.01);
   EXPECT_NEAR(adult.HipHeight(), 0.53, 0.01);
   const auto trunk = [](const BodyDimensions& body) { return body.spine + body.chest; };
   EXPECT_GT(trunk(toddler), 1.08 * trunk(adult));
-  // Crowns are at one: the top of the head is about a tenth above its middle.
+  // Crowns are at height 1; the head's top is about a tenth above its middle.
   for (const BodyDimensions& body : {toddler, adult}) {
     EXPECT_NEAR(body.HipHeight() + trunk(body) + body.head_rise, 0.92, 0.025);
   }
@@ -111,13 +111,13 @@ LimbLengths LengthsOf(const BodyDimensions& body) {
           .hand = body.hand};
 }
 
-/// The distance by which a joint's angles go beyond an adult's limits.
+/// The excess of a joint's angles over an adult's limits.
 struct BeyondLimits {
-  int angles = 0, beyond = 0;  // by more than a degree
+  int angles = 0, beyond = 0;  // `beyond`: by more than a degree
   double worst = 0;            // radians
 };
 
-/// Nobody sees how far a straight arm is turned about itself.
+/// Returns true for the twist of a straight arm, which nobody sees.
 bool IsTwistOfAStraightArm(const KinematicTree& tree, const TreeState& state, int angle) {
   for (const auto& [shoulder, elbow] :
        {std::pair(kTreeLeftShoulder, kTreeLeftElbow), std::pair(kTreeRightShoulder, kTreeRightElbow)}) {
@@ -128,7 +128,7 @@ bool IsTwistOfAStraightArm(const KinematicTree& tree, const TreeState& state, in
   return false;
 }
 
-/// Collects the excess of every angle, in every move of some people; `wrung` turns the left arm in further than it can.
+/// Returns the excess of every angle over all moves of some people; `wrung` over-twists the left arm inwards.
 std::map<int, BeyondLimits> Beyond(double wrung) {
   std::map<int, BeyondLimits> found;
   for (int trial = 0; trial < 12; ++trial) {

@@ -62,7 +62,7 @@ TEST(Session, IsSmoothFromTheFirstFrameToTheLast) {
         worst_jump = std::max(worst_jump, glm::length(bend));
       }
     }
-    // The moves' own sharpest corner (a clapping hand) is 8 cm; a cut between moves would be 50.
+    // The sharpest corner within moves (a clapping hand) is 8 cm; a cut between moves would be 50 cm.
     EXPECT_LT(worst_jump, 0.2) << trial;
   }
 }
@@ -114,7 +114,7 @@ TEST(Session, SweepingSeverityChangesNoDice) {
   }
 }
 
-/// The first frame at which a hand is as high as it gets in the event.
+/// Returns the first frame in which a hand reaches its greatest height in the event.
 double TimeOfHighestHand(const Performance& performance, const SessionEvent& event) {
   std::size_t best = 0;
   double height = -1;
@@ -128,7 +128,7 @@ double TimeOfHighestHand(const Performance& performance, const SessionEvent& eve
 }
 
 TEST(Session, TheLastKeyBeatIsWhereTheMotionHasIt) {
-  // The jump's last key beat is its top, hands highest in the air.
+  // The jump's last key beat is its top, with the hands highest.
   const Move& jump = *std::ranges::find(AllMoves(), "jump", &Move::name);
   for (int trial = 0; trial < 5; ++trial) {
     const WorldKey key{7, "key-beat", trial};

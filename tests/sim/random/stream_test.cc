@@ -37,11 +37,11 @@ TEST(RandomStream, DependsOnItsKeyAlone) {
   }
 }
 
-/// The key, the bytes of 256 bits in order.
+/// The key: the bytes of 256 bits in order.
 constexpr Words256 kKey = {0x1716151413121110, 0x1f1e1d1c1b1a1918, 0x2726252423222120, 0x2f2e2d2c2b2a2928};
 
 TEST(Seed, CipherIsThreefish256WithItsKnownAnswers) {
-  // Of the Skein submission (version 1.3): tweak, key and block all zero.
+  // From the Skein submission (version 1.3): tweak, key and block are zero.
   EXPECT_EQ(Encrypt({}, {}),
             (Words256{0x94eeea8b1f2ada84, 0xadf103313eae6670, 0x952419a1f4b16d53, 0xd83f13e63c9f6b11}));
 }
@@ -126,7 +126,7 @@ TEST(RandomStream, DrawsEveryIndexEquallyOften) {
   for (int i = 0; i < n; ++i) ++counts[stream.IndexBelow(7)];
   double chi_square = 0;
   for (int count : counts) chi_square += (count - 10000.0) * (count - 10000.0) / 10000.0;
-  EXPECT_LT(chi_square, 22.46);  // 99.9 % point at six degrees of freedom
+  EXPECT_LT(chi_square, 22.46);  // 99.9 % quantile for six degrees of freedom
 }
 
 TEST(RandomStream, FillsRowsWithTheBitsThatWouldComeOneByOne) {

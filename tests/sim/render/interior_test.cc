@@ -1,4 +1,4 @@
-// Furnished rooms against the ray caster, pixel by pixel.
+// Renders furnished rooms and compares them with the ray caster, pixel by pixel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr auto kFurnitureLabel = static_cast<std::uint32_t>(Part::kFurniture);
 
-// A table before the dancer's legs, a cupboard behind, a shelf at the side, each turned otherwise.
+// A table in front of the dancer's legs, a cupboard behind, a shelf at the side, each at a different heading.
 Interior Furnished() {
   Interior room;
   room.low = {-2.9, 0, -2.2};
@@ -111,7 +111,7 @@ TEST_F(RenderedInterior, IsTheSameAfterAPictureOfColoursOnly) {
   const Camera camera = TestCameras().front();
   const auto first = Renderer::Create(), second = Renderer::Create();
   ASSERT_TRUE(first && second);
-  // The room is drawn when it is first asked for, with whatever masks the last picture left.
+  // The room is drawn at its first use; masks left by the previous picture must not matter.
   (*second)->Render({}, dancer, camera, Targets::kColour);
   const View direct = (*first)->Render(room, dancer, camera, Targets::kColourAndLabels);
   const View after = (*second)->Render(room, dancer, camera, Targets::kColourAndLabels);
@@ -131,7 +131,7 @@ TEST_F(RenderedInterior, LabelsAFigureAsOneThingWhenToldSo) {
 TEST_F(RenderedInterior, FeetDarkenTheFloorThatTheyNearlyTouch) {
   Interior room = Furnished();
   room.furniture.clear();
-  room.lights.key_colour = glm::dvec3(0);  // no lamp, no shadow: only what the foot keeps off is missing
+  room.lights.key_colour = glm::dvec3(0);  // without the lamp only contact shading remains
   const Camera camera = LookAt({}, {0, 2.0, 2.5}, {0, 0, 0});
   const auto darkest_beside = [&](double height) {
     const Capsule foot{Part::kLeftFoot, {0, height, 0}, {0, height, 0.15}, 0.045};

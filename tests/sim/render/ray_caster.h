@@ -8,13 +8,12 @@
 
 namespace etude {
 
-/// The first surface that a viewing ray hits.
 struct Sight {
   std::uint32_t label = 0;
   double depth = std::numeric_limits<double>::infinity();
 };
 
-/// The renderer's second implementation: one ray at a time, in double precision, with sim/body's HitDistance and a
+/// A second implementation of the renderer: one ray at a time, in double precision, with sim/body's HitDistance and a
 /// ray-triangle test instead of shaders. The room is the studio, or `interior`, which must outlive this object.
 class RayCaster {
  public:
@@ -67,7 +66,7 @@ class RayCaster {
     return sight;
   }
 
-  /// Returns true if the label is the same all around (u, v), at a distance of `margin` pixels; false on outlines.
+  /// Returns true if the label is constant within `margin` pixels of (u, v); false near outlines.
   bool IsClear(double u, double v, double margin) const {
     const std::uint32_t label = Cast(u, v).label;
     for (const double du : {-margin, 0.0, margin}) {
@@ -83,7 +82,7 @@ class RayCaster {
     Part part;
     glm::dvec3 a, b, c;
 
-    // Returns the distance of the triangle (Möller and Trumbore 1997); both sides count.
+    // Returns the distance of the triangle, hit from either side (Möller and Trumbore 1997).
     double Hit(const glm::dvec3& origin, const glm::dvec3& direction) const {
       constexpr double kNowhere = std::numeric_limits<double>::infinity();
       const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(direction, ac);
@@ -130,13 +129,12 @@ class RayCaster {
 
 struct Comparison {
   int compared = 0;
-  int on_outlines = 0;     // pixels that differ because the outline runs through their centre
-  int wrong_labels = 0;    // pixels that differ although no outline is near
+  int on_outlines = 0;     // differing pixels whose centre lies on an outline
+  int wrong_labels = 0;    // differing pixels away from outlines
   double worst_depth = 0;  // largest difference of depth away from outlines, metres
 };
 
-/// Compares every third pixel of every third row. A difference within a 20th of a pixel of an outline counts as on the
-/// outline.
+/// Compares every third pixel of every third row. A difference within a 20th of a pixel of an outline counts as on it.
 inline Comparison Compare(const View& view, const RayCaster& caster) {
   constexpr double kMargin = 0.05;
   Comparison result;

@@ -36,7 +36,7 @@ class RendererScene : public ::testing::Test {
 
 glm::dvec3 ToVector(Rgb8 colour) { return {colour.r, colour.g, colour.b}; }
 
-// Degrees on the colour circle, from the hexagon's formula (not the HSI one that segmentation uses).
+// Returns the hue in degrees by the hexagon formula, not the HSI formula of segmentation.
 double Hue(Rgb8 colour) {
   const double y = std::sqrt(3.0) * (colour.g - colour.b), x = 2.0 * colour.r - colour.g - colour.b;
   return Degrees(std::atan2(y, x));

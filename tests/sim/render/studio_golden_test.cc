@@ -19,8 +19,7 @@ namespace etude {
 namespace {
 
 // Recorded when the shadows of capsules left GL, which changed 77 of 23 million levels of a contact sheet by one each.
-// Pixels are Mesa's in the pinned environment, by OSMesa and by EGL the same (ctest runs this with both). Another Mesa
-// may draw others.
+// Pixels are Mesa's in the pinned environment, equal for OSMesa and EGL (ctest runs both). Another Mesa may differ.
 struct GoldenPictures {
   const char* mesa;
   std::array<const char*, 3> digests;
@@ -35,7 +34,6 @@ void Add(const Image<Pixel>& image, Digest& digest) {
       std::span(reinterpret_cast<const std::uint8_t*>(image.pixels.data()), image.pixels.size() * sizeof(Pixel)));
 }
 
-// The dancer, moved and turned.
 std::vector<Capsule> Moved(double x, double z, double turn) {
   std::vector<Capsule> shape = Dancer();
   const auto move = [&](glm::dvec3& p) {
@@ -48,7 +46,7 @@ std::vector<Capsule> Moved(double x, double z, double turn) {
   return shape;
 }
 
-// Twelve pictures by one camera: of capsules in many places and lights, one of surfaces, one of nobody.
+// Returns a digest of twelve pictures by one camera: capsules at many places and lights, one of surfaces, one empty.
 std::string DigestBy(Renderer& renderer, const Camera& camera) {
   Digest digest;
   const auto add = [&](const Room& room, const std::vector<Figure>& figures) {
@@ -72,7 +70,7 @@ TEST(StudioGolden, PicturesAreThoseThatWereRecorded) {
   const auto* golden =
       std::ranges::find_if(kGolden, [&](const auto& of) { return version.find(of.mesa) != std::string::npos; });
   if (golden == kGolden.end()) GTEST_SKIP() << "nothing was recorded with " << version;
-  // What ctest asked for is what draws.
+  // The library that ctest requested is the one that draws.
   if (const char* choice = std::getenv("ETUDE_GL")) {
     EXPECT_TRUE(version.ends_with(std::string(choice) == "egl" ? "by EGL" : "by OSMesa")) << version;
   }

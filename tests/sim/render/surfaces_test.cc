@@ -32,7 +32,7 @@ class RenderedSurfaces : public ::testing::Test {
 
 Figure OfSurfaces(std::vector<Surface> surfaces) { return {.shape = {}, .surfaces = std::move(surfaces)}; }
 
-// A flat four-sided sheet, counter-clockwise seen from where its normal points.
+// Returns a flat four-sided sheet, counter-clockwise seen from its front.
 Surface Sheet(const std::array<glm::dvec3, 4>& corners, Part part, Rgb8 colour = {220, 120, 60}) {
   const glm::dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
   return {.positions = {corners.begin(), corners.end()},
@@ -42,7 +42,6 @@ Surface Sheet(const std::array<glm::dvec3, 4>& corners, Part part, Rgb8 colour =
           .colour = colour};
 }
 
-// One metre a side, facing +Z.
 Surface FacingSheet(Part part) { return Sheet({{{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 1.5, 0}, {-0.5, 1.5, 0}}}, part); }
 
 int WorstJointDistance(Rgb8 a, Rgb8 b) {
@@ -111,11 +110,11 @@ TEST_F(RenderedSurfaces, OfFineTrianglesLookLikeTheCapsuleTheyFollow) {
     }
     EXPECT_GT(body, 4000);
     EXPECT_GT(shadow, 2000);
-    // Corners on the skin leave outlines, some 300 pixels long, a hundredth of a pixel short.
+    // Tessellation shortens outlines, some 300 pixels long, by a hundredth of a pixel.
     EXPECT_LT(other_label, 10);
     EXPECT_LT(other_depth, 20);
     EXPECT_LE(worst_body, 2);
-    // Alike in the middle; towards the edge a capsule's shadow is the softer one.
+    // Shadows agree in the middle; a capsule's shadow has softer edges.
     EXPECT_GT(full_shadow, shadow / 4);
     EXPECT_LT(full_shadow, shadow);
     EXPECT_EQ(lighter, 0);
@@ -125,12 +124,12 @@ TEST_F(RenderedSurfaces, OfFineTrianglesLookLikeTheCapsuleTheyFollow) {
 TEST_F(RenderedSurfaces, AreLitOnTheSideThatIsSeen) {
   Surface turned = FacingSheet(Part::kTrunk);
   const View front = Draw({OfSurfaces({turned})});
-  // The same sheet facing away: its back is seen.
+  // The same sheet seen from behind.
   for (auto& triangle : turned.triangles) std::swap(triangle[0], triangle[1]);
   for (glm::dvec3& normal : turned.normals) normal = -normal;
   EXPECT_TRUE(SameView(front, Draw({OfSurfaces({turned})})));
 
-  // A normal that contradicts the winding shows as the dark side of the sheet.
+  // A normal that contradicts the winding makes the front dark.
   for (glm::dvec3& normal : turned.normals) normal = -normal;
   const View contradictory = Draw({OfSurfaces({turned})});
   EXPECT_EQ(front.labels.pixels, contradictory.labels.pixels);
@@ -148,13 +147,13 @@ TEST_F(RenderedSurfaces, EachTriangleHasItsOwnLabel) {
 
 TEST_F(RenderedSurfaces, MayReachBehindTheCameraAboveTheLampAndUnderTheFloor) {
   const std::vector<Surface> sheets = {
-      // A low table from the wall to far behind the camera.
+      // A low table that extends from the wall to far behind the camera.
       Sheet({{{-2, 0.4, 30}, {3, 0.4, 30}, {3, 0.4, -2}, {-2, 0.4, -2}}}, Part::kTrunk),
-      // A banner that leans through the lamp's level.
+      // A banner that leans through the lamp's height.
       Sheet({{{0.5, 1.2, -1}, {1.5, 1.2, -1}, {1.5, 8, 1}, {0.5, 8, 1}}}, Part::kHead),
-      // A board that sticks in the floor.
+      // A board that penetrates the floor.
       Sheet({{{-1.5, -3, -0.5}, {-0.5, -3, -0.5}, {-0.5, 1, 0.5}, {-1.5, 1, 0.5}}}, Part::kLeftFoot),
-      // A board that sticks in the wall.
+      // A board that penetrates the wall.
       Sheet({{{-1, 1.5, -9}, {0, 1.5, -9}, {0, 1.9, -1}, {-1, 1.9, -1}}}, Part::kLeftHand)};
   for (const Camera& camera : TestCameras()) {
     const View view = renderer_->Render({}, {OfSurfaces(sheets)}, camera, Targets::kAll);
@@ -171,7 +170,7 @@ TEST_F(RenderedSurfaces, MayReachBehindTheCameraAboveTheLampAndUnderTheFloor) {
 TEST_F(RenderedSurfaces, OutOfSightAndOutOfTheLightLeaveTheRoomAsItIs) {
   const std::vector<Surface> sheets = {
       Sheet({{{-3, 0, 9}, {3, 0, 9}, {3, 3, 9}, {-3, 3, 9}}}, Part::kTrunk),                // behind camera and lamp
-      Sheet({{{-3, 5, -2}, {3, 5, -2}, {3, 5, 2}, {-3, 5, 2}}}, Part::kTrunk),              // above both
+      Sheet({{{-3, 5, -2}, {3, 5, -2}, {3, 5, 2}, {-3, 5, 2}}}, Part::kTrunk),              // above camera and lamp
       Sheet({{{-3, -0.1, -2}, {3, -0.1, -2}, {3, -0.1, 2}, {-3, -0.1, 2}}}, Part::kTrunk),  // under the floor
       Sheet({{{-3, 0, -3}, {3, 0, -3}, {3, 3, -3}, {-3, 3, -3}}}, Part::kTrunk)};           // behind the wall
   EXPECT_TRUE(SameView(Draw({OfSurfaces(sheets)}), Draw({})));
@@ -252,7 +251,7 @@ TEST_F(RenderedSurfaces, ObeyTheRoomsBrightnessAndItsShadows) {
   EXPECT_EQ(std::ranges::count(Draw(figures, {.casts_shadows = false}).labels.pixels, kShadow), 0);
 }
 
-// Four fields: red, green over blue, white.
+// Returns four fields: red, green over blue, white.
 SharedTexture FourFields(int side = 64) {
   auto texture = std::make_shared<Texture>();
   texture->picture = ColourImage(side, side);
@@ -266,7 +265,7 @@ SharedTexture FourFields(int side = 64) {
   return texture;
 }
 
-// u to the right, v down, as often as said.
+// Returns a sheet with u to the right and v down; the texture repeats `times` times.
 Surface TexturedSheet(SharedTexture texture, float times = 1) {
   Surface sheet = FacingSheet(Part::kTrunk);
   sheet.texture = std::move(texture);
@@ -288,7 +287,7 @@ TEST_F(RenderedSurfaces, ShowEachPartOfATextureAtItsPlace) {
   EXPECT_GT(blue.b, 4 * (blue.r + blue.g) + 40);
   EXPECT_LT(WorstJointDistance(white, {white.g, white.g, white.g}), 3);
   EXPECT_GT(white.g, 80);
-  // In the same light as a plain sheet.
+  // The same light as on a plain sheet.
   const Rgb8 plain = ColourAt(Draw({OfSurfaces({Sheet({{{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 1.5, 0}, {-0.5, 1.5, 0}}},
                                                       Part::kTrunk, {240, 240, 240})})}),
                               camera_, {0.25, 0.75, 0});
@@ -301,7 +300,7 @@ TEST_F(RenderedSurfaces, HaveAsManyCopiesOfATextureAsTheyAskFor) {
   auto stays = std::make_shared<Texture>(*FourFields());
   stays->beyond_u = stays->beyond_v = Texture::Beyond::kStays;
   const View once = Draw({OfSurfaces({TexturedSheet(stays, 2)})});
-  EXPECT_LT(ColourAt(once, camera_, {0.125, 1.375, 0}).r, 20);  // beyond the upper right field: green
+  EXPECT_LT(ColourAt(once, camera_, {0.125, 1.375, 0}).r, 20);  // clamped to the upper right field, green
 }
 
 TEST_F(RenderedSurfaces, AreDrawnTheSameWhateverTexturesWereDrawnBefore) {

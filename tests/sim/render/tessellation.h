@@ -7,9 +7,9 @@
 
 namespace etude {
 
-/// Returns a capsule's skin as triangles, with `around` corners on each of its 2 · (around / 4 + 1) circles, poles
-/// included. `around` is a multiple of 4. All corners lie on the skin, so the triangles lie at most radius · (1 −
-/// cos²(π / around)) below it.
+/// Returns a capsule's skin as triangles, with `around` corners (a multiple of 4) on each of its 2 · (around / 4 + 1)
+/// circles, poles included. All corners lie on the skin, so triangles lie at most radius · (1 − cos²(π / around)) below
+/// it.
 inline Surface Tessellate(const Capsule& capsule, Rgb8 colour, int around) {
   const glm::dvec3 line = capsule.b - capsule.a;
   const glm::dvec3 along = glm::length(line) > 0 ? glm::normalize(line) : glm::dvec3(0, 1, 0);
@@ -40,7 +40,6 @@ inline Surface Tessellate(const Capsule& capsule, Rgb8 colour, int around) {
   return surface;
 }
 
-/// Tessellates every capsule of a body.
 inline std::vector<Surface> Tessellate(const std::vector<Capsule>& shape, const PartColours& colours, int around) {
   std::vector<Surface> surfaces;
   for (const Capsule& capsule : shape) {

@@ -57,7 +57,7 @@ TEST(CalibrationTarget, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
       EXPECT_LT(std::sqrt(squares / static_cast<double>(pairs.size())), 0.3) << "four rays a pixel";
 
       ASSERT_OK(matrix, Calibrate(pairs, Calibration::kDltNormalised)) << trial;
-      const glm::dvec3 head(0, 1.6, 0.3);  // a place that no board has
+      const glm::dvec3 head(0, 1.6, 0.3);  // no board has its centre there
       EXPECT_LT(glm::distance(*Project(*matrix, head), *Project(MatrixOf(camera), head)), 1.5);
     }
   }

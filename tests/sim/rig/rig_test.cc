@@ -18,7 +18,6 @@ using ::testing::Each;
 
 WorldKey Trial(int trial) { return {.suite_seed = 5, .scenario = "rig-test", .trial = trial}; }
 
-/// Someone who stands at `from`, and at the end at `to`, sliding.
 std::vector<BodyPose> Walk(const glm::dvec3& from, const glm::dvec3& to) {
   std::vector<BodyPose> motion;
   for (int i = 0; i <= 20; ++i) {
@@ -88,7 +87,7 @@ TEST(SetUpCameras, NeverPutsOneInTheWall) {
   }
 }
 
-/// Tells whether every joint of every frame is in the picture, by projecting it.
+/// Returns true if every joint of every frame projects into the picture.
 bool HoldsAll(const Camera& camera, const std::vector<BodyPose>& motion) {
   return std::ranges::all_of(motion, [&](const BodyPose& pose) { return IsInPicture(camera, pose); });
 }
@@ -102,7 +101,7 @@ TEST(SetUpCameras, FollowsWhoWalksAway) {
       EXPECT_LT(camera.intrinsics.fx, Intrinsics{}.fx);
       EXPECT_GE(camera.intrinsics.fx, Intrinsics{}.fx / 2);
     }
-    // The control: the cameras of somebody who stays lose this performer.
+    // The control: cameras set up for a person who stays lose this performer.
     for (const Camera& camera : SetUpCameras({}, Walk({0, 0, 0}, {0, 0, 0}), Trial(trial))) {
       EXPECT_EQ(camera.intrinsics.fx, Intrinsics{}.fx) << "nothing asks for a wider lens";
       lost_without += !HoldsAll(camera, walk);

@@ -8,7 +8,7 @@
 #include "tests/sim/performer/all_moves.h"
 #include "tests/sim/skeleton_sensor/whole_motion.h"
 
-// The model against its own closed forms: what each option is said to do is measured.
+// Compares the model with its closed forms: each option's documented effect is measured.
 
 namespace etude {
 namespace {
@@ -21,7 +21,7 @@ WorldKey ModelWorld(int trial) { return {.suite_seed = 1, .scenario = "joint-err
 
 BodyMotion Dancing() { return AfterEachOther({"boxing", "clap"}); }
 
-/// Isotropic, uncorrelated, nothing but what depends on the pose; tests switch on what they are about.
+/// Returns isotropic, uncorrelated options where errors depend on the pose only; tests switch other effects on.
 SkeletonSensorOptions Plain() {
   SkeletonSensorOptions options = SensorV2();
   for (GroupErrors& group : options.groups) group = {.size = 0.03, .depth_ratio = 1, .still = 0, .white = 0};
@@ -36,8 +36,7 @@ SkeletonSensorOptions Plain() {
 
 Camera SensorOf(double distance = 2.75) { return SkeletonSensorAt({.distance = distance}, SensorV2().view); }
 
-/// Mean squares of a joint's errors along the line of sight and along one axis across it, brought to the reference
-/// distance (how they grow is another test's).
+/// Mean squares of a joint's errors along the line of sight and across it, scaled to the reference distance.
 struct MeanSquares {
   double along = 0, across = 0;
 };
@@ -66,7 +65,7 @@ TEST(JointErrors, AreAsLargeAsTheirGroupSays) {
 }
 
 TEST(JointErrors, AreLongerAlongTheLineOfSightByTheRatioOfTheirGroup) {
-  // The same dice with and without the ratio r: along grows by r √(3 / (2 + r²)), across by √(3 / (2 + r²)).
+  // With the same dice, the ratio r scales errors along by r √(3 / (2 + r²)) and across by √(3 / (2 + r²)).
   constexpr double kRatio = 1.6;
   SkeletonSensorOptions options = Plain();
   options[JointGroup::kHands].depth_ratio = kRatio;
@@ -75,13 +74,13 @@ TEST(JointErrors, AreLongerAlongTheLineOfSightByTheRatioOfTheirGroup) {
   const double across = 3 / (2 + kRatio * kRatio);
   EXPECT_NEAR(deep.across / plain.across, across, 1e-9);
   EXPECT_NEAR(deep.along / plain.along, kRatio * kRatio * across, 1e-9);
-  // Another group's joint stays.
+  // A joint of another group keeps its errors.
   EXPECT_EQ(Measure(Dancing(), SensorOf(), options, kLeftElbow).along,
             Measure(Dancing(), SensorOf(), Plain(), kLeftElbow).along);
 }
 
 TEST(JointErrors, GrowWithTheDistanceByTheSensorsLaw) {
-  // The same dice at both distances: the ratio at each frame is the law's own, to the last digits.
+  // The same dice at both distances, so the ratio in each frame is exactly the law's.
   const BodyMotion motion = Dancing();
   for (const DepthLaw law : {DepthLaw::kStructuredLight, DepthLaw::kTimeOfFlight}) {
     SkeletonSensorOptions options = Plain();
@@ -132,12 +131,12 @@ TEST(JointErrors, GoTogetherAlongTheTreeAsTheBonesSay) {
   options.correlation[Index(BoneKind::kThigh)] = -0.4;
   EXPECT_NEAR(CorrelationOf(options, kLeftElbow, kLeftWrist), 0.6, 0.1);
   EXPECT_NEAR(CorrelationOf(options, kRightWrist, kRightHand), 0.5, 0.1);
-  EXPECT_NEAR(CorrelationOf(options, kRightElbow, kRightHand), 0.6 * 0.5, 0.1);  // through the wrist
+  EXPECT_NEAR(CorrelationOf(options, kRightElbow, kRightHand), 0.6 * 0.5, 0.1);  // indirectly, through the wrist
   EXPECT_NEAR(CorrelationOf(options, kLeftHip, kLeftKnee), -0.4, 0.1);
-  EXPECT_NEAR(CorrelationOf(options, kLeftShoulder, kLeftElbow), 0, 0.1);  // the control: no correlation
+  EXPECT_NEAR(CorrelationOf(options, kLeftShoulder, kLeftElbow), 0, 0.1);  // the control: uncorrelated
 }
 
-/// The deviation of the forearm's length over its mean, as sensed.
+/// Returns the sensed forearm length's deviation divided by its mean.
 double ForearmVariation(const SkeletonSensorOptions& options) {
   const BodyMotion motion = Dancing();
   double sum = 0, squares = 0, count = 0;
@@ -160,7 +159,7 @@ TEST(JointErrors, StretchLimbsLessWhenTheSensorKnowsTheirLength) {
   EXPECT_LT(ForearmVariation(stiff), 0.5 * ForearmVariation(Plain()));
 }
 
-/// The deviation of a joint's error from its own mean over a recording.
+/// Returns the deviation of a joint's error from its mean over a recording.
 double Restlessness(const BodyMotion& motion, const SkeletonSensorOptions& options, Role role) {
   double sum = 0;
   for (int trial = 0; trial < 10; ++trial) {
@@ -183,7 +182,7 @@ TEST(JointErrors, LeavePlantedFeetQuietWhileTheArmsDance) {
   const SkeletonSensorOptions v2 = SensorV2();
   EXPECT_LT(Restlessness(motion, v2, kLeftFoot), 0.006);
   EXPECT_GT(Restlessness(motion, v2, kLeftHand), 0.03);
-  // The control: a foot that kicks.
+  // The control: a kicking foot.
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     motion.poses[t][kLeftFoot].y += 0.3 * std::sin(0.2 * static_cast<double>(t));
   }
@@ -205,11 +204,11 @@ TEST(SlowNoise, HasUnitVarianceAndItsTimeConstantWithAndWithoutSmoothing) {
       differences += second * second / kFrames;
     }
     EXPECT_NEAR(squares, 1, 0.03);
-    // Two low passes a, b: (a e^(−t/a) − b e^(−t/b)) / (a − b).
+    // Two low passes with time constants a and b: (a e^(−t/a) − b e^(−t/b)) / (a − b).
     const double t = kLag / 30.0, a = 0.4, b = smoothing;
     const double expected = (a * std::exp(-t / a) - (b > 0 ? b * std::exp(-t / b) : 0)) / (a - b);
     EXPECT_NEAR(lagged / squares, expected, 0.03);
-    // Without smoothing the jitter of one frame is a fifth of the whole, with it a twentieth.
+    // The jitter between frames is a fifth of the whole without smoothing, and a twentieth with it.
     EXPECT_NEAR(std::sqrt(differences / 6), smoothing > 0 ? 0.035 : 0.23, 0.02);
   }
 }

@@ -10,8 +10,8 @@
 #include "tests/sim/performer/all_moves.h"
 #include "tests/sim/skeleton_sensor/whole_motion.h"
 
-// The simulated Kinect v1 against the figures it is to have. Every band is the
-// published one. What a v2's recordings show instead is held by tests/tools/sensor_fit and docs/sensor.md.
+// Compares the simulated Kinect v1 with published figures; every band is the published one. Recordings of a v2 are
+// compared in tests/tools/sensor_fit and docs/sensor.md.
 
 namespace etude {
 namespace {
@@ -21,7 +21,7 @@ using enum Role;
 constexpr std::array kTorso = {kHipCentre, kSpine, kShoulderCentre, kHead};
 constexpr std::array kHands = {kLeftHand, kRightHand};
 constexpr std::array kEnds = {kLeftHand, kRightHand, kLeftFoot, kRightFoot};
-constexpr std::array kArmBones = {kLeftElbow, kLeftWrist, kRightElbow, kRightWrist};  // by their child
+constexpr std::array kArmBones = {kLeftElbow, kLeftWrist, kRightElbow, kRightWrist};  // named by their child joint
 
 WorldKey World(int trial) { return {.suite_seed = 1, .scenario = "sensor-statistics", .trial = trial}; }
 
@@ -45,7 +45,7 @@ BodyMotion StandingStill(std::size_t frames) {
   return motion;
 }
 
-/// The covariance of a joint's errors over `lag` frames, averaged over joints and axes.
+/// Returns the covariance of joints' errors over `lag` frames, averaged over joints and axes.
 template <std::size_t N>
 double Covariance(const JointErrors& errors, const std::array<Role, N>& roles, std::size_t lag) {
   double sum = 0;
@@ -59,7 +59,7 @@ double Covariance(const JointErrors& errors, const std::array<Role, N>& roles, s
   return sum / (3.0 * N * static_cast<double>(errors.size() - lag));
 }
 
-/// The parts of a process "slow wander + white", from its covariance at lags 0, 5 and 10.
+/// The parts of a process "slow wander + white noise", from its covariance at lags 0, 5 and 10.
 struct Wander {
   double slow_mm, white_mm, time_constant_s;
 };
@@ -84,12 +84,12 @@ TEST(SkeletonSensor, WandersByMillimetresWithATimeConstantOfHalfASecondWhenTheBo
     EXPECT_GT(wander.time_constant_s, 0.3);
     EXPECT_LT(wander.time_constant_s, 0.5);
   }
-  EXPECT_LT(torso.white_mm, 0.4);  // 0.3, and what the estimate's own noise adds
+  EXPECT_LT(torso.white_mm, 0.4);  // 0.3 mm, and the estimate's own noise
   EXPECT_LT(ends.white_mm, 1.5);
   EXPECT_GT(ends.white_mm, 0.5);
 }
 
-/// The errors' lengths in centimetres in a dance, sorted, pooled over moves and worlds.
+/// Returns the lengths of errors (cm) in dances, sorted, pooled over moves and worlds.
 template <std::size_t N>
 std::vector<double> DancingErrorsCm(const std::array<Role, N>& roles, double strength) {
   std::vector<double> lengths;
@@ -124,7 +124,7 @@ TEST(SkeletonSensor, ErrsByTwoToThreeCentimetresAtTheTorsoAndFiveToSixAtTheHands
 }
 
 TEST(SkeletonSensor, ErrsInProportionToItsStrength) {
-  // Also the control of the test above: at double strength the bands are left.
+  // Also the control of the test above: at double strength the bands are exceeded.
   const double once = RootMeanSquare(DancingErrorsCm(kHands, 1)), twice = RootMeanSquare(DancingErrorsCm(kHands, 2));
   EXPECT_NEAR(twice, 2 * once, 1e-9);
   EXPECT_GT(twice, 6.0);
@@ -175,7 +175,7 @@ TEST(SkeletonSensor, LosesTheWholeBodyInTwoPercentOfFrames) {
   EXPECT_NEAR(lost / 300000.0, 0.02, 0.003);
 }
 
-/// A stretch of frames with one guess; on a body that stands still, an episode.
+/// A stretch of frames with one guess; on a still body, an episode.
 struct Stretch {
   int frames;
   double off_m;
@@ -197,9 +197,9 @@ TEST(SkeletonSensor, GuessesHiddenHandsFarOffInEpisodesOfThreeToFortyFrames) {
   }
   int wrong_frames = 0, shortest = 1000, longest = 0;
   double nearest = 10, farthest = 0;
-  stretches.pop_back();  // cut off by the end
+  stretches.pop_back();  // cut off by the end of the recording
   for (const Stretch& stretch : stretches) {
-    if (stretch.off_m == 0) continue;  // good guesses, perhaps several in a row
+    if (stretch.off_m == 0) continue;  // good guesses, possibly several in sequence
     wrong_frames += stretch.frames;
     shortest = std::min(shortest, stretch.frames);
     longest = std::max(longest, stretch.frames);
@@ -222,7 +222,7 @@ TEST(SkeletonSensor, InfersAtLeastThreeFramesOnceAJointWasHidden) {
   }
 }
 
-/// No error but what the test asks for.
+/// Returns options without errors; tests switch some on.
 SkeletonSensorOptions Faultless() {
   SkeletonSensorOptions options = SensorV1();
   options.strength = 0;
@@ -230,14 +230,14 @@ SkeletonSensorOptions Faultless() {
 }
 
 TEST(SkeletonSensor, InfersTheArmBehindTheBodyAndTracksTheOneBeforeIt) {
-  // Seen from the performer's left, the trunk stands before the right arm.
+  // From the performer's left, the trunk hides the right arm.
   const BodyMotion motion = StandingStill(5);
   const SkeletonStream stream =
       SenseSkeleton(motion, SkeletonSensorAt({.turn = Radians(90)}, SensorV1().view), {}, Faultless(), World(0));
   for (const SensedFrame& frame : stream.frames) {
     EXPECT_EQ(frame[kLeftElbow].state, TrackingState::kTracked);
     EXPECT_EQ(frame[kRightElbow].state, TrackingState::kInferred);
-    EXPECT_EQ(frame[kRightElbow].position, motion.poses[0][kRightElbow]);  // strength 0: a good guess
+    EXPECT_EQ(frame[kRightElbow].position, motion.poses[0][kRightElbow]);  // at strength 0 a guess is exact
   }
 }
 
@@ -255,7 +255,7 @@ TEST(SkeletonSensor, RepeatsTheLastReportOfAJointThatLeavesTheView) {
 TEST(SkeletonSensor, ExchangesArmsOrLegsForAThirdOfASecondNowAndThen) {
   SkeletonSensorOptions options = SensorV1();
   options.swaps_per_minute = 30;
-  const std::size_t frames = 18000;  // ten minutes
+  const std::size_t frames = 18000;  // ten minutes at 30 Hz
   int arms = 0, legs = 0;
   Swaps swaps(30, options, World(0));
   for (std::size_t t = 0; t < frames; ++t) {
@@ -264,7 +264,7 @@ TEST(SkeletonSensor, ExchangesArmsOrLegsForAThirdOfASecondNowAndThen) {
     legs += swap.legs;
     EXPECT_FALSE(swap.arms && swap.legs);
   }
-  // One begins on average 60 frames after the last one's ten are over.
+  // On average a swap begins 60 frames after the previous one's ten frames.
   constexpr double kSwapFrames = 10, kPause = 60;
   EXPECT_NEAR((arms + legs) / static_cast<double>(frames), kSwapFrames / (kSwapFrames + kPause), 0.02);
   EXPECT_GT(std::min(arms, legs), 500);

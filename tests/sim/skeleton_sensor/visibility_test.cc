@@ -13,15 +13,15 @@
 #include "tests/sim/skeleton_sensor/whole_motion.h"
 #include "tests/support/results.h"
 
-// What rays say is hidden against what the renderer draws: two pictures of a few pixels around each joint, one of all
-// there is, one of the joint's own limbs alone. Hidden is what the first shows clearly nearer.
+// Compares visibility by rays with the renderer: two pictures of a few pixels around each joint, one of everything, one
+// of the joint's own limbs. A joint is hidden if the first shows something clearly nearer.
 
 namespace etude {
 namespace {
 
 using enum Role;
 
-/// The parts that end in each joint; said once more, apart from sim/body.
+/// The parts that end in each joint, listed independently of sim/body.
 const std::map<Role, std::set<Part>>& OwnParts() {
   static const std::map<Role, std::set<Part>> own = {
       {kHipCentre, {Part::kTrunk}},
@@ -71,7 +71,7 @@ Surface SurfaceOf(const Cuboid& box) {
   return surface;
 }
 
-/// Poses of the built-in moves, turned anywhere, each joint pushed a little.
+/// Returns a pose of a built-in move at a random heading, each joint shifted a little.
 BodyPose RandomPose(RandomStream& dice) {
   static const std::vector<Move> moves = [] {
     std::vector<Move> loaded;
@@ -85,7 +85,7 @@ BodyPose RandomPose(RandomStream& dice) {
   return pose;
 }
 
-/// A camera of a few pixels at the sensor's place, the middle of whose middle pixel is the joint.
+/// A camera of a few pixels at the sensor's place, with the joint in the centre of its middle pixel.
 constexpr int kPixels = 9;
 Camera LookAtJoint(const glm::dvec3& eye, const glm::dvec3& joint) {
   return LookAt({.width = kPixels, .height = kPixels, .fx = 365, .fy = 365, .cx = 4.5, .cy = 4.5, .skew = 0}, eye,
@@ -96,7 +96,7 @@ struct Agreement {
   int joints = 0, agree = 0, hidden = 0;
 };
 
-/// Compares `told` (per role) with what is drawn.
+/// Compares `told` (per role) with the pictures.
 void CompareWithPictures(Renderer& renderer, const BodyPose& pose, const Occluders& occluders, const glm::dvec3& eye,
                          const HiddenJoints& told, Agreement& agreement) {
   const std::vector<Capsule> body = BodyCapsules(pose);
@@ -142,13 +142,13 @@ TEST(Visibility, IsWhatTheRendererDrawsForAllButOneJointInAThousand) {
     const auto told = HiddenOver(motion, occluders, eye);
     CompareWithPictures(**renderer, motion.poses[0], occluders, eye, told[0], agreement);
     if (i % 3 == 0) continue;
-    // The control: rays that know of the body alone.
+    // The control: rays that ignore furniture.
     CompareWithPictures(**renderer, motion.poses[0], occluders, eye, HiddenOver(motion, {}, eye)[0], blind);
   }
   EXPECT_GE(agreement.joints, 2000);
   EXPECT_GE(agreement.agree, 0.999 * agreement.joints)
       << agreement.joints - agreement.agree << " of " << agreement.joints;
-  EXPECT_GT(agreement.hidden, agreement.joints / 10);  // there was something to tell
+  EXPECT_GT(agreement.hidden, agreement.joints / 10);  // so there is something to detect
   EXPECT_LT(agreement.hidden, agreement.joints * 2 / 3);
   EXPECT_LT(blind.agree, 0.9 * blind.joints);
 }

@@ -23,7 +23,6 @@ std::vector<Camera> Cameras() {
   return {LookAt({}, {-2.4, 1.0, 2.9}, {0, 0.95, 0}), LookAt({}, {2.4, 2.2, 2.9}, {0, 0.95, 0})};
 }
 
-/// The same cameras with a quarter of the pixels.
 std::vector<Camera> SmallCameras() {
   std::vector<Camera> cameras = Cameras();
   for (Camera& camera : cameras) {
@@ -82,14 +81,14 @@ TEST(StagedRoom, WhatIsThereStaysThereAsTheSceneGrows) {
   }
   EXPECT_EQ(least, 0u);
   EXPECT_GT(most, 12u * 20);
-  // The control: another seed furnishes otherwise.
+  // The control: another seed gives other furniture.
   EXPECT_GT(CountMissing(MakeStage(1, 1).interior()->furniture, MakeStage(2, 1).interior()->furniture), 10u);
 }
 
 TEST(StagedRoom, DiceDoNotDependOnTheScene) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const StagedRoom some = MakeStage(seed, 0.9), all = MakeStage(seed, 1);
-    // Shapes, patterns and cuts are the same; only strengths, and so colours, differ.
+    // Shapes, patterns and cuts are equal; only strengths, and so colours, differ.
     ASSERT_EQ(some.interior()->wall.pattern, all.interior()->wall.pattern);
     ASSERT_EQ(some.interior()->floor.size, all.interior()->floor.size);
     const auto a = some.BystanderAt(1.5), b = all.BystanderAt(1.5);
@@ -236,8 +235,8 @@ TEST_F(RenderedStage, FurnitureIsDrawnWhereRaysMeetItsBoxes) {
   EXPECT_GE(agree, checked - checked / 500) << "but for pixels whose centres are on an edge";
 }
 
-// What a program that knows the paints sees: each pixel of a limb has the chromaticity of that limb's paint, in light
-// and shade, of capsules and of dressed people, but for rounding and a lamp that is tinted.
+// Every pixel of a limb has its paint's chromaticity, in light and shade, for capsules and dressed people, except for
+// rounding and a tinted lamp.
 TEST_F(RenderedStage, ACodedSuitShowsTheChromaticityOfEachLimb) {
   const PartColours suit = CodedSuit();
   const std::vector<BodyPose> poses = {StandingPose()};

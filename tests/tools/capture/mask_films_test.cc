@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 constexpr int kWidth = 96, kHeight = 64;
 
-/// A PNG of one grey per channel, which the reader takes as its grey.
+/// Returns a PNG with three equal channels, which the reader takes as grey.
 std::string GreyPng(const Image<std::uint8_t>& values) {
   ColourImage picture(values.width, values.height);
   for (std::size_t i = 0; i < values.pixels.size(); ++i) {
@@ -25,7 +25,6 @@ std::string GreyPng(const Image<std::uint8_t>& values) {
   return EncodePng(picture);
 }
 
-/// A rectangle of `value` on 0.
 Image<std::uint8_t> Rectangle(int left, int right, std::uint8_t value, int width = kWidth) {
   Image<std::uint8_t> values(width, kHeight);
   for (int y = 10; y < 50; ++y) {
@@ -34,7 +33,7 @@ Image<std::uint8_t> Rectangle(int left, int right, std::uint8_t value, int width
   return values;
 }
 
-/// A palette PNG of 4 x 1 pixels: the indices 0 to 3, of which 1 is dark red.
+/// Returns a palette PNG of 4 x 1 pixels with the indices 0 to 3; index 1 is dark red.
 std::string PalettePng() {
   constexpr std::string_view kHex =
       "89504e470d0a1a0a0000000d4948445200000004000000010803000000cee2ffff0000000c504c5445000000800000008000"

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// A lens of some barrel, in pictures of 400 × 300.
+/// Returns a lens with barrel distortion, in pictures of 400 × 300.
 Camera Lens() {
   Camera camera =
       LookAt({.width = 400, .height = 300, .fx = 380, .fy = 380, .cx = 205, .cy = 148}, {0.3, 1.5, 4}, {0, 1, 0});
@@ -19,7 +19,7 @@ Camera Lens() {
   return camera;
 }
 
-/// The film as one picture file: black but for a white square of 9 pixels about what the lens shows of a place.
+/// Writes the film as one picture: black, with a white square of 9 pixels where the lens shows a point.
 std::filesystem::path Filmed(const glm::dvec2& pixel, int width, int height) {
   const auto path = std::filesystem::temp_directory_path() /
                     ("etude-reduced-" + std::to_string(width) + "-" + std::to_string(std::lround(pixel.x)) + ".ppm");
@@ -63,7 +63,7 @@ TEST(ReadReduced, ShowsPlacesWhereAPinholeOfItsSizeWould) {
     const glm::dvec2 wanted = *Project(MatrixOf(small), place);
     EXPECT_LT(glm::distance(MiddleOfLight(pictures->front()), wanted), 0.35)
         << place.x << ": the square and what a pixel covers are whole pixels of the film, a quarter each";
-    // The control: a pinhole without what was done to the film.
+    // The control: a pinhole that ignores the film's distortion.
     const auto wrong = ReadReduced(path, facts, camera, {}, 100, 10);
     EXPECT_GT(glm::distance(MiddleOfLight(wrong->front()), wanted), 1.5);
     std::filesystem::remove(path);

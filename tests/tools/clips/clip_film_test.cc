@@ -23,7 +23,7 @@ BodyPose WithArmsOut() {
   return PoseOf(controls);
 }
 
-/// The largest distance between the vertices of two figures, `b` lifted.
+/// Returns the largest distance between vertices of two figures, with `b` lifted.
 double WorstVertex(const Figure& a, const Figure& b, double lift) {
   EXPECT_EQ(a.surfaces.size(), b.surfaces.size());
   int compared = 0;
@@ -40,7 +40,7 @@ double WorstVertex(const Figure& a, const Figure& b, double lift) {
 }
 
 TEST(ClipActorTest, AFilesOwnFigureIsWhereItsBodyIsAlsoAfterATPose) {
-  // The bear goes through a GLB file and is drawn as that file's own figure: the very bear again.
+  // The built-in bear, written to a GLB file and drawn as that file's own figure, looks the same.
   const TemporaryFolder folder = *TemporaryFolder::Make("actor-test");
   const std::string path = (folder.path() / "bear.glb").string();
   const ClipActor bear = ActorOf("builtin:side_kick", ActorKind::kBear);
@@ -53,7 +53,7 @@ TEST(ClipActorTest, AFilesOwnFigureIsWhereItsBodyIsAlsoAfterATPose) {
     const ClipActor own = ActorOf(path, ActorKind::kOwn);
     ASSERT_EQ(own.clip().body.dropped_frames, t_poses);
     ASSERT_EQ(own.motion().poses.size(), bear.motion().poses.size());
-    // A file's floor is found under the lowest foot, a built-in clip's is known.
+    // A file's floor is found under the lowest foot; a built-in clip's floor is known.
     const double lift = own.motion().poses[0][Role::kHead].y - bear.motion().poses[0][Role::kHead].y;
     EXPECT_LT(std::abs(lift), 0.05);
     for (const std::size_t frame : {std::size_t{0}, moving}) {
@@ -81,7 +81,6 @@ TEST(ClipActorTest, TheBearKeepsItsProportionsAndTheMannequinTheActors) {
 
 constexpr Box kBox{10, 20, 100, 140};
 
-/// Whether all of a figure is seen within the box.
 bool IsInside(const Studio& studio, const Figure& placed) {
   bool inside = true;
   for (const Capsule& capsule : placed.shape) {
@@ -109,7 +108,7 @@ TEST(ShotTest, WhoeverWalksStaysInThePicture) {
     shot.Include(frames, bounds);
     const Studio studio(100, 140, 1, bounds);
     for (const int frame : frames) EXPECT_TRUE(IsInside(studio, shot.PlacedFigure(frame))) << frame;
-    // The control: not followed, it leaves.
+    // The control: a camera that does not follow loses it.
     EXPECT_FALSE(IsInside(studio, Placed(actor.FigureAt(farthest - poses.begin()), shot.PlacementAt(0))));
   }
 }

@@ -9,7 +9,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The left foot stands all the time; the right one is half a metre up in the second half.
+/// The left foot always stands; the right foot is half a metre up in the second half.
 BodyMotion OnOneLeg() {
   BodyMotion motion;
   motion.poses.resize(40);

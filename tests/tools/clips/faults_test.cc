@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A built-in clip of a body that stands at a height and breathes, 120 frames a second, three seconds.
+/// Returns a built-in clip of a body that stands at a height and breathes, 120 Hz, three seconds.
 SourceClip Breathing(double height) {
   BodyMotion motion{.rate_hz = 120, .poses = {}};
   for (int f = 0; f < 360; ++f) {
@@ -32,7 +32,7 @@ TEST(FaultsOfAClip, AreFoundAtTheRateOfItsFile) {
   SourceClip clip = Breathing(0);
   ASSERT_TRUE(FaultsOf(clip, {}));
   EXPECT_TRUE(FaultsOf(clip, {})->faults.empty()) << "the control";
-  // One frame of 120 a second, which 30 a second leave out.
+  // A single frame at 120 Hz, which sampling at 30 Hz would skip.
   const int hand = clip.clip.skeleton.Find("left_hand");
   ASSERT_GE(hand, 0);
   clip.clip.frames[150][static_cast<std::size_t>(hand)].translation.y += 0.5;

@@ -30,25 +30,24 @@ struct TriedClip {
   std::string name;
   BodyMotion motion;
   FaultOptions options;
-  MotionFaults own = {};  ///< before anything is inserted
+  MotionFaults own = {};  ///< faults before the insertion
 
   bool IsFaultless() const { return own.faults.empty(); }
-  /// Clips that somebody drew keep no laws of physics.
+  /// Drawn clips do not follow laws of physics.
   bool IsDrawn() const { return name.find(".glb") != std::string::npos; }
 };
 
-/// A fault that was put into a motion.
 struct Inserted {
   double from_s = 0, to_s = 0;
   std::optional<Role> joint = {};
-  std::optional<double> size = {};  ///< checked to a tenth
+  std::optional<double> size = {};  ///< must be found to within a tenth
 };
 
 using Insert = std::function<std::optional<Inserted>(BodyMotion& motion, RandomStream& dice)>;
 
 double EndOf(const BodyMotion& motion) { return static_cast<double>(motion.poses.size() - 1) / motion.rate_hz; }
 
-/// Frames of `seconds`, with half a second before and after; nothing if the motion is shorter.
+/// Returns the frames of `seconds`, with half a second before and after; nothing if the motion is shorter.
 std::optional<std::pair<int, int>> Window(const BodyMotion& motion, double seconds, RandomStream& dice) {
   constexpr double kMargin_s = 0.5;
   const double room = EndOf(motion) - seconds - 2 * kMargin_s;
@@ -70,7 +69,7 @@ glm::dvec3 AlongFloor(RandomStream& dice) {
   return {std::cos(angle), 0, std::sin(angle)};
 }
 
-/// The whole body is `height` higher for some seconds; 0: for half of the clip; negative: always.
+/// Lifts the whole body by `height` for some seconds; 0: half of the clip; negative: always.
 Insert Lifted(double height, double seconds) {
   return [=](BodyMotion& motion, RandomStream& dice) -> std::optional<Inserted> {
     const int frames = static_cast<int>(motion.poses.size());
@@ -127,8 +126,8 @@ std::optional<Inserted> Pop(BodyMotion& motion, RandomStream& dice) {
   return inserted;
 }
 
-/// Returns true if somebody flies: for 0.2 s both ankles are 10 cm higher than they rest, while the mass centre falls
-/// with about the acceleration of gravity.
+/// Returns true if the body flies: for 0.2 s both ankles are 10 cm above their rest, and the mass centre falls at about
+/// the acceleration of gravity.
 bool Flies(const BodyMotion& motion) {
   std::vector<double> ankles;
   for (const BodyPose& pose : motion.poses) ankles.push_back(std::min(pose[kLeftAnkle].y, pose[kRightAnkle].y));
@@ -144,7 +143,7 @@ bool Flies(const BodyMotion& motion) {
   return false;
 }
 
-/// The file tells a wrong rate. Only clips in which somebody runs or jumps show it.
+/// The file states a wrong rate. Only clips with running or jumping show it.
 Insert OtherRate(double factor) {
   return [=](BodyMotion& motion, RandomStream&) -> std::optional<Inserted> {
     if (!Flies(motion)) return std::nullopt;
@@ -162,7 +161,7 @@ std::optional<Inserted> Frozen(BodyMotion& motion, RandomStream& dice) {
   return Between(motion, window->first, window->second);
 }
 
-/// A limb is 5 % longer for a second; what hangs on it moves along.
+/// A limb is 5 % longer for a second, and moves everything beyond it.
 std::optional<Inserted> Stretched(BodyMotion& motion, RandomStream& dice) {
   const auto window = Window(motion, 1, dice);
   if (!window) return std::nullopt;
@@ -191,7 +190,6 @@ double Eased(const BodyMotion& motion, int f, const std::pair<int, int>& window)
   return std::clamp(std::min(f - window.first, window.second - f) / (kEase_s * motion.rate_hz), 0.0, 1.0);
 }
 
-/// A knee bends backwards by 30° for a second.
 std::optional<Inserted> BentKnee(BodyMotion& motion, RandomStream& dice) {
   const auto window = Window(motion, 1.5, dice);
   if (!window) return std::nullopt;
@@ -216,7 +214,7 @@ std::optional<Inserted> BentKnee(BodyMotion& motion, RandomStream& dice) {
   return inserted;
 }
 
-/// A hand goes through the chest for half a second; the arm keeps its lengths.
+/// A hand passes through the chest for half a second; the arm keeps its lengths.
 std::optional<Inserted> HandThroughChest(BodyMotion& motion, RandomStream& dice) {
   const auto window = Window(motion, 1, dice);
   if (!window) return std::nullopt;
@@ -230,7 +228,7 @@ std::optional<Inserted> HandThroughChest(BodyMotion& motion, RandomStream& dice)
     const double lower = glm::distance(pose[of(kLeftElbow)], pose[of(kLeftWrist)]);
     const glm::dvec3 hand = pose[of(kLeftHand)] - pose[of(kLeftWrist)];
     const glm::dvec3 wrist = glm::mix(pose[of(kLeftWrist)], chest, part);
-    // The elbow lies on the circle that both lengths allow, as near as possible to where it was.
+    // The elbow moves to the nearest point on the circle that both lengths allow.
     const glm::dvec3 line = wrist - shoulder;
     const double reach = std::clamp(glm::length(line), std::abs(upper - lower) + 1e-3, upper + lower - 1e-3);
     const glm::dvec3 along = UnitOr(line, {0, -1, 0});
@@ -247,7 +245,7 @@ std::optional<Inserted> HandThroughChest(BodyMotion& motion, RandomStream& dice)
   return inserted;
 }
 
-/// A part of the body is 40 cm off for 1.5 s, in any direction.
+/// A part of the body is displaced by 40 cm for 1.5 s, in any direction.
 Insert Torn(std::vector<Role> parts) {
   return [=](BodyMotion& motion, RandomStream& dice) -> std::optional<Inserted> {
     const auto window = Window(motion, 1.5, dice);
@@ -319,16 +317,15 @@ const std::vector<Kind>& Kinds() {
   return kinds;
 }
 
-/// Returns true if `fault` is the one that was inserted.
 bool Tells(const MotionFault& fault, FaultKind kind, const Inserted& inserted) {
-  // A torn part also pops where it leaves its place and comes back.
+  // A torn part also pops when it leaves its place and when it returns.
   const bool is_kind = fault.kind == kind || (kind == kTorn && fault.kind == kPops);
   if (!is_kind || (inserted.joint && fault.joint != inserted.joint)) return false;
   if (fault.kind == kPops && kind == kTorn) return std::abs(fault.from_s - inserted.from_s) < 0.5;
-  if (kind == kRate) return true;  // dated by the flight that shows it
+  if (kind == kRate) return true;  // its time is that of the flight that shows it
   if (kind == kSkates && inserted.joint)
-    return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // it steps
-  // It covers at least half of the time, and is at most half a second off at either end.
+    return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // fault while the foot steps
+  // The fault covers at least half of the time, and its ends are at most half a second off.
   constexpr double kOff_s = 0.5;
   return std::abs(fault.from_s - inserted.from_s) < kOff_s && std::abs(fault.to_s - inserted.to_s) < kOff_s;
 }
@@ -376,7 +373,7 @@ TEST(InsertedFaults, HEAVY_AreFoundNamedAndDated) {
       const TriedClip& clip = Tried()[dice.IndexBelow(Tried().size())];
       if (!clip.IsFaultless() || clip.IsDrawn()) continue;
       const bool is_always = std::string_view(kind.name).ends_with("always");
-      if (is_always && clip.own.is_floor_found) continue;  // a clip without a floor can be at any height
+      if (is_always && clip.own.is_floor_found) continue;  // a clip without a floor may be at any height
       BodyMotion motion = clip.motion;
       const auto inserted = kind.insert(motion, dice);
       if (!inserted) continue;
@@ -413,7 +410,7 @@ TEST(InsertedFaults, HEAVY_AreNotSeenWhereNothingWasInserted) {
     fmt::print("{}: {}\n", clip.name, fmt::join(FaultSentences(clip.own.faults), "; "));
   }
   fmt::print("{} of {} clips that nobody spoilt show a fault\n", with_lines, Tried().size());
-  // Clips of others have faults of their own: somebody looks at each.
+  // Faults of users' clips are for people to inspect.
   if (std::getenv("ETUDE_FAULT_CLIPS") != nullptr) return;
   EXPECT_EQ(with_lines, 0);
 }

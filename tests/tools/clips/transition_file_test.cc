@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The gap of two poses whose lowest joints are put on the floor, as a library puts its clips.
+/// Returns the gap of two poses with the lowest joint on the floor, as in a library.
 double LevelGap(BodyPose a, BodyPose b) {
   for (BodyPose* pose : {&a, &b}) {
     double low = 1e9;

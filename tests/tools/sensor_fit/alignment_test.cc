@@ -16,7 +16,7 @@ TEST(AlignTwin, FindsShiftRotationAndOffsetsOfAPerfectRecording) {
   EXPECT_LT(match->alignment.rms_m, 1e-4);
   const glm::dmat3 expected = glm::mat3_cast(made.rotation);
   for (int c = 0; c < 3; ++c) EXPECT_LT(glm::length(match->alignment.R_ST[c] - expected[c]), 2e-3);
-  // The truth it gives is the recording itself.
+  // The returned truth is the recording itself.
   const JointRecording recording = PerfectRecording(twin, 7, made);
   double worst = 0;
   for (std::size_t t = 0; t < recording.frames.size(); ++t) {

@@ -7,12 +7,11 @@
 #include "tests/tools/sensor_fit/small_recording.h"
 #include "tools/sensor_fit/statistics.h"
 
-// A sensor is recovered from what it was seen to do: recordings are simulated with a sensor that the fit does not know.
+// Recovers a sensor's options from recordings simulated with a sensor that the fit does not know.
 
 namespace etude {
 namespace {
 
-/// A sensor unlike both presets.
 SkeletonSensorOptions Unknown() {
   SkeletonSensorOptions sensor = SensorV2();
   sensor[JointGroup::kTorso].size = 0.015;
@@ -24,9 +23,9 @@ SkeletonSensorOptions Unknown() {
   return sensor;
 }
 
-/// One recording by that sensor, of a dance before it.
+/// Returns one recording of a dance by that sensor.
 std::optional<RealRecording> RecordedBySensor(const SkeletonSensorOptions& sensor, const TwinMotion& twin) {
-  // Facing the sensor, as a Kinect's own space has it: Z away from it.
+  // The person faces the sensor, in the Kinect's axes with Z away from the sensor.
   MadeUp made{.rotation = glm::angleAxis(3.14159265358979, glm::dvec3(0, 1, 0)), .translation = {0, -1, 2.9}};
   auto perfect = MakeRealRecording(PerfectRecording(twin, 7, made), twin);
   if (!perfect) return std::nullopt;
@@ -47,7 +46,7 @@ TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
   const Agreement after = agreement(fitted), before = agreement(options.start);
   EXPECT_EQ(after.compared, before.compared);
   EXPECT_GE(after.within, after.compared * 8 / 10);
-  EXPECT_LE(before.within, after.within - 5);  // the control: without the fit it does not
+  EXPECT_LE(before.within, after.within - 5);  // the control: without the fit fewer values are within the bands
 }
 
 TEST(FitSensor, IsTheSameEveryTime) {

@@ -6,7 +6,7 @@
 
 #include "tests/tools/sensor_fit/small_recording.h"
 
-// Statistics of recordings whose errors were made up: each against its closed form.
+// Statistics of recordings with known errors, each against its closed form.
 
 namespace etude {
 namespace {
@@ -16,7 +16,7 @@ using enum Role;
 constexpr std::size_t kFrames = 4000;
 constexpr double kDepth = 3;
 
-/// A body that stands still before a sensor at the origin; `error` adds to each joint.
+/// Returns a still body in front of a sensor at the origin; `error` adds to each joint.
 template <typename Error>
 std::pair<JointRecording, TwinMatch> Standing(const Error& error) {
   const BodyPose pose = LoadBuiltinMove("sway")->motion.poses.front();
@@ -94,7 +94,7 @@ TEST(SensorStatistics, SeeWhiteNoiseOfAQuietTorsoAndNotItsSlowSway) {
 
 TEST(SensorStatistics, MeasureLengthsInPercentAndJumpsInCentimetres) {
   const BodyPose pose = LoadBuiltinMove("sway")->motion.poses.front();
-  // The left hand goes to and fro along its bone by a tenth; once in forty frames the right one jumps.
+  // The left hand moves along its bone by a tenth of it; once in forty frames the right hand jumps.
   const glm::dvec3 bone = pose[kLeftHand] - pose[kLeftWrist];
   const auto [recording, match] = Standing([&](std::size_t t, Role role) {
     if (role == kLeftHand) return (t % 2 == 0 ? 0.1 : -0.1) * bone;
@@ -107,7 +107,7 @@ TEST(SensorStatistics, MeasureLengthsInPercentAndJumpsInCentimetres) {
   const double share = 1 / 40.0, mean = right_mean + share * (right_far - right_mean);
   const double right = 100 * std::sqrt(share * (1 - share)) * (right_far - right_mean) / mean;
   EXPECT_NEAR(*s.hand_bones_percent, 0.5 * (10 + right), 0.05);
-  EXPECT_NEAR(*s.hand_jump_cm, 60, 1e-6);  // second difference of a spike: twice its height
+  EXPECT_NEAR(*s.hand_jump_cm, 60, 1e-6);  // a spike's second difference is twice its height
   EXPECT_NEAR(*s.arm_bones_percent, 0, 1e-9);
   EXPECT_NEAR(*s.shoulder_width_percent, 0, 1e-9);
 }
@@ -144,7 +144,7 @@ TEST(StatisticsTable, CountsAndMarksWhatLiesOutOfTolerance) {
   real.correlation[0] = 0.1;
   near.correlation[0] = 0.24;
   far.correlation[0] = 0.26;
-  near.leg_bones_percent = 5;  // of one side only: not compared
+  near.leg_bones_percent = 5;  // only one side has it, so it is not compared
   EXPECT_EQ(AgreementOf(real, near).compared, 3);
   EXPECT_EQ(AgreementOf(real, near).within, 3);
   EXPECT_EQ(AgreementOf(real, far).within, 1);

@@ -8,14 +8,14 @@ from independent.transition import rate_of
 
 GRAVITY = 9.81
 FRICTION = 1
-CARRIED = 0.5  # of the weight
-REACH = 4  # frames to either side of which an acceleration is fitted
+CARRIED = 0.5  # share of the body's weight
+REACH = 4  # half width of the window in which an acceleration is fitted, frames
 REST_MPS = 0.3
 KNEE, NECK, TRUNK, INWARD, OUTWARD, FOLD = 25, 75, 75, 60, 110, 20
 UPRIGHT = 0.7
 ARM_CM, LEGS_CM = 3.5, 3
-AROUND = 30  # frames of a clip to either side in which its support is sought
-NEAR = 3  # frames within which a clip excuses a join
+AROUND = 30  # half width of the window of a clip in which its support is sought, frames
+NEAR = 3  # distance within which a clip's own fault excuses the join's, frames
 ALLOWANCE = 1.25
 SUSTAINED = {"zmp": 5, "slip": 3, "beyond": 3, "overlap": 2, "sunk": 4}
 GLIDE_FRAMES = 15
@@ -37,7 +37,7 @@ def hip_heading(pose):
 
 
 def accelerations(frames, rate):
-    """Of the mass centre: second derivative of the least-squares parabola, by the normal equations."""
+    """Returns the mass centre's acceleration per frame: the second derivative of a least-squares parabola."""
     centres = [support.mass_centre(pose) for pose in frames]
     times = [i / rate for i in range(-REACH, REACH + 1)]
     n, second, fourth = len(times), math.fsum(t * t for t in times), math.fsum(t ** 4 for t in times)
@@ -105,7 +105,8 @@ def to_segment(p, c, d):
 
 
 def segment_distance(a, b, c, d):
-    """Of an end from the other segment, or of two inner points whose line is perpendicular to both."""
+    """Returns the distance of two segments: from an end to the other segment, or between inner points whose line is
+    perpendicular to both."""
     found = [to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)]
     u, v, w = minus(b, a), minus(d, c), minus(c, a)
     normal = cross(u, v)
@@ -130,7 +131,7 @@ def overlap(pose):
 
 
 def frames_measured(frames, rate, joints, holds, first):
-    """What depends on no clip, of the frames from `first` on, of which `joints` and `holds` are the support."""
+    """Measures the frames from `first` on by what needs no clip. `joints` and `holds` are their support."""
     centres, accelerated = accelerations(frames, rate)
     moving = support.velocities(frames, rate)
     measured = []
@@ -156,7 +157,8 @@ def frames_measured(frames, rate, joints, holds, first):
 
 
 class Beside:
-    """A clip beside the join, as far as it is looked at: frame `begin` of the motion shown is its first."""
+    """The part of a clip that is compared with the join. Frame `begin` of the motion shown is the clip's first
+    frame."""
 
     def __init__(self, frames, begin, first, last, rate):
         start = min(max(first - begin - AROUND, 0), len(frames) - 1)
@@ -166,7 +168,7 @@ class Beside:
         self.measured = frames_measured(self.frames, rate, *support.held(self.frames, [own], rate, 0, stop - start), 0)
 
     def near(self, shown, reach):
-        """Indices of the frames so near to one shown; the first or last stands for others."""
+        """Returns the indices of the clip's frames within `reach` of a frame shown, clamped to the clip."""
         last, now = len(self.frames) - 1, shown - self.begin
         return range(min(max(now - reach, 0), last), min(max(now + reach, 0), last) + 1)
 
@@ -175,7 +177,7 @@ class Beside:
 
 
 def travel(frames, f, role, clip=None, at=0):
-    """Of a joint, centimetres, from the frame before or to the frame after; against a clip's."""
+    """Returns a joint's shorter horizontal way (cm), from the frame before or to the frame after, minus the clip's."""
     ways = []
     for step in (-1, 1):
         if not 0 <= f + step < len(frames) or clip and not 0 <= at + step < len(clip):
@@ -202,7 +204,8 @@ def gliding(shown, f, here, clips):
 
 
 def sustained(measured, key):
-    """The largest value that so many frames in a row reach; frames without one are passed over, flights interrupt."""
+    """Returns the largest value that SUSTAINED[key] successive frames reach; skips frames without one; flights
+    interrupt."""
     count, worst, row = SUSTAINED[key], None, []
     for here in measured:
         if here["flies"]:

@@ -16,7 +16,7 @@ def mpjpe(given, key="found"):
 
 
 def largest_eigen(matrix):
-    """The largest eigenvalue of a symmetric matrix, with its vector, by Jacobi's rotations."""
+    """Returns the largest eigenvalue of a symmetric matrix and its eigenvector, by Jacobi rotations."""
     n = len(matrix)
     a = [list(row) for row in matrix]
     v = [[float(i == j) for j in range(n)] for i in range(n)]
@@ -37,7 +37,8 @@ def largest_eigen(matrix):
 
 
 def aligned(pose, truth):
-    """`pose` after the best similarity, by Horn's quaternions (1987): no singular values, no reflection possible."""
+    """Returns `pose` after the best similarity transform, by Horn's quaternions (1987), which need no singular
+    values and cannot reflect."""
     centre = [common.mean([pose[role][k] for role in ROLES]) for k in range(3)]
     goal = [common.mean([truth[role][k] for role in ROLES]) for k in range(3)]
     p = {role: minus(pose[role], centre) for role in ROLES}
@@ -134,7 +135,7 @@ def reprojection(given):
 
 
 def over_images(given, part, whole):
-    """The mean over images of part / whole, both functions of the pixels (found, truth, shadow)."""
+    """Returns the mean over images of part / whole. Both are functions of the pixels (found, truth, shadow)."""
     shares = []
     for image in given["images"]:
         pixels = list(zip(flat(image["found"]), flat(image["truth"]), flat(image["shadow"]), strict=True))

@@ -4,7 +4,7 @@ import statistics
 from independent import common
 
 PERCENTILE = 0.95
-uncaused = True  # a correction that nothing caused is needless
+uncaused = True  # a correction without a cause is needless
 
 
 def is_right(truth):
@@ -24,7 +24,7 @@ def mistakes(given):
 
 
 def next_end(given, i):
-    """The last frame in which a correction still answers performance i."""
+    """Returns the last frame in which a correction still answers performance i."""
     later = given["performances"][i + 1:]
     return later[0]["end_frame"] if later else given["frames"]
 

@@ -1,8 +1,8 @@
-"""Parts that the metrics share: units, averages, the body, vectors. Other files write `common.` before each part, so
-that a test can replace it by a wrong one (metrics_test.py)."""
+"""Parts that the metrics share: units, averages, the body, vectors. Other files call them as `common.…`, so that a
+test can replace one by a wrong one (metrics_test.py)."""
 import math
 
-CM, MM = 100, 1000  # in a metre
+CM, MM = 100, 1000  # per metre
 BONES = {  # child: parent
     "spine": "hip_centre", "shoulder_centre": "spine", "head": "shoulder_centre",
     "left_shoulder": "shoulder_centre", "left_elbow": "left_shoulder", "left_wrist": "left_elbow",
@@ -58,7 +58,7 @@ def angle(a, b):
 
 
 def frames_of(motion):
-    """The frames of a motion, each {joint: position}."""
+    """Returns the frames of a motion, each {joint: position}."""
     joints = motion["joints_m"]
     assert set(joints) <= set(ROLES), joints.keys()
     return [{role: joints[role][f if len(joints[role]) > 1 else 0] if role in joints else [0, 0, 0] for role in ROLES}

@@ -46,7 +46,8 @@ def action_point_f(given):
 
 
 def most_pairs(points, detections):
-    """Of a bipartite graph, by augmenting paths (Kuhn): no order of time is made use of."""
+    """Returns the size of a maximum matching in a bipartite graph, by augmenting paths (Kuhn), without using the
+    order in time."""
     taken = {}
 
     def place(point, seen):

@@ -1,5 +1,5 @@
-"""Metrics of any answer against any truth. Motions are frames, each a list of positions, null for a joint that is
-not seen."""
+"""Metrics of any answer against any truth. A motion is a list of frames; a frame is a list of positions, null for an
+unseen joint."""
 import cmath
 import math
 
@@ -25,7 +25,8 @@ def rotation_of(quaternion):
 
 
 def fit(pairs, scaled):
-    """What maps the first points onto the second, by Horn's quaternions; None where it is not determined."""
+    """Returns the transform from the first points to the second, by Horn's quaternions; None if it is not
+    determined."""
     if len(pairs) < FEWEST:
         return None
     centre, goal = ([common.mean([pair[side][k] for pair in pairs]) for k in range(3)] for side in (0, 1))
@@ -113,7 +114,7 @@ def seen_share(given):
 
 
 def differences(frames, weights):
-    """Each joint's weighted sums over as many frames in a row as there are weights; None where one is not seen."""
+    """Returns each joint's sums weighted by `weights` over consecutive frames; None if a frame lacks the joint."""
     sums = []
     for f in range(len(frames) - len(weights) + 1):
         rows = frames[f:f + len(weights)]
@@ -123,7 +124,7 @@ def differences(frames, weights):
 
 
 def acceleration_error(found, truth, left_out=0):
-    """`left_out`: of the accelerations, so many at either end."""
+    """Returns the mean acceleration error without the first and the last `left_out` accelerations."""
     pairs = list(zip(differences(found, [1, -2, 1]), differences(truth, [1, -2, 1]), strict=True))
     kept = pairs[left_out:len(pairs) - left_out]
     return common.mean([distance(x, y) for p, t in kept for x, y in seen_pairs(p, t)])
@@ -242,7 +243,8 @@ def bend_error(given):
 
 
 def continuous(quaternions, start):
-    """One joint's quaternions, each with the sign that lies nearer to the one before, the first to `start`."""
+    """Returns one joint's quaternions, each with the sign nearer to the previous one, the first with the sign nearer
+    to `start`."""
     kept = []
     for q in quaternions:
         before = kept[-1] if kept else start
@@ -251,8 +253,8 @@ def continuous(quaternions, start):
 
 
 def curves(given):
-    """Of each angle the pairs (answer, truth) in which both are known, the truth near its circular mean, the answer
-    near the truth."""
+    """Returns per angle the pairs (answer, truth) that both know: truths near their circular mean, answers near the
+    truth."""
     def near(angle, other):
         while abs(angle - other) > 180:
             angle += 360 if angle < other else -360
@@ -279,7 +281,7 @@ def bias(pairs):
 
 
 def icc_a1(pairs):
-    """By the table of the analysis of variance: frames are rows, answer and truth columns."""
+    """Returns ICC(A,1) from the table of the analysis of variance: frames are rows, answer and truth are columns."""
     n = len(pairs)
     if n < 2:
         return None
@@ -293,7 +295,7 @@ def icc_a1(pairs):
 
 
 def rotations(given):
-    """Found and true quaternions of one sign, by frame, each frame one list of numbers."""
+    """Returns found and true quaternions with consistent signs; each frame is one list of numbers."""
     if not given["found_turns"] or not given["true_turns"]:
         return None
     truths = [continuous(joint, joint[0]) for joint in zip(*given["true_turns"])]
@@ -306,7 +308,7 @@ def frame_distance(both):
 
 
 def standardised(frames, statistics):
-    """Frames with an unseen joint are null."""
+    """Returns the frames standardised; a frame with an unseen joint becomes null."""
     return [[(x - m) / s for p, (mean, spread) in zip(frame, statistics) for x, m, s in zip(p, mean, spread)]
             if all(frame) else None for frame in frames]
 
@@ -317,7 +319,7 @@ def l2p(given):
 
 
 def spectrum(signal, part):
-    """The powers of all its Fourier coefficients, by their definition; `part` takes a number from a coefficient."""
+    """Returns the powers of all Fourier coefficients by their definition; `part` turns a coefficient into a number."""
     n = len(signal)
     coefficients = [sum(x * cmath.exp(-2j * cmath.pi * k * i / n) for i, x in enumerate(signal)) for k in range(n)]
     powers = [part(c) ** 2 for c in coefficients]
@@ -330,7 +332,7 @@ def npss(part, weight_alone=False):
         if not both:
             return None
         found, truth = both
-        terms = []  # of each window and channel: the distance, and the weight
+        terms = []  # for each window and channel: (distance, weight)
         for begin in range(0, len(truth) - length + 1, length):
             for f, t in zip(zip(*found[begin:begin + length]), zip(*truth[begin:begin + length])):
                 a, b = spectrum(f, part), spectrum(t, part)
@@ -346,7 +348,7 @@ def npss(part, weight_alone=False):
 
 
 def cubic(frames, at):
-    """A frame of positions between frames, by Catmull's and Rom's polynomial; None outside."""
+    """Returns the positions at time `at` (in frames), by the Catmull–Rom polynomial; None outside the motion."""
     if abs(at - round(at)) < 1e-9:
         return frames[round(at)] if 0 <= round(at) < len(frames) else None
     first = math.floor(at)
@@ -360,7 +362,8 @@ def cubic(frames, at):
 
 
 def paired_distances(given, shift_s):
-    """Of each pair of joints, per frame: the answer's distance, the true one, and its rate."""
+    """Returns for each pair of joints a row per frame: the answer's distance, the true distance, and the true
+    distance's rate."""
     rate, truth = given["rate_hz"], given["truth"]
     joints = range(len(truth[0]))
     pairs = {(i, j): [] for j in joints for i in range(j)}
@@ -373,7 +376,7 @@ def paired_distances(given, shift_s):
 
 
 def line(ys, xs):
-    """Slope and intercept of the least squares."""
+    """Returns slope and intercept of the least-squares line."""
     mean_x, mean_y = common.mean(xs), common.mean(ys)
     square = math.fsum((x - mean_x) ** 2 for x in xs)
     slope = math.fsum((x - mean_x) * (y - mean_y) for x, y in zip(xs, ys)) / square if square > 0 else 0.0
@@ -381,7 +384,8 @@ def line(ys, xs):
 
 
 def explained(given, shift_s):
-    """The number of distances, and the share of the variance of the answer's that rising lines explain."""
+    """Returns the number of distances, and the share of the answer's variance that lines of non-negative slope
+    explain."""
     left = total = count = 0
     for rows in paired_distances(given, shift_s):
         found, truth, _ = zip(*rows)
@@ -395,7 +399,7 @@ def explained(given, shift_s):
 
 
 def ahead(given, shift_s):
-    """Σ w β v · e: positive where the answer is taken too late."""
+    """Returns Σ w β v · e, which is positive if the answer is read too late."""
     total = 0
     for rows in paired_distances(given, shift_s):
         found, truth, rates = zip(*rows)
@@ -427,7 +431,7 @@ def lag(given):
 
 
 def speeds(frames):
-    """Each step's distances, summed over joints; null if one is not seen."""
+    """Returns the distance moved per step, summed over joints; None if a joint is unseen."""
     if not all(all(frame) for frame in frames):
         return None
     return [math.fsum(distance(a, b) for a, b in zip(p, q)) for p, q in zip(frames, frames[1:])]
@@ -448,7 +452,7 @@ def bailando(given):
     if not steps:
         return None
     n = len(steps)
-    mirrored = (steps + steps[::-1]) * 3  # a period of two lengths
+    mirrored = (steps + steps[::-1]) * 3  # the signal and its mirror image make one period
     weights = {k: math.exp(-k * k / (2 * SMOOTHING ** 2)) for k in range(-4 * SMOOTHING, 4 * SMOOTHING + 1)}
     smooth = [math.fsum(w * mirrored[2 * n + i + k] for k, w in weights.items()) for i in range(n)]
     lows = [i for i in range(1, n - 1) if smooth[i] < smooth[i - 1] and smooth[i] < smooth[i + 1]]

@@ -4,7 +4,7 @@ import math
 from independent import common
 from independent.common import angle, distance
 
-PRACTICAL, TIGHT = 0.1, 0.001  # cm and degrees
+PRACTICAL, TIGHT = 0.1, 0.001  # cm, and also degrees
 PENALTY = 2
 ROUNDING = 1e-6  # degrees
 

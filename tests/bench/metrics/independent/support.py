@@ -6,24 +6,25 @@ from independent import common
 from independent.common import ROLES, frames_of, minus, norm
 from independent.transition import join_end, rate_of
 
-LOWEST = 0.12  # a joint this little above the lowest one may bear
+LOWEST = 0.12  # a joint at most this high above the lowest joint may bear weight (m)
 REST_MPS = 0.5
 HEIGHT = 0.025
-HEEL = 0.03  # a heel this much higher than in a flat foot is up
-TOES = 0.05  # toes this high above the lowest joint are in the air
-LEVEL = 0.12  # heights of rest further apart are two surfaces
+HEEL = 0.03  # a heel is raised if it is this much higher than in a flat foot (m)
+TOES = 0.05  # toes this high above the lowest joint are in the air (m)
+LEVEL = 0.12  # resting heights further apart than this belong to two surfaces (m)
 WINDOW_S = 1 / 3
 FALL_MPS2 = (6.5, 13)
 STRAY = 0.008
-MAX_PUSH = 3  # body weights with which the ground throws
+MAX_PUSH = 3  # largest push of the ground at a take-off, in body weights
 GRAVITY = 9.81
 FEWEST_OF_A_FLIGHT = 5
 FLOATING_FRAMES = 4
 JUDGED_S = 1.2
 GLIDING = 3
-FALLING_S = 0.1  # a clip's mass centre falls by its second difference over so long to either side
+FALLING_S = 0.1  # half width of the second difference by which a clip's mass centre falls freely, s
 
-# Dempster, as in Winter (2009), table 4.1: mass, and the centre's share of the way from one joint to the other.
+# Dempster's table (Winter 2009, table 4.1): mass, and the centre's position on the way from the first joint to the
+# second, as shares.
 SEGMENTS = [("shoulder_centre", "head", 0.081, 1.0), ("shoulder_centre", "hip_centre", 0.497, 0.5)] + [
     (f"{side}_{a}", f"{side}_{b}", mass, centre) for side in ("left", "right") for a, b, mass, centre in [
         ("shoulder", "elbow", 0.028, 0.436), ("elbow", "wrist", 0.016, 0.430), ("wrist", "hand", 0.006, 0.506),
@@ -46,8 +47,7 @@ def velocities(frames, rate):
 
 
 def falling(frames, rate):
-    """Of each frame of a clip: whether its mass centre falls freely, where its joints, though slow at the top, rest
-    on nothing."""
+    """Returns for each frame of a clip whether its mass centre falls freely; its slow joints then rest on nothing."""
     reach, last = max(round(FALLING_S * rate), 1), len(frames) - 1
     heights = [mass_centre(pose)[1] for pose in frames]
 
@@ -62,7 +62,7 @@ def over_floor(v):
 
 
 class Clip:
-    """A clip that tells what a body may rest on: frame `begin` of the motion shown is its first."""
+    """A clip that shows what a body may rest on. Frame `begin` of the motion shown is the clip's first frame."""
 
     def __init__(self, frames, rate, begin, left_at):
         self.frames, self.begin, self.left_at = frames, begin, left_at
@@ -81,7 +81,8 @@ class Clip:
             self.remove_raised(f"{side}_ankle", f"{side}_foot")
 
     def remove_raised(self, ankle, foot):
-        """No heel that is up while its toes bear, and no toes in the air, unless nothing else bears the body."""
+        """Removes raised heels whose toes bear, and toes in the air, from the support, unless nothing else bears the
+        body."""
         rises = [pose[ankle][1] - pose[foot][1] for pose in self.frames]
         flat = min((rise for rise, rests in zip(rises, self.rests) if {ankle, foot} <= rests), default=math.inf)
         for f, pose in enumerate(self.frames):
@@ -114,7 +115,8 @@ class Clip:
 
 
 def flies(frames, rate):
-    """Least squares by the normal equations, times from the middle."""
+    """Returns true if the mass centre follows a ballistic parabola. It is fitted by the normal equations, with times
+    from the middle."""
     n = len(frames)
     if n < FEWEST_OF_A_FLIGHT:
         return False
@@ -129,7 +131,7 @@ def flies(frames, rate):
 
 
 def thrown(shown, start, rate):
-    """Whether the ground, at the end of the last frame on it, pushes no harder than it can."""
+    """Returns true if the ground, in the last frame on it, can push hard enough for this flight."""
     if start < 2 or start + 1 >= len(shown):
         return True
     heights = {f: mass_centre(shown[f])[1] for f in range(start - 2, start + 2)}
@@ -138,7 +140,7 @@ def thrown(shown, start, rate):
 
 
 def support(join):
-    """Of each frame judged: the joints that hold the body, and whether something does or it flies."""
+    """Returns for each frame judged the joints that bear the body, and whether the body is supported or in flight."""
     shown, rate = frames_of(join["shown"]), rate_of(join)
     first, last, end = join["first"], join["last"], len(shown) - 1
     judged = min(max(join_end(join), first + round(JUDGED_S * rate)), end)
@@ -148,7 +150,7 @@ def support(join):
 
 
 def held(shown, clips, rate, first, judged):
-    """As support(), of the frames `first` to `judged`."""
+    """Does the same as support() for the frames `first` to `judged`."""
     end, moving = len(shown) - 1, velocities(shown, rate)
 
     def held_by(f):
@@ -185,7 +187,7 @@ def supported(given):
 
 
 def hull(points):
-    """Andrew's monotone chain, anticlockwise."""
+    """Returns the convex hull, anticlockwise (Andrew's monotone chain)."""
     points = sorted(set(points))
     if len(points) < 3:
         return points

@@ -12,12 +12,12 @@ SPARC_CUT_OFF_HZ, SPARC_THRESHOLD, SPARC_PADDING = 10, 0.05, 4
 
 
 def difference(frames, joint, f, coefficients):
-    """‖Σ c_i p(f + i − 1)‖: the second difference around f, or the third from f − 1 on."""
+    """Returns ‖Σ c_i p(f + i − 1)‖: the second difference around f, or the third difference from f − 1 on."""
     return norm([math.fsum(c * frames[f + i - 1][joint][k] for i, c in enumerate(coefficients)) for k in range(3)])
 
 
 def over_frames_near(given, needed_after, value):
-    """The worst of value(frames, f) over the frames within reach of a transition point that have their neighbours."""
+    """Returns the worst value(frames, f) over the frames near a transition point that have the neighbours needed."""
     frames = frames_of(given["motion"])
     return common.worst([value(frames, f) for point in given["transition_points"]
                          for f in range(point - REACH, point + REACH + 1)
@@ -44,7 +44,7 @@ def jerk(given):
 
 
 def smallest_rotation(a, b):
-    """The matrix that turns direction a into b the shortest way (Rodrigues); identity without an axis."""
+    """Returns the smallest rotation from direction a to b (Rodrigues); identity if there is no axis."""
     axis, turn = cross(a, b), angle(a, b)
     size = norm(axis)
     if size == 0:
@@ -62,7 +62,7 @@ def rotation_step_change(given):
         for child, parent in BONES.items():
             before, here, after = (minus(frames[g][child], frames[g][parent]) for g in (f - 1, f, f + 1))
             first, second = smallest_rotation(before, here), smallest_rotation(here, after)
-            quotient = [[dot(second[i], first[j]) for j in range(3)] for i in range(3)]  # the inverse is the transpose
+            quotient = [[dot(second[i], first[j]) for j in range(3)] for i in range(3)]  # R⁻¹ = Rᵀ
             twist = [quotient[2][1] - quotient[1][2], quotient[0][2] - quotient[2][0], quotient[1][0] - quotient[0][1]]
             trace = quotient[0][0] + quotient[1][1] + quotient[2][2]
             changes.append(common.degrees(math.atan2(norm(twist), trace - 1)))
@@ -178,7 +178,7 @@ def sparc(given):
     return -math.fsum(math.hypot(1 / steps, spectrum[i + 1] - spectrum[i]) for i in range(loud[0], loud[-1]))
 
 
-JERK_ORDER = 2  # of the speed
+JERK_ORDER = 2  # derivative of the speed
 
 
 def ldlj(given):
@@ -250,11 +250,11 @@ def settle(given):
 
 
 def seen_from_itself(frames, f, rate):
-    """Places, and movements within VELOCITY_S, of a body turned to face +Z above the origin."""
+    """Returns positions, and displacements within VELOCITY_S, of a body turned to face +Z above the origin."""
     here, before = frames[f], frames[f - 1]
     left = [sum(pair) for pair in zip(minus(here["left_hip"], here["right_hip"]),
                                       minus(here["left_shoulder"], here["right_shoulder"]))]
-    facing = (-left[2], left[0])  # left × up, on the floor: (x, z)
+    facing = (-left[2], left[0])  # left × up on the floor, as (x, z)
     size = math.hypot(*facing)
     sine, cosine = (facing[0] / size, facing[1] / size) if size > 0 else (0, 1)
 
@@ -308,7 +308,7 @@ def live(given):
 
 
 def skipped_frames(given):
-    return given["entered_frame"] or 0  # unbroken motion enters none
+    return given["entered_frame"] or 0  # `unbroken` enters no clip
 
 
 def skipped(given):

@@ -40,7 +40,7 @@ TEST(Confusion, GivesValuesThatAreMissingRatherThanZeroWhenThereIsNothingToCount
   EXPECT_DOUBLE_EQ(*F1({.true_positives = 0, .false_positives = 0, .false_negatives = 3, .true_negatives = 1}), 0.0);
 }
 
-/// The definition itself: every pair of a right and a wrong event.
+/// Returns the area by its definition: counts every pair of a right and a wrong event.
 double PairCountingAuc(const std::vector<JudgedEvent>& events) {
   double won = 0, pairs = 0;
   for (const JudgedEvent& right : events) {
@@ -82,7 +82,7 @@ TEST(RocAuc, IsMissingWithOneClassOnly) {
   EXPECT_FALSE(RocAuc({}));
 }
 
-/// The area under a curve of points by trapezoids: a second way to RocAuc.
+/// Returns the area under a curve by trapezoids, a second way to compute RocAuc.
 double AreaUnder(const std::vector<std::pair<double, double>>& curve) {
   double area = 0;
   for (std::size_t i = 1; i < curve.size(); ++i) {
@@ -107,7 +107,7 @@ TEST(OperatedAt, IsAPointOfTheCurveWhereVerdictsFollowScores) {
   for (JudgedEvent& one : all) one.called_right = one.score >= 0.8;
   EXPECT_EQ(*OperatedAt(all), (std::pair{0.0, 0.5}));
   EXPECT_FALSE(OperatedAt(std::vector{Right(0.5)}));
-  // From 0.7 on: two hits and one false, 2·2 / (2·2 + 1).
+  // At threshold 0.7: two hits and one false alarm, 2·2 / (2·2 + 1).
   EXPECT_DOUBLE_EQ(*BestF1(all), 0.8);
   EXPECT_FALSE(BestF1(std::vector{Right(0.5)}));
 }
@@ -124,7 +124,7 @@ TEST(JackknifedAuc, HasAnIntervalOverGroups) {
   EXPECT_NEAR(JackknifedAuc(alike, groups)->value, 1, 1e-12);
   EXPECT_NEAR(JackknifedAuc(alike, groups)->low, 1, 1e-6);
   EXPECT_DOUBLE_EQ(JackknifedAuc(different, groups)->value, 0.5);
-  // Without one of three that win, 2/5; of three that lose, 3/5: √(5/6 · 6 · 0.01) either way, twice nearly.
+  // Without one of the three winners the area is 2/5; without one of the losers, 3/5. Jackknife: √(5/6 · 6 · 0.01).
   EXPECT_NEAR(JackknifedAuc(different, groups)->low, 0.5 - 1.96 * std::sqrt(0.05), 1e-12);
   EXPECT_FALSE(JackknifedAuc(std::vector{Right(0.9), Wrong(0.1)}, std::vector{0, 1}))
       << "a group is needed for the curve";
@@ -155,7 +155,7 @@ TEST(SurvivalCurve, FallsAtEachTimeAndKeepsWhatNeverIs) {
   EXPECT_THAT(SurvivalCurve(std::vector<Wait>{kNever, kNever}), ElementsAre(::testing::Pair(kNever.seconds, 1)));
 }
 
-// The product over distinct times, and with a common limit the plain share of what is left: two more ways to the curve.
+// With a common limit the curve is the share that remains. The product over distinct times gives the same curve.
 TEST(SurvivalCurve, IsTheShareOfWhatIsLeftWhereAllAreCensoredAtOneLimit) {
   const std::vector<Wait> waits{{2, true}, {2, true}, {5, true}, {7, true}, {7, true},
                                 {7, true}, {9, true}, kNever,    kNever,    kNever};
@@ -190,7 +190,7 @@ TEST(KaplanMeier, FindsTheMedianOfFreireichsLeukaemiaTrial) {
 }
 
 TEST(KaplanMeier, DoesNotFallForDroppingTheMisses) {
-  // Three quick answers, four never: the median of those that answered is 0.2, the truth is unknown.
+  // Three quick answers and four that never came: the median of the answers is 0.2, but the true median is unknown.
   const std::vector<Wait> waits = {{0.1, true}, {0.2, true}, {0.3, true}, {2, false},
                                    {2, false},  {2, false},  {2, false}};
   EXPECT_FALSE(KaplanMeierMedian(waits));

@@ -23,7 +23,7 @@ inline void ListPlaces(const Json& json, const Json::json_pointer& at, std::vect
   }
 }
 
-/// Returns the answer with one value, anywhere in it, replaced by a value that a careless or hostile program may send.
+/// Returns the answer with one value, anywhere in it, replaced by one that a careless or hostile program may send.
 inline Json Mutated(Json json, RandomStream& dice) {
   Json said = Json::parse(R"([null, -1, 0, 1, 40, 0.25, -999.5, 1e308, "cut", true, [], {}, -9223372036854775808,
                               18446744073709551615])");
@@ -35,7 +35,7 @@ inline Json Mutated(Json json, RandomStream& dice) {
   return json;
 }
 
-/// Returns the reason for which an answer is refused, or "no complaint".
+/// Returns the reason why an answer is refused, or "no complaint".
 inline std::string ComplaintAbout(TaskWorld& world, const Json& answer) {
   const auto judged = world.Judge(answer);
   return judged ? "no complaint" : judged.error().message;
@@ -64,8 +64,8 @@ struct Judgements {
   int refused = 0, scored = 0;
 };
 
-/// Judges `count` answers; each is one of the good answers, changed by Mutated. Every answer must be refused with a
-/// reason, or scored with numbers.
+/// Judges `count` answers, each made by Mutated from a good answer. Every answer must be refused with a reason, or
+/// scored with numbers.
 inline Judgements JudgeMutations(TaskWorld& world, const std::vector<Json>& good, int count, RandomStream dice) {
   Judgements judgements;
   for (int i = 0; i < count; ++i) {

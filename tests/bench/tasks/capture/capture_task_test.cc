@@ -156,7 +156,7 @@ TEST(CaptureTask, IsCalibratedWithPointsOrWithBoardsFoundInThePictures) {
   EXPECT_GT(errors("calibration_noise_px: 0\ncalibration_measure_mm: 20\n").first, 1);
 }
 
-// In everyday clothes hues lose the trunk: what is left are pieces. More of them are more of the person.
+// In everyday clothes the trunk's hues are lost, so the person falls into pieces. More pieces cover more of them.
 TEST(CaptureTask, FindsMoreOfThePersonInSeveralPieces) {
   ASSERT_OK(
       task,
@@ -169,7 +169,7 @@ TEST(CaptureTask, FindsMoreOfThePersonInSeveralPieces) {
 }
 
 TEST(CaptureTask, MakesASkeletonOfWhatIsMarkedAndSaysHowLittleThatWas) {
-  // Hue alone does not see dark blue trousers on a bluish floor: the feet are never marked.
+  // Hue cannot tell dark blue trousers from a bluish floor, so the feet are never marked.
   ASSERT_OK(task, Make("duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: hue, segmenter: hue}\n"));
   const auto cells = RunWorld(**task, kKey, 1);
   EXPECT_EQ(cells[0].status, Status::kOk) << cells[0].reason;
@@ -273,7 +273,7 @@ TEST(CaptureTask, FilmsWithOnesOwnCameras) {
   EXPECT_THAT(testing::Refusal(Make("rig: file\nmethods:\n- {name: a}\n")), HasSubstr("needs 'rig_file'"));
 }
 
-// Nobody marks: dice of a hand have no part in it, and what the picture shows is all that counts.
+// Without an annotator, the annotator's dice must not matter; only the picture does.
 TEST(CaptureTask, ReadsTheColoursOfASuitWhateverAnAnnotatorWouldErr) {
   const std::string methods =
       "methods:\n- {name: colours, segmenter: rgb, pieces: large, marks: colours}\n"

@@ -25,11 +25,11 @@ Marks SomeMarks() {
   marks.strokes[StrokeOf(Role::kLeftShoulder, Role::kLeftElbow)] = PixelSegment{{100.5, 50.5}, {120.5, 80.5}};
   marks.strokes[StrokeOf(Role::kLeftElbow, Role::kLeftWrist)] = PixelSegment{{124.5, 84.5}, {140.5, 120.5}};
   marks.strokes[StrokeOf(Role::kRightKnee, Role::kRightAnkle)] = PixelSegment{{60.5, 200.5}, {58.5, 260.5}};
-  marks.effectors[2] = glm::dvec2(150.5, 140.5);  // the left hand
+  marks.effectors[2] = glm::dvec2(150.5, 140.5);  // the left hand's pixel
   return marks;
 }
 
-// The fields that pycocotools reads, by their published description.
+// The fields that pycocotools reads, according to their published description.
 TEST(Coco, WritesWhatItsReadersExpect) {
   const std::vector<std::string> pictures{"camera-1-0000.png", "camera-1-0001.png"};
   const std::vector<Marks> marks{Marks{}, SomeMarks()};

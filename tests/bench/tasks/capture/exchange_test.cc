@@ -41,7 +41,6 @@ const Attachment* Find(const Payload& payload, std::string_view name) {
   return nullptr;
 }
 
-/// Marks as the problem tells them.
 Marks MarksOf(const Json& json) {
   Marks marks;
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
@@ -72,7 +71,7 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
 
   const Json& marks = json["marks"]["hue"];
   EXPECT_TRUE(marks[0][1].is_null()) << "nobody looked at the second frame";
-  // The limb directions that the told marks give are those of the built-in method, whose cameras are true.
+  // The problem's marks must give the limb directions of the built-in method, whose cameras are true.
   const CaptureWorld truth =
       MakeCaptureWorld({.duration_s = 0.1, .mark_every = 2}, LoadClips({"builtin:boxing"}, {})->clips[0], kExchangeKey);
   const std::vector<ProjectionMatrix> cameras = {MatrixOf(truth.cameras[0]), MatrixOf(truth.cameras[1])};
@@ -87,7 +86,7 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
   EXPECT_LT(*ValueOf(built_in, "limb_direction_coverage"), 0.7) << "a frame of three was not marked";
 }
 
-/// A take of three frames, its truth, and how that is judged as an answer.
+/// A take of three frames, its truth, and the truth judged as an answer.
 struct ToldTake {
   std::unique_ptr<Task> task = MakeTask("{duration_s: 0.1, camera_distance_m: 2.5}");
   std::unique_ptr<TaskWorld> world = task->MakeWorld(kExchangeKey, true);

@@ -30,7 +30,6 @@ Told PosesOf(const std::vector<std::optional<RecoveredFrame>>& frames) {
   return poses;
 }
 
-/// The whole take at once.
 Told Whole(const StudioOptions& options, const CaptureMethod& method, const std::vector<BodyPose>& motion) {
   CaptureWorld world = MakeStudio(options, BookingOf(motion), kLiveKey);
   world.truth = motion;
@@ -41,7 +40,7 @@ Told Whole(const StudioOptions& options, const CaptureMethod& method, const std:
   return PosesOf(run->frames);
 }
 
-/// Frame by frame, with two poses ahead.
+/// Captures frame by frame, with two poses ahead.
 Told Live(const StudioOptions& options, const CaptureMethod& method, const std::vector<BodyPose>& motion) {
   auto live = LiveCapture::Begin(options, method, BookingOf(motion), kLiveKey);
   EXPECT_TRUE(live) << ToString(live.error());

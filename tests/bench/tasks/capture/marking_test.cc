@@ -15,7 +15,6 @@ namespace {
 
 using enum Role;
 
-// A world of one standing frame, seen by one camera.
 CaptureWorld StandingWorld() {
   CaptureWorld world{.truth = {StandingBody()}, .cameras = {FrontCamera()}};
   return world;
@@ -62,7 +61,7 @@ TEST_F(MarkingTest, TwoPerfectAnnotatorsAgreeAndOneHasNobodyToAgreeWith) {
   for (std::size_t i = 0; i < kEffectorCount; ++i) EXPECT_EQ(of_two.effectors[i], of_one.effectors[i]) << i;
 }
 
-// The difference of two people's marks has twice the variance of one's; a mean over joints of a Rayleigh variable is
+// The difference of two people's marks has twice the variance of one person's. The mean of a Rayleigh variable is
 // √(π/2) of its deviation.
 TEST_F(MarkingTest, TwoAnnotatorsDifferAsTwoIndependentHandsDo) {
   double px = 0;
@@ -115,14 +114,14 @@ TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
   }
 }
 
-// What the shares of `FigureLook::figure` were read off: people in clothes who stand with their arms out, whatever
-// their build and cut, seen from before. Taken for capsules, they have their hips and shoulders far away.
+// `FigureLook::figure` was read off clothed people who hold their arms out, seen from the front. With capsules' shares,
+// hips and shoulders would be far off.
 TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
   ASSERT_OK(renderer, SharedRenderer());
   const Camera camera = LookAt({}, {0, 1.2, 3.6}, {0, 1, 0});
   BodyPose body = StandingBody();
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    if (MakeOutfit(seed, "performer", Wardrobe::kStudio, 1).is_skirt) continue;  // nobody sees hips and knees there
+    if (MakeOutfit(seed, "performer", Wardrobe::kStudio, 1).is_skirt) continue;  // a skirt hides hips and knees
     const StagedRoom stage({.seed = seed, .scene = 0.5}, std::span(&body, 1), std::span(&camera, 1));
     const Figure figure = stage.PerformerAt(body, PerformerColours());
     const View view = (*renderer)->Render({}, {figure}, camera, Targets::kColourAndLabels);
@@ -150,12 +149,12 @@ TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
 TEST(HeadBelowCrown, FollowsFromTheShapeWhateverThePose) {
   BodyPose pose = StandingBody();
   const double standing = HeadBelowCrown({BodyCapsules(pose)}, pose);
-  // A trunk of 50 cm has a skull of radius 9.25 cm whose centre reaches 3 cm beyond 17 cm above the neck's base; the
-  // head joint lies 25.1 cm above it.
+  // A trunk of 50 cm has a skull of radius 9.25 cm, whose centre is 3 cm beyond 17 cm above the neck's base; the head
+  // joint lies 25.1 cm above it.
   EXPECT_NEAR(standing, (0.17 + 0.03 + 0.0925 - std::hypot(0.25, 0.02)) / 0.0925, 1e-9);
   const glm::dvec3 neck = pose[Role::kShoulderCentre];
   const glm::dvec3 head = pose[Role::kHead] - neck;
-  pose[Role::kHead] = neck + glm::dvec3(head.y, -head.x, head.z);  // nodded aside by 90°
+  pose[Role::kHead] = neck + glm::dvec3(head.y, -head.x, head.z);  // the head is tilted sideways by 90°
   EXPECT_NEAR(HeadBelowCrown({BodyCapsules(pose)}, pose), standing, 1e-9);
 }
 

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// How far a body's nearest poses are from the truth: means over frames, of the worst joint and of the worst limb.
+/// The distance of a body's nearest poses from the truth: means over frames of the worst joint and of the worst limb.
 struct Distance {
   double joint_mm = 0, limb_deg = 0;
 };
@@ -39,7 +39,7 @@ LibraryClip ClipNamed(const std::string& reference) {
   auto clips = LoadClips({reference}, {});
   EXPECT_TRUE(clips) << ToString(clips.error());
   LibraryClip clip = std::move(clips->clips.front());
-  // A frame in every six tells as much.
+  // Every sixth frame gives the same result.
   std::vector<BodyPose> some;
   for (std::size_t k = 0; k < clip.motion.poses.size(); k += 6) some.push_back(clip.motion.poses[k]);
   clip.motion.poses = std::move(some);

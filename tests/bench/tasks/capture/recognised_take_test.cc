@@ -9,8 +9,8 @@
 #include "bench/tasks/capture/world.h"
 #include "io/clips/clip_library.h"
 
-// Somebody who knows every public clip recognises the one in the pictures, and answers it. How well, at best: of all
-// windows of the clip, at every begin and pace, the one that is nearest to the truth, put in its place and size.
+// An attack: the answer is looked up in the public clips. It is the window of the true clip, over all begins and paces,
+// that is nearest to the truth, at the truth's place and size: the best that such an attack can do.
 
 namespace etude {
 namespace {

@@ -35,7 +35,7 @@ ColourImage DecodePpm(const std::string& bytes) {
   return image;
 }
 
-/// As COCO tells masks: down the columns.
+/// Returns COCO's run lengths of a mask, down the columns.
 Json RunLengths(const Mask& mask) {
   Json counts = Json::array();
   bool is_person = false;
@@ -53,7 +53,7 @@ Json RunLengths(const Mask& mask) {
   return {{"size", {mask.height, mask.width}}, {"counts", std::move(counts)}};
 }
 
-/// A program of this process: what it makes of the empty room and a picture.
+/// A program inside this process that segments a picture, given the empty room.
 class ImaginedSegmenter final : public LiveProgram {
  public:
   using Answer = std::function<Json(const ColourImage& background, const ColourImage& picture)>;
@@ -79,7 +79,7 @@ class ImaginedSegmenter final : public LiveProgram {
   ColourImage background_;
 };
 
-/// A world of three frames; the first method is the built-in segmenter, the second leaves it to a program.
+/// Makes a world of three frames; the first method segments by itself, the second asks a program.
 std::unique_ptr<Task> MakeTaskOf(const std::string& methods) {
   static const ClipLibrary clips = *LoadClips({"builtin:boxing"}, {});
   auto task = MakeTask(MakeCaptureTaskKind(), "{duration_s: 0.1}", methods, clips);

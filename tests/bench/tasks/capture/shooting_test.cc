@@ -35,7 +35,7 @@ TEST(PoseAt, IsTheVeryPoseAtAFrameAndHeldBeyondTheEnds) {
   EXPECT_EQ(PoseAt(std::span(poses).first(1), 0.4).joints, poses.front().joints);
 }
 
-// Catmull and Rom's curve goes exactly through parabolas that it knows on both sides.
+// The Catmull–Rom curve reproduces a parabola exactly if it knows points on both sides.
 TEST(PoseAt, FollowsParabolasExactly) {
   const std::vector<BodyPose> poses = Poses(8, [](double k) { return 0.01 * k * k - 0.05 * k; });
   for (double t = 1; t <= 6; t += 0.125) EXPECT_NEAR(PlaceOf(PoseAt(poses, t)), 0.01 * t * t - 0.05 * t, 1e-12);
@@ -51,7 +51,6 @@ CaptureWorld WorldOf(std::vector<BodyPose> poses) {
 
 constexpr WorldKey kShootingKey{.suite_seed = 5, .scenario = "shooting", .trial = 0};
 
-// Pictures of a late camera are those that the first one's place would have seen then.
 TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
   ASSERT_OK(renderer, SharedRenderer());
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.05 * k; }));
@@ -68,7 +67,7 @@ TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
   EXPECT_NE(shooting.Shoot(0, 4, Targets::kAll).colour.pixels, punctual.Shoot(0, 0, Targets::kAll).colour.pixels);
 }
 
-// A mannequin out of a file, half way through a clip that leads away from the middle.
+// A figure from a file, half way through a clip that leads away from the middle.
 TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
   ASSERT_OK(renderer, SharedRenderer());
   const auto mannequin = std::make_shared<const Character>(MannequinCharacter());
@@ -99,7 +98,6 @@ TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
   }
 }
 
-// Each band of a rolling shutter is the same rows of the whole picture at that time.
 TEST(Shooting, RollsExactlyBandByBand) {
   ASSERT_OK(renderer, SharedRenderer());
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.08 * k; }));

@@ -46,7 +46,7 @@ inline CoachMethod MethodOf(const std::string& policy, const std::string& recogn
   return method;
 }
 
-/// Dances exactly what the coach dances, at the same moment, but stands still in the named repetitions.
+/// Copies the coach at the same moment, but stands still in the named repetitions.
 class Mimic final : public Player {
  public:
   explicit Mimic(const CoachStage& stage, std::vector<int> skipped = {})
@@ -73,7 +73,6 @@ class Mimic final : public Player {
   std::vector<int> skipped_;
 };
 
-/// Returns the numbers of all repetitions of a song.
 inline std::vector<int> EveryRepetition(const CoachStage& stage) {
   std::vector<int> all;
   for (std::size_t i = 0; i < stage.dance().repetitions.size(); ++i) all.push_back(static_cast<int>(i));

@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A program of this process.
+/// A program inside this process.
 class Imagined final : public LiveProgram {
  public:
   explicit Imagined(std::function<Json(const Json&)> answer) : answer_(std::move(answer)) {}
@@ -85,7 +85,7 @@ TEST(Seats, ALearnerIsSeenWhereItSaysItIs) {
 
 TEST(Seats, AProgramThatFailsIsAskedNoMore) {
   Imagined recogniser([](const Json&) { return Json(); });
-  ASSERT_OK(log, RunSeated(Seat::kRecogniser, recogniser));  // whoever runs the cell knows how the program failed
+  ASSERT_OK(log, RunSeated(Seat::kRecogniser, recogniser));  // the caller knows how the program failed
 }
 
 struct WrongAnswer {
@@ -112,7 +112,6 @@ INSTANTIATE_TEST_SUITE_P(Seats, WrongAnswers,
                                            WrongAnswer{Seat::kLearner, R"({"right": true})", "pose"},
                                            WrongAnswer{Seat::kLearner, R"({"pose": [1, 2]})", "pose"}));
 
-/// Answers what a built-in follower does.
 TEST(Seats, ABuiltInRecogniserPutInItsSeatDecidesTheSame) {
   const CoachStage& stage = StageOf("groove");
   CoachCondition condition = ConditionOf("groove", 40, 1);

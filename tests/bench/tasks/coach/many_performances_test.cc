@@ -1,5 +1,4 @@
-// With a sensor without errors, a person without mistakes is never corrected, and a person who stands still is never
-// praised.
+// With an ideal sensor, a person without mistakes is never corrected, and a person who stands still is never praised.
 #include <gtest/gtest.h>
 
 #include "bench/tasks/coach/learner_player.h"
@@ -15,10 +14,10 @@ struct Count {
   int performances = 0, right = 0, wrong = 0, corrections = 0, praised = 0;
 };
 
-/// Sessions of one person after another, song by song, until they have performed often enough.
+/// Returns the counts over sessions of successive people, song by song, until there are enough performances.
 Count Sessions(const char* policy, double seconds, const CoachCondition& people) {
   CoachMethod method = MethodOf(policy, "dtw");
-  method.sight.threshold = 0.3;  // as in the scenarios, set on other people
+  method.sight.threshold = 0.3;  // as in the scenarios, where it was set on other people
   std::map<std::string, std::vector<ReadyCoach>> coaches;
   Count count;
   for (int trial = 0; count.performances < kPerformances; ++trial) {
@@ -67,7 +66,7 @@ TEST(ManyPerformances, HEAVY_NobodyIsPraisedForStandingThere) {
   EXPECT_EQ(count.praised, 0) << "of " << count.performances;
 }
 
-// The controls: who has no skill is corrected, and a coach who takes next to anything for right praises them.
+// The controls: a person without skill is corrected, and a coach with a very low threshold praises this person.
 TEST(ManyPerformances, HEAVY_TheCountsCanBeOtherwise) {
   CoachCondition clumsy = PeopleOf(People::kMixed);
   clumsy.learner.skill = 0;

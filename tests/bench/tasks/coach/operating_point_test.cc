@@ -13,9 +13,9 @@ namespace {
 TEST(ThresholdOf, BearsSoManyRightPerformancesBelowIt) {
   const std::vector<double> right = {0.4, 0.1, 0.3, 0.2};
   EXPECT_EQ(ThresholdOf(right, 10, 0), 0.1);
-  EXPECT_EQ(ThresholdOf(right, 10, 0.2), 0.3);  // two in ten minutes
+  EXPECT_EQ(ThresholdOf(right, 10, 0.2), 0.3);  // two alarms in ten minutes
   EXPECT_EQ(ThresholdOf(right, 10, 0.29), 0.3);
-  EXPECT_EQ(ThresholdOf(right, 10, 1), 1);  // all of them may
+  EXPECT_EQ(ThresholdOf(right, 10, 1), 1);  // all alarms are allowed
 }
 
 CoachCondition AtOperatingPoint(double needless_per_min, int sessions) {
@@ -46,8 +46,8 @@ TEST(SetThresholds, KeepsItsPromiseOnThePeopleItWasSetOn) {
       at += is_right && evidence == threshold;
     });
   }
-  EXPECT_EQ(below, 3);  // one in each minute
-  EXPECT_GE(at, 1);     // and not one more could be borne
+  EXPECT_EQ(below, 3);  // one alarm in each minute
+  EXPECT_GE(at, 1);     // one more alarm would exceed the limit
 }
 
 TEST(SetThresholds, IsTheSameForAllWorldsAndFallsWithWhatIsBorne) {

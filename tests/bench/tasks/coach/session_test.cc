@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-constexpr double kWholeSong = 170;  // seconds; then it begins anew
+constexpr double kWholeSong = 170;  // seconds, after which the song starts again
 
 TEST(CoachSession, NeverCorrectsWhoDancesAsTaughtBeforeAPerfectSensor) {
   int performances = 0;
@@ -45,9 +45,9 @@ TEST(CoachSession, NeverPraisesWhoIsNotThere) {
 
 TEST(CoachSession, TheOracleCorrectsWhatWasWrongAndNothingElse) {
   const CoachStage& stage = StageOf("groove");
-  const CoachWorld world = WorldOf(ConditionOf("groove", 120, 2));  // the sensor is of no use to it, and does no harm
+  const CoachWorld world = WorldOf(ConditionOf("groove", 120, 2));  // the sensor is not used here
   CoachMethod method = MethodOf("oracle");
-  method.coach.most_corrections = 100;  // else the dance goes on in the end, whatever is wrong
+  method.coach.most_corrections = 100;  // so that the coach does not give up
   const auto ready = CoachesOf(stage, {method});
   Mimic player(stage, {2, 5});
   const SessionLog log = SessionWith(ready[0], world, player);
@@ -64,7 +64,7 @@ TEST(CoachSession, CutOffPerformancesAreNotCounted) {
   const auto ready = CoachesOf(stage, {MethodOf("at-first-mistake")});
   Mimic player(stage, EveryRepetition(stage));
   const SessionLog log = SessionWith(ready[0], world, player);
-  // The repetition that follows a mistake has begun when the mistake is judged; it is asked for anew afterwards.
+  // When a mistake is judged, the next repetition has begun; the move is requested again after it.
   for (const LoggedPerformance& performance : log.performances) {
     EXPECT_GT(performance.judged.end_frame - performance.judged.begin_frame, 40);
   }
@@ -107,7 +107,7 @@ TEST(CoachSession, SeesByCamerasWhoseEveryStageIsTrueWhatAPerfectSensorSees) {
     EXPECT_EQ(log.performances[i].judged.called_right, wanted.performances[i].judged.called_right) << i;
     EXPECT_EQ(log.performances[i].judged.called_wrong.has_value(), wanted.performances[i].judged.called_wrong.has_value());
   }
-  for (std::size_t t = 0; t < 60; t += 2) {  // in between the last skeleton stands
+  for (std::size_t t = 0; t < 60; t += 2) {  // frames between these repeat the last skeleton
     const BodyPose seen = PoseOf(log.sensed.frames[t]);
     for (const Role role : AllRoles()) {
       ASSERT_LT(glm::distance(seen[role], log.learner.poses[t][role]), 1e-3) << t << RoleName(role);
@@ -115,7 +115,6 @@ TEST(CoachSession, SeesByCamerasWhoseEveryStageIsTrueWhatAPerfectSensorSees) {
   }
 }
 
-/// Corrects at the frames given.
 class At final : public MomentSource {
  public:
   explicit At(std::vector<int> frames) : frames_(std::move(frames)) {}
@@ -144,7 +143,7 @@ TEST(CoachSession, HasTheSensorThatASessionRecordedWouldHave) {
   const auto ready = CoachesOf(stage, {MethodOf("at-first-mistake")});
   Mimic player(stage);
   const SessionLog log = SessionWith(ready[0], world, player);
-  BodyMotion danced = log.learner;  // its last frames were followed by others: those reports may differ
+  BodyMotion danced = log.learner;  // the last frames had other successors, so their reports may differ
   const SkeletonStream whole = SenseSkeleton(danced, world.sensor, world.occluders, world.errors, world.key);
   for (std::size_t t = 0; t + SkeletonSensor::kAhead < log.sensed.frames.size(); ++t) {
     for (const Role role : AllRoles()) {

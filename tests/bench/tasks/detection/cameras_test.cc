@@ -14,7 +14,7 @@ class DetectionCameras : public DetectionFixture {};
 
 constexpr const char* kTruth = "methods: [{name: truth, oracle: [stream]}]\n";
 
-/// How far the running evidence of two cells is apart, at most.
+/// Returns the largest difference of the running evidence of two cells.
 double FarthestApart(const CellResult& a, const CellResult& b) {
   double farthest = 0;
   const auto &x = a.series.back().values, &y = b.series.back().values;
@@ -40,7 +40,7 @@ methods:
                            FourMoves()));
   const auto cells = RunWorld(**task, World(0), 4);
   for (const CellResult& cell : cells) ASSERT_EQ(cell.status, Status::kOk) << cell.reason;
-  constexpr double kTolerance = 1e-3;  // of evidence, 0 to 1: a skeleton within 0.1 mm
+  constexpr double kTolerance = 1e-3;  // evidence is 0 to 1; 1e-3 corresponds to skeletons within 0.1 mm
   for (const std::size_t perfect : {1u, 2u}) {
     EXPECT_LT(FarthestApart(cells[perfect], cells[0]), kTolerance);
     EXPECT_EQ(ValueOf(cells[perfect], "recall"), ValueOf(cells[0], "recall"));

@@ -24,7 +24,7 @@ methods:
   - {name: adaptive-euro, filter: one-euro, weights: adaptive}
 )";
 
-  /// Makes a task from a scenario's text; the text must live only until this function returns.
+  /// Makes a task from a scenario's text, which must live only until this function returns.
   static Result<std::unique_ptr<Task>> MakeTask(const std::string& yaml, const ClipLibrary& clips) {
     ASSIGN_OR_RETURN(auto node, ParseYaml(yaml, "test.yaml"));
     Fields condition(node, "a detection scenario");
@@ -36,7 +36,7 @@ methods:
     return *LoadClips({"builtin:clap", "builtin:boxing", "builtin:sway", "builtin:side_kick"}, {});
   }
 
-  /// Returns a clip as a user's file would give it, without a known move.
+  /// Returns a clip as a user's file gives it, without a known move.
   static LibraryClip Unlabelled() {
     LibraryClip clip{.name = "walk", .motion = FourMoves().clips.front().motion};
     return clip;

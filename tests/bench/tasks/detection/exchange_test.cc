@@ -22,7 +22,7 @@ class DetectionExchange : public DetectionFixture {
  protected:
   const std::unique_ptr<Task> task_ = *MakeTask(std::string("noise: 4\nevents: 6\n") + kFourMethods, FourMoves());
 
-  /// What a method outside would say that found what this built-in one found.
+  /// Returns a built-in method's cell as the answer of an outside method with the same result.
   static Json AnswerOf(const CellResult& cell) {
     const Json found = Json::parse(cell.recording->extras_json);
     Json answer = {{"events", Json::array()}, {"alarms", found["alarms"]}};
@@ -34,7 +34,6 @@ class DetectionExchange : public DetectionFixture {
   }
 };
 
-/// The stream that a problem tells of, read as a method outside would read it.
 SkeletonStream StreamOf(const Json& problem) {
   SkeletonStream stream{.rate_hz = problem["rate_hz"], .frames = {}};
   for (const Json& told : problem["frames"]) {
@@ -97,7 +96,7 @@ TEST_F(DetectionExchange, JudgesABuiltInMethodsVerdictAsTheMethodItself) {
       ASSERT_EQ(judged->metrics.size(), own.metrics.size());
       for (std::size_t i = 0; i < own.metrics.size(); ++i) {
         EXPECT_EQ(judged->metrics[i].id, own.metrics[i].id);
-        // An answer names no moves, and a recording, of which it was made, tells false alarms alone.
+        // An answer names no moves, and an answer made from a recording contains only the false alarms.
         if (own.metrics[i].id == "move_named" || own.metrics[i].id == "right_spotted") continue;
         EXPECT_EQ(judged->metrics[i].value, own.metrics[i].value) << own.metrics[i].id;
         EXPECT_EQ(judged->metrics[i].null_reason, own.metrics[i].null_reason) << own.metrics[i].id;

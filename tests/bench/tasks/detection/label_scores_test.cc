@@ -24,14 +24,14 @@ TEST(LeaveOnePersonOut, RecognisesPeopleByWhatOthersTaught) {
   EXPECT_EQ(out->verdicts.size() + static_cast<std::size_t>(out->points.size()), recorded.parts.size());
   EXPECT_GT(*Accuracy(out->nearest), 0.8);
   EXPECT_GT(*Accuracy(out->verdicts), 0.7);
-  // It is told where performances begin and end, as the yardstick is.
+  // Like the yardstick, it is told where performances begin and end.
   ASSERT_OK(whole, LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", By("whole-body")));
   EXPECT_GT(*Accuracy(whole->verdicts), 0.9);
 }
 
 TEST(LeaveOnePersonOut, LabelsThatMeanNothingAreGuessed) {
   Recorded recorded = Record(4, kMoves, 10);
-  // Every person calls the moves by other names: what the others taught is of no use.
+  // Every person uses other names for the moves, so training on the other people is useless.
   for (LabelledPart& part : recorded.parts) {
     const auto at = static_cast<std::size_t>(std::ranges::find(kMoves, part.move) - kMoves.begin());
     part.move = kMoves[(at + part.stream) % kMoves.size()];

@@ -5,7 +5,7 @@
 namespace etude {
 namespace {
 
-/// A minute at 10 Hz in which one move's evidence peaks to these heights, ten seconds apart.
+/// Returns a minute at 10 Hz in which one move's evidence has peaks of these heights, ten seconds apart.
 AlarmTrial Peaks(const std::vector<double>& heights) {
   EvidenceTrace trace{.moves = 1, .asked = std::vector<double>(600, 0.0), .spotted = std::vector<double>(600, 0.0)};
   for (std::size_t i = 0; i < heights.size(); ++i) trace.spotted[50 + 100 * i] = heights[i];
@@ -16,7 +16,7 @@ AlarmTrial Peaks(const std::vector<double>& heights) {
 
 TEST(ThresholdAt, LetsAsManyAlarmsThroughAsAreBorne) {
   const std::vector<AlarmTrial> trials = {Peaks({0.9, 0.3, 0.5}), Peaks({0.7, 0.2})};
-  // Two minutes: at 1 a minute two alarms may pass, those of 0.9 and 0.7, and 0.5 may not.
+  // Two minutes at 1 alarm a minute allow two alarms, those of 0.9 and 0.7, but not that of 0.5.
   const double threshold = ThresholdAt(trials, 1, 1);
   EXPECT_GT(threshold, 0.5);
   EXPECT_LT(threshold, 0.5001);
@@ -38,7 +38,7 @@ TEST(ThresholdAt, IsOneWhereEvenCertaintyIsTooOften) {
 JudgedEvent Scored(bool is_right, double score) { return {is_right, false, score}; }
 
 TEST(ThresholdAtRecall, PraisesSoManyOfTheRightAndNoMore) {
-  std::vector<JudgedEvent> events = {Scored(false, 0.95), Scored(false, 0.05)};  // wrong ones have no say
+  std::vector<JudgedEvent> events = {Scored(false, 0.95), Scored(false, 0.05)};  // wrong performances do not count
   for (int i = 1; i <= 10; ++i) events.push_back(Scored(true, 0.09 * i));
   EXPECT_DOUBLE_EQ(*ThresholdAtRecall(events, 0.9), 0.18);
   EXPECT_DOUBLE_EQ(*ThresholdAtRecall(events, 0.89), 0.18);
@@ -58,7 +58,7 @@ TEST(DecideBy, SetsTwoThresholds) {
   const auto unset = DecideBy(methods, trials, std::nullopt);
   EXPECT_EQ(unset[0].spotting.threshold, 0.5);
   EXPECT_EQ(unset[0].judging, 0.5);
-  methods[0].method.threshold = 0.7;  // says its own: for both questions
+  methods[0].method.threshold = 0.7;  // this method sets its own threshold for both questions
   const auto own = DecideBy(methods, trials, OperatingPoint{});
   EXPECT_EQ(own[0].spotting.threshold, 0.7);
   EXPECT_EQ(own[0].judging, 0.7);

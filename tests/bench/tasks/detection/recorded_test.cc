@@ -87,7 +87,7 @@ TEST_F(RecordedPeopleTest, ProgramsAreTaughtWhatBuiltInRecognisersAreAndNothingO
       EXPECT_EQ(move["poses"].size(), taught->examples.front().frames.size());
       EXPECT_EQ(move["key_poses"].size(), taught->poses.size());
       for (std::size_t i = 0; i < taught->examples.size(); ++i) {
-        const Json& example = move["examples"][i];  // nobody errs here: all are right, in the order of teaching
+        const Json& example = move["examples"][i];  // nobody errs: all are right, in the order of teaching
         EXPECT_NE(example["person"], judged);
         EXPECT_TRUE(example["is_right"]);
         EXPECT_EQ(example["frames"].size(), taught->examples[i].frames.size());
@@ -97,7 +97,7 @@ TEST_F(RecordedPeopleTest, ProgramsAreTaughtWhatBuiltInRecognisersAreAndNothingO
     }
     EXPECT_GT(told, 10u);
   }
-  // With moves that were taught beforehand all people share a setting, which holds the same examples.
+  // With moves taught beforehand all people share one setting with the same examples.
   const auto fold = *MakeFold(set, {}, {}, {});
   const std::string file = WriteMoves(fold.repertoire.taught);
   const auto taught = *MakeTask("moves: moves.yaml\nmethods: [{name: a, recogniser: dtw}]\n", set, file);
@@ -203,7 +203,7 @@ TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
               HasSubstr("labels.csv:7: two performances of person-0 begin at the same time"));
 }
 
-/// A recording without errors of a built-in move, and its label.
+/// Returns an error-free recording of a built-in move, and its label.
 LabelledStreams Alone(const std::string& name) {
   LabelledStreams set;
   NamedStream& recording = set.streams.emplace_back();

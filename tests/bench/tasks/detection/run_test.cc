@@ -5,7 +5,7 @@
 namespace etude {
 namespace {
 
-/// Asked for from 0.5 s to 2.5 s, the last half second to spare.
+/// Returns an event requested from 0.5 s to 2.5 s, with half a second to spare.
 DetectionEvent AskedFor(const char* move, const char* danced) {
   DetectionEvent event{.move = move, .danced = danced, .start_s = 0.5};
   event.end_s = 2;
@@ -14,7 +14,7 @@ DetectionEvent AskedFor(const char* move, const char* danced) {
   return event;
 }
 
-/// A body with its right arm at rest for a second, raised for a second, at rest again; seen perfectly.
+/// Returns a body that holds its right arm down for a second, up for a second, and down again; the sensor is perfect.
 DetectionWorld ArmRaised() {
   DetectionWorld world;
   world.stream.frames.resize(90);

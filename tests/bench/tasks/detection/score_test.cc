@@ -36,21 +36,22 @@ double Value(const CellResult& cell, std::string_view id) {
 
 TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   DetectionWorld world;
-  world.motion.poses.resize(900);  // half a minute
+  world.motion.poses.resize(900);  // 30 s
   world.stream.frames.resize(900);
   world.events = {Event(Truth::kRight, 1, 2.0),           Event(Truth::kRight, 5, 6.0),
                   Event(Truth::kRight, 9, 10.0),          Event(Truth::kWrong, 13, std::nullopt),
                   Event(Truth::kWrong, 17, std::nullopt), Event(Truth::kGrey, 21, std::nullopt)};
   world.events[4].danced = "";
   for (std::size_t faulty : {1, 3, 4}) world.events[faulty].faults = {{Fault::kAmplitude, 0.5}};
-  world.events[0].faults = {{Fault::kLate, 0}};  // changes nothing, is none
+  world.events[0].faults = {{Fault::kLate, 0}};  // a fault of size 0 is not a fault
   SessionVerdict verdict;
-  // Called right 0.1 s after the truth; 0.3 s after; missed; wrongly called right; rightly called wrong; grey.
+  // Called right 0.1 s after the truth; called right 0.3 s after it; missed; a wrong one called right; a wrong one
+  // called wrong; grey.
   verdict.events = {Called(33, 0.9), Called(39, 0.8),         Called(std::nullopt, 0.4),
                     Called(20, 0.6), Called(std::nullopt, 0), Called(50, 0.7)};
   verdict.named = {1, 1, 2, 1, 0, std::nullopt};
   verdict.alarms = {{1, 120}, {0, 400}, {0, 800}};
-  // The first in its window, the second after it, the third as another move, and two wrong ones.
+  // The first alarm is inside its window, the second after it, the third names another move, and two are wrong.
   verdict.spotted = {{1, 89}, {1, 210}, {2, 290}, {1, 400}, {1, 520}};
 
   CellResult cell;
@@ -61,9 +62,9 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   EXPECT_DOUBLE_EQ(Value(cell, "fault_found"), 1.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "grey_called_right"), 1);
   EXPECT_DOUBLE_EQ(Value(cell, "right_spotted"), 1.0 / 3);
-  EXPECT_DOUBLE_EQ(Value(cell, "move_named"), 3.0 / 5);  // of one nothing was danced
-  EXPECT_DOUBLE_EQ(Value(cell, "roc_auc"), 5.0 / 6);     // 0.4 loses to 0.6
-  // Waits 0.1, 0.3 and one given up after 1 s: the median of all three is 0.3; of those that came it were 0.2.
+  EXPECT_DOUBLE_EQ(Value(cell, "move_named"), 3.0 / 5);  // no performance belongs to one of them
+  EXPECT_DOUBLE_EQ(Value(cell, "roc_auc"), 5.0 / 6);     // 0.4 loses against 0.6
+  // The waits are 0.1 s, 0.3 s, and more than 1 s: the median is 0.3 s. The median of those that ended would be 0.2 s.
   EXPECT_NEAR(Value(cell, "latency_s"), 0.3, 1e-9);
   EXPECT_DOUBLE_EQ(Value(cell, "false_alarms_per_min"), 6.0);
 }
@@ -91,7 +92,7 @@ TEST(ScoreSession, PointsAreMetWithinAThirdOfASecond) {
   world.stream.frames.resize(300);
   world.points = {{"clap", 60}, {"sway", 150}};
   SessionVerdict verdict;
-  verdict.spotted = {{1, 69}, {1, 240}, {2, 161}};  // 0.3 s late; of nothing; 0.37 s late
+  verdict.spotted = {{1, 69}, {1, 240}, {2, 161}};  // 0.3 s late; without a performance; 0.37 s late
   CellResult cell;
   ScoreSession(world, verdict, kMoves, cell);
   EXPECT_DOUBLE_EQ(Value(cell, "action_point_f"), (2.0 / 3 + 0) / 2);

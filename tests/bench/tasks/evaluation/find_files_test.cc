@@ -20,7 +20,7 @@ class FindFilesTest : public ::testing::Test {
   }
   std::string In(const std::string& name) const { return (folder_.path() / name).string(); }
 
-  /// Finds the files of a scenario, in which '@' stands for the folder.
+  /// Finds the files of a scenario; '@' stands for the folder.
   Result<FoundFiles> Find(std::string condition, std::vector<std::string> methods, const std::string& csv = "") {
     const auto filled = [&](std::string text) {
       for (std::size_t at; (at = text.find('@')) != std::string::npos;) text.replace(at, 1, folder_.path().string());

@@ -15,7 +15,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// A body that stands, and glides along Z by 0.3 m a second.
 RawMotion Gliding(double rate_hz, std::size_t frames) {
   RawMotion motion;
   motion.name = "gliding";
@@ -109,14 +108,14 @@ TEST(Match, EqualNamesArePairedWhateverTheirRoles) {
   EXPECT_EQ(matched->joints.front(), "mine");
   EXPECT_EQ(matched->joints.size(), 19u);
   EXPECT_GT(ValueIn(JudgeMotion(*matched), "mpjpe_unaligned_mm"), 0);
-  // What the file does not name is judged by its role alone: an End Site, the middle of the hips.
+  // A point that the file does not name is compared by its role alone: an End Site, the middle of the hips.
   truth.added = {1, static_cast<int>(Index(Role::kHead))};
   EXPECT_EQ(Match(truth, answer, "same", Lag::kNone)->joints.size(), 17u);
   EXPECT_EQ(Match(truth, answer, "roles", Lag::kNone)->joints.size(), 20u);
 }
 
 TEST(Match, TheRootIsTheFilesOwnIfBothHaveOneElseTheMiddleOfTheHips) {
-  // Of the answer, the pelvis alone lies 37 mm too high.
+  // Only the answer's pelvis is 37 mm too high.
   const auto pelvis = static_cast<std::size_t>(Index(Role::kHipCentre));
   RawMotion truth = Gliding(30, 5), answer = truth;
   for (std::size_t at = pelvis; at < answer.positions.size(); at += kRoleCount) answer.positions[at].y += 0.037;
@@ -124,7 +123,7 @@ TEST(Match, TheRootIsTheFilesOwnIfBothHaveOneElseTheMiddleOfTheHips) {
   EXPECT_NEAR(ValueIn(own, "mpjpe_root_mm"), 37, 1e-9) << "every joint but the pelvis, which is not judged";
   EXPECT_THAT(own.reason, HasSubstr("14 joints, root hip_centre, 5 frames"));
   EXPECT_NEAR(ValueIn(Judged(truth, answer), "mpjpe_root_mm"), 37 * 19.0 / 20, 1e-9);
-  // If one of both has no pelvis, it is the middle of the hips in both, in which they agree.
+  // If one file has no pelvis, the middle of the hips replaces it in both files; there the two agree.
   truth.joints[pelvis] = "(none)";
   truth.roles[pelvis] = -1;
   AddMidwayHips(truth);
@@ -150,7 +149,7 @@ TEST(Match, FailsWithoutACommonJointOrAnySeen) {
   EXPECT_THAT(ToString(unseen.error()), HasSubstr("ever seen in both motions"));
 }
 
-/// The standing body whose limbs sway, each in its own time, `late_s` later.
+/// Returns the standing body with limbs that sway, each at its own frequency, delayed by `late_s`.
 RawMotion Swaying(double rate_hz, std::size_t frames, double late_s) {
   RawMotion motion = Gliding(rate_hz, frames);
   for (std::size_t f = 0; f < frames; ++f) {
@@ -169,7 +168,7 @@ TEST(Match, FindsALagToAFractionOfAFrame) {
   unsigned state = 61;
   for (const double late_s : {0.0, 0.0123, 0.31, -0.4567}) {
     for (const double rate_hz : {30.0, 24.0}) {
-      // In another place, turned, 10 % larger, with noise of some millimetres.
+      // The answer is moved, turned, 10 % larger, and has noise of some millimetres.
       RawMotion answer = Swaying(rate_hz, 150, late_s);
       for (glm::dvec3& p : answer.positions) {
         p = 1.1 * glm::dvec3(p.z + 2, p.y, -p.x);
@@ -197,7 +196,7 @@ TEST(Match, FindsALagToAFractionOfAFrame) {
 }
 
 TEST(Match, SaysThatALagCannotBeTold) {
-  // Whoever glides is in another place, or late: nobody knows.
+  // For a gliding body, a shift in time and a shift in place look the same, so no lag is reported.
   for (const RawMotion& truth : {Gliding(30, 90), Swaying(30, 3, 0)}) {
     const auto matched = Match(truth, truth, "roles", Lag::kFind);
     ASSERT_FALSE(matched);
@@ -225,7 +224,7 @@ TEST(JudgeMotion, TakesStatisticsAndBeats) {
   ASSERT_TRUE(beats);
   side.music_beats_s = *beats;
   const CellResult result = JudgeMotion(*matched, side);
-  // Without means, with one deviation: the length of all differences together, in tenths of a metre.
+  // Without means and with one deviation, the distance is the norm of all differences in tenths of a metre.
   double sum = 0;
   for (std::size_t f = 0; f < 90; ++f) {
     double square = 0;
@@ -266,7 +265,7 @@ TEST(Match, TimesOfOneClockBelongTogether) {
     return motion;
   };
   const RawMotion truth = begins(10, 60);
-  // The answer begins a second later, as its clock says.
+  // By its clock, the answer begins a second later.
   const CellResult later = Judged(truth, moved(begins(11, 30), 1));
   EXPECT_NEAR(ValueIn(later, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_EQ(ValueIn(later, "seen_share"), 0.5);
@@ -275,13 +274,13 @@ TEST(Match, TimesOfOneClockBelongTogether) {
                         "the truth outside the answer"));
   EXPECT_THAT(Judged(begins(1.7e9, 60), begins(1.7e9 + 1.25, 30)).reason,
               HasSubstr("the truth begins at 1700000000 s, the answer begins at 1700000001.25 s: judged by"));
-  // It begins before the truth, by a fraction of a frame, and at another rate.
+  // The answer begins before the truth by a fraction of a frame, and has another rate.
   EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(9.5, 90), -0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
   const CellResult between = Judged(truth, moved(begins(10.01, 60), 0.01));
   EXPECT_NEAR(ValueIn(between, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_THAT(between.reason, HasSubstr("by these clocks, and the answer is interpolated linearly"));
   EXPECT_NEAR(ValueIn(Judged(truth, moved(begins(10.5, 50, 50), 0.5)), "mpjpe_unaligned_mm"), 0, 1e-9);
-  // Where a clock is missing, or the two never show one time, the first frames belong together.
+  // If a clock is missing, or the two have no time in common, the first frames are matched.
   const CellResult none = Judged(truth, Gliding(30, 60));
   EXPECT_NEAR(ValueIn(none, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_THAT(none.reason,
@@ -290,13 +289,13 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   const CellResult apart = Judged(truth, begins(0, 60));
   EXPECT_NEAR(ValueIn(apart, "mpjpe_unaligned_mm"), 0, 1e-9);
   EXPECT_THAT(apart.reason, HasSubstr("begins at 0 s: their first frames are taken as simultaneous"));
-  // Clocks that agree, as far as they were printed, are not worth a word.
+  // Clocks that agree to their printed digits give no note.
   for (const RawMotion& same : {begins(10, 60), begins(10.003, 60)}) {
     const CellResult result = Judged(truth, same);
     EXPECT_EQ(ValueIn(result, "mpjpe_unaligned_mm"), 0);
     EXPECT_THAT(result.reason, ::testing::Not(HasSubstr("begins")));
   }
-  // A lag is sought beside the clocks.
+  // A lag is searched in addition to the clocks.
   RawMotion dancing = begins(10, 90), late = begins(10.5, 90);
   const auto wave = [](double t) { return 0.2 * std::sin(5 * t) + 0.1 * std::sin(7.3 * t); };
   const std::size_t hand = Index(Role::kLeftHand), joints = dancing.joints.size();
@@ -307,7 +306,7 @@ TEST(Match, TimesOfOneClockBelongTogether) {
   const auto found = Match(dancing, late, "roles", Lag::kFind);
   ASSERT_TRUE(found) << ToString(found.error());
   EXPECT_NEAR(found->lag->shift_s, 0.1, 0.005);
-  // So it is if the answer is the last three seconds of a long truth.
+  // The same holds if the answer is the last three seconds of a long truth.
   RawMotion whole = begins(10, 600), part = begins(27, 90);
   for (std::size_t f = 0; f < 600; ++f) whole.positions[f * joints + hand].y += wave(static_cast<double>(f) / 30);
   for (std::size_t f = 0; f < 90; ++f) part.positions[f * joints + hand].y += wave(static_cast<double>(f) / 30 + 16.9);
@@ -317,7 +316,7 @@ TEST(Match, TimesOfOneClockBelongTogether) {
 }
 
 TEST(JudgeMotion, ReportsEveryMetricOfTheTask) {
-  const CellResult result = Judged(Gliding(30, 1), Gliding(30, 1));  // too short for most
+  const CellResult result = Judged(Gliding(30, 1), Gliding(30, 1));  // too short for most metrics
   for (const std::string& id : EvaluationMetrics()) {
     EXPECT_NE(ValueIn(result, id), -2) << id;
     EXPECT_NE(FindMetric(id), nullptr) << id;

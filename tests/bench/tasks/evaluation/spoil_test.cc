@@ -27,7 +27,7 @@ RawMotion Swinging() {
   return motion;
 }
 
-/// The largest distance of a joint from `expected(frame, joint)`.
+/// Returns the largest distance of a joint from `expected(frame, joint)`.
 template <typename Expected>
 double WorstOff(const RawMotion& motion, Expected expected) {
   double worst = 0;
@@ -112,7 +112,7 @@ TEST(Spoilt, NoiseHasItsDeviationAndDependsOnTheNameAlone) {
   EXPECT_NE(noisy.positions, Spoilt(truth, {.noisy_mm = 10}, "b").positions);
 }
 
-/// The same motion with rotations: each joint turns about Z as time goes on, the left hip from another rest pose.
+/// Returns the same motion with rotations: each joint turns about Z over time; the left hip has another rest pose.
 RawMotion Turning() {
   RawMotion motion = Swinging();
   motion.rest_positions.assign(5, glm::dvec3(0));
@@ -125,7 +125,6 @@ RawMotion Turning() {
   return motion;
 }
 
-/// The angle between two rotations, radians.
 double Apart(const glm::dquat& a, const glm::dquat& b) {
   return 2 * std::acos(std::min(1.0, std::abs(glm::dot(a, b))));
 }
@@ -135,20 +134,20 @@ TEST(Spoilt, RotationsAreSpoiltLikePositions) {
   const auto spoilt = [&](const Spoiler& spoiler) { return Spoilt(truth, spoiler, "a").rotations; };
   const auto at = [](std::size_t f, std::size_t j) { return f * 5 + j; };
   EXPECT_EQ(spoilt({.scaled_percent = 5, .lifted_cm = 5}), truth.rotations);
-  // An even turn is its own mean; at the first frame the window is that frame.
+  // A constant rotation speed equals its own mean. At the first frame the window is that frame alone.
   EXPECT_NEAR(Apart(spoilt({.smoothed_ms = 200})[at(50, 0)], truth.rotations[at(50, 0)]), 0, 1e-6);
-  // All faded: every frame is the mean, which lies in the middle of the way.
+  // Faded by 100 %, every frame is the mean rotation, which lies half-way.
   const auto faded = spoilt({.faded_percent = 100});
   EXPECT_NEAR(Apart(faded[at(0, 0)], faded[at(99, 0)]), 0, 1e-6);
   EXPECT_NEAR(Apart(faded[at(0, 0)], truth.rotations[at(0, 0)]), 0.495, 1e-6);
-  // The mirror gives the right hip the left hip's turn from rest, the other way round, and is its own inverse.
+  // Mirroring gives the right hip the left hip's rotation from rest, mirrored. Mirroring twice changes nothing.
   const auto mirrored = spoilt({.mirrored_share = 1});
   EXPECT_NEAR(Apart(mirrored[at(60, 1)], glm::angleAxis(-0.6, glm::dvec3(0, 0, 1))), 0, 1e-6);
   RawMotion once = truth;
   once.rotations = mirrored;
   EXPECT_NEAR(Apart(Spoilt(once, {.mirrored_share = 1}, "a").rotations[at(60, 0)], truth.rotations[at(60, 0)]), 0,
               1e-6);
-  // Noise of 10 mm turns by √2 · 10 / 420 about each axis.
+  // Noise of 10 mm on limbs of 420 mm turns a joint by √2 · 10 / 420 rad about each axis.
   const auto noisy = spoilt({.noisy_mm = 10});
   double square = 0;
   for (std::size_t i = 0; i < noisy.size(); ++i) square += std::pow(Apart(noisy[i], truth.rotations[i]), 2) / 3;
@@ -159,7 +158,7 @@ TEST(HideWorst, HidesTheFarthestJointsAndNoMore) {
   const RawMotion truth = Swinging();
   RawMotion answer = truth;
   for (std::size_t i = 0; i < 50; ++i) answer.positions[7 * i].x += 0.1;
-  HideWorst(answer, truth, 10);  // 50 of 500
+  HideWorst(answer, truth, 10);  // 50 of 500 points
   for (std::size_t i = 0; i < answer.positions.size(); ++i)
     EXPECT_EQ(IsSeen(answer.positions[i]), i % 7 != 0 || i >= 350);
 }

@@ -29,7 +29,7 @@ std::unique_ptr<Task> MakeIkTask(const std::string& condition = "{}") {
   return *MakeTask(MakeIkTaskKind(), condition);
 }
 
-// What a stranger would write who knows nothing but the words of exchange.h: plain lists of rows.
+// A solver written from exchange.h alone, with plain lists of rows.
 struct StrangersFrame {
   std::array<double, 3> p{};
   std::array<std::array<double, 3>, 3> R{};
@@ -135,7 +135,7 @@ TEST(IkExchange, TheTruthIsAPerfectAnswer) {
   ASSERT_OK(cell, world->Judge(answer));
   EXPECT_EQ(cell->status, Status::kOk) << cell->reason;
   EXPECT_LT(*ValueOf(*cell, "position_error_max_cm"), 1e-9);
-  EXPECT_LT(*ValueOf(*cell, "orientation_error_max_deg"), 1e-5);  // acos near 1
+  EXPECT_LT(*ValueOf(*cell, "orientation_error_max_deg"), 1e-5);  // acos is inaccurate near 1
   EXPECT_LT(*ValueOf(*cell, "hidden_angle_error_deg"), 1e-9);
   EXPECT_EQ(ValueOf(*cell, "solved_tight"), 1);
   EXPECT_EQ(ValueOf(*cell, "iterations_par2"), 7);
@@ -165,7 +165,7 @@ TEST(IkExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
 TEST(IkExchange, AnAnswerThatBreaksALimitIsMeasuredAndUnsolved) {
   const KinematicTree tree = MakeBodyTree({});
   IkWorld world = MakeIkWorld(tree, {}, kExchangeWorld);
-  // Targets that an elbow bent the wrong way reaches exactly.
+  // Targets that are reached exactly with an elbow bent the wrong way.
   const int elbow = tree.joints[kTreeLeftElbow].first_dof;
   world.truth.angles[elbow] = Radians(-5);
   world.problem.targets.clear();

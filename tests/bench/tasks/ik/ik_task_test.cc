@@ -27,7 +27,6 @@ double Metric(const CellResult& cell, const std::string& id) { return ValueOf(ce
 
 const WorldKey kWorld{.suite_seed = 1, .scenario = "test", .trial = 0};
 
-/// The cells of three methods in one world.
 std::vector<CellResult> CellsOf(const Task& task) { return RunWorld(task, kWorld, 3); }
 
 TEST(IkTask, GivesEveryMethodACellWithAllMetrics) {
@@ -40,7 +39,7 @@ TEST(IkTask, GivesEveryMethodACellWithAllMetrics) {
     EXPECT_FALSE(cell.recording);
     ASSERT_EQ(cell.series.size(), 2u);
     EXPECT_LE(cell.series[0].values.size(), 200u);
-    // The first cell of every curve is the start, which is the same for all methods.
+    // Every curve begins with the start pose's error, which is the same for all methods.
     EXPECT_EQ(cell.series[0].values[0], cells[0].series[0].values[0]);
     EXPECT_EQ(cell.digests[0], cells[0].digests[0]) << "one world";
   }
@@ -63,7 +62,7 @@ TEST(IkTask, CallsACellUnsolvedWhenAnEffectorIsNotHome) {
 }
 
 TEST(IkTask, MeasuresTheSameWhetherItsMotionIsKeptOrNot) {
-  // Longer than its curves, so that a film alone needs the rest of the trace.
+  // The trace is longer than the curves, so only a film needs the rest of it.
   const auto task = Make("{max_sweeps: 300, record: [effector_curves]}");
   const std::vector<CellResult> kept = RunWorld(**task, kWorld, 3, true), cells = RunWorld(**task, kWorld, 3, false);
   for (std::size_t m = 0; m < cells.size(); ++m) {
@@ -90,7 +89,7 @@ TEST(IkTask, RepeatsItselfToTheLastBit) {
 }
 
 TEST(IkTask, MeasuresTightSolutionsWhenAskedToGoOn) {
-  // A method that creeps up to its goal, so that where it stops is seen.
+  // A slowly converging method, so that the iteration at which it stops is visible.
   const std::string one_method = "[{name: slow, solver: ccd-hinges, weights: adaptive-power}]";
   const std::string near = "joint_noise_deg: 2, max_sweeps: 3000";
   const CellResult practical = RunWorld(**Make("{stop_at: practical, " + near + "}", one_method), kWorld, 1)[0];

@@ -20,7 +20,7 @@ struct FixedRun {
 
   explicit FixedRun(int iterations) {
     IkOptions options;
-    options.weights = WeightRule::kFixed;  // never done
+    options.weights = WeightRule::kFixed;  // never met
     options.trace = true;
     options.max_iterations = iterations;
     solution = FindIkSolver("ccd")->solve(tree, world.problem, options);
@@ -33,7 +33,7 @@ const Series& Named(const std::vector<Series>& all, const std::string& name) {
   return found == all.end() ? all.front() : *found;
 }
 
-/// The errors of `angles`, written down a second time.
+/// A second computation of the errors of `angles`.
 struct SecondErrors {
   std::vector<glm::dvec3> position_cm, axis_deg;
 
@@ -112,7 +112,7 @@ TEST(IkRecording, ShowsEveryIterationUpToSixtyThenGrowingStepsAndTheLast) {
     EXPECT_EQ(shown.back(), last);
     for (int i = 0; i <= std::min(last, 60); ++i) EXPECT_EQ(shown[static_cast<std::size_t>(i)], i) << last;
     for (std::size_t i = 1; i < shown.size(); ++i) EXPECT_GT(shown[i], shown[i - 1]) << last;
-    // Steps never shrink, but for the last one, which ends where the solver did.
+    // Steps never shrink, except the last one, which ends where the solver ended.
     for (std::size_t i = 2; i + 1 < shown.size(); ++i) {
       EXPECT_GE(shown[i] - shown[i - 1], shown[i - 1] - shown[i - 2]) << last;
     }
@@ -133,7 +133,7 @@ TEST(IkRecording, HoldsTruthStartAndTheSolutionFrameByFrameWithItsErrors) {
     const glm::dvec3& at = run.world.problem.targets[e].position;
     EXPECT_EQ(extras["targets_m"][e], Json({at.x, at.y, at.z}));
   }
-  // The head's way to its target, from the picture alone, is what the trace says.
+  // The head's distance to its target in the picture equals the trace's.
   for (std::size_t i = 0; i < extras["iterations"].size(); ++i) {
     const auto& entry = run.solution.trace[extras["iterations"][i].get<std::size_t>()];
     EXPECT_NEAR(glm::distance(pose(2, i)[Role::kHead], pose(0, i)[Role::kHead]), entry.errors[3].position, 1e-9);

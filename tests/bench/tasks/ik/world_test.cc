@@ -117,7 +117,7 @@ TEST(IkWorld, NoisyTargetsHaveTheStatedSpread) {
     }
   }
   EXPECT_NEAR(std::sqrt(shift_squares / (3 * kTargets)), 0.01, 0.0004);
-  // A small rotation vector v moves the three axes by |v × e_k|, whose squares sum to 2|v|².
+  // A small rotation vector v moves the three axes by |v × e_k|; the squares sum to 2|v|².
   EXPECT_NEAR(Degrees(std::sqrt(axis_squares / (2 * 3 * kTargets))), 3, 0.12);
 }
 
@@ -137,7 +137,7 @@ TEST(IkWorld, AnUnreachableTargetIsJustBeyondEveryPose) {
       if (target.position == near.problem.targets[e].position) continue;
       ++pulled;
       was_pulled[e] = true;
-      // Away from the root; and 5.01 cm nearer, it could be in reach.
+      // The target lies outside the reach, but 5.01 cm nearer to the root it could be inside.
       const glm::dvec3 outward = glm::normalize(target.position - world.problem.start.root_position);
       EXPECT_GT(glm::dot(outward, glm::normalize(near.problem.targets[e].position)), 1 - 1e-12);
       target.position -= 0.0501 * outward;
@@ -148,7 +148,7 @@ TEST(IkWorld, AnUnreachableTargetIsJustBeyondEveryPose) {
   EXPECT_EQ(std::ranges::count(was_pulled, true), 4) << "each has its turn";
 }
 
-/// JᵀΔX of the start: what a gradient would turn every angle by. Axes count as rotation vectors, all weights as one.
+/// Returns the largest element of the start's gradient JᵀΔX; axis errors are rotation vectors, all weights one.
 double LargestGradient(const KinematicTree& tree, const IkProblem& problem) {
   const TreeFrames frames = ComputeFrames(tree, problem.start);
   TreeJacobian jacobian;
@@ -168,7 +168,7 @@ double LargestGradient(const KinematicTree& tree, const IkProblem& problem) {
   return largest;
 }
 
-// Paper B, figure 3.8, left: the arms are stretched, their targets lie along them, and the gradient is zero.
+// Paper B, figure 3.8, left: the arms are stretched, the targets lie along them, and the gradient is zero.
 TEST(IkWorld, AStretchedStartHasNoGradientThoughItsTargetsAreElsewhereAndWithinReach) {
   for (const std::string& name : LimitSetNames()) {
     const KinematicTree tree = TreeWith(*FindLimitSet(name));
@@ -181,7 +181,7 @@ TEST(IkWorld, AStretchedStartHasNoGradientThoughItsTargetsAreElsewhereAndWithinR
         EXPECT_GE(world.truth.angles[i], tree.limits[i].lower) << name << i;
         EXPECT_LE(world.truth.angles[i], tree.limits[i].upper) << name << i;
       }
-      // Along the arms, which hang straight; and no effector shall turn.
+      // The targets lie along the hanging arms, and no effector has to turn.
       const TreeFrames start = ComputeFrames(tree, world.problem.start);
       for (std::size_t e = 0; e < 4; ++e) {
         const glm::dvec3 shift = world.problem.targets[e].position - start.effectors[e].position;

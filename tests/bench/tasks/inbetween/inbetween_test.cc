@@ -16,7 +16,6 @@ using ::testing::HasSubstr;
 
 constexpr const char* kFiles = "truth: [assimp:01_03], training: [assimp:01_01], rate_hz: 30";
 
-/// A task of one method, with its windows.
 struct Study {
   std::vector<JudgedFiles> windows;
   std::unique_ptr<Task> task;
@@ -49,7 +48,7 @@ double Measured(const CellResult& result, const std::string& id) {
   return -2;
 }
 
-/// L2P, L2Q and NPSS over all windows, as a run averages them.
+/// L2P, L2Q and NPSS over all windows, averaged as in a run.
 struct Distances {
   double l2p = 0, l2q = 0, npss = 0;
 };
@@ -106,7 +105,7 @@ TEST(Inbetween, GivesOtherFiguresByAnotherProtocol) {
   }
 }
 
-/// The answer that a program would give, made of the truth by `change`.
+/// Returns a program's answer: the truth changed by `change`.
 template <typename Change>
 CellResult JudgedAfter(TaskWorld& world, const Change& change) {
   Json answer = *world.MakeTruth()->json;
@@ -117,7 +116,7 @@ CellResult JudgedAfter(TaskWorld& world, const Change& change) {
   return result.value_or(CellResult{});
 }
 
-/// The first window in which the truth is supported and its feet rest.
+/// Returns the first window in which the truth is supported and its feet rest.
 std::unique_ptr<TaskWorld> StandingWorld(const Study& study) {
   for (std::size_t trial = 0; trial < study.windows.size(); ++trial) {
     auto world = WorldOf(study, static_cast<int>(trial));
@@ -134,19 +133,19 @@ TEST(Inbetween, KnowsTheTruthAndWhatIsDoneToIt) {
   const CellResult own = world->Run(0);
   for (const char* id : {"l2p@lafan1", "l2q@lafan1", "npss@lafan1", "mpjpe_unaligned_mm"})
     EXPECT_EQ(Measured(own, id), 0) << id;
-  // The same, sent by a program.
+  // The truth itself, sent by a program.
   const CellResult same = JudgedAfter(*world, [](Json&, int) {});
   EXPECT_LT(Measured(same, "mpjpe_unaligned_mm") + Measured(same, "l2q@lafan1"), 1e-9);
   EXPECT_EQ(Measured(same, "supported_share"), 1);
   EXPECT_EQ(Measured(same, "clean_share"), 1);
-  // Lifted by 10 cm it floats, is that far off, and breaks at both ends.
+  // Lifted by 10 cm, the body floats, has an error of 10 cm, and jumps at both ends.
   const CellResult lifted = JudgedAfter(*world, [](Json& pose, int) { pose[1] = pose[1].get<double>() + 0.1; });
   EXPECT_EQ(Measured(lifted, "supported_share"), 0);
   EXPECT_EQ(Measured(lifted, "clean_share"), 0);
   EXPECT_NEAR(Measured(lifted, "mpjpe_unaligned_mm"), 100, 1e-9);
   EXPECT_NEAR(Measured(lifted, "l2q@lafan1"), 0, 1e-12);
   EXPECT_GT(Measured(lifted, "jitter@wham"), 2 * Measured(own, "jitter@wham"));
-  // It glides along X by 1 cm a frame.
+  // It glides along X by 1 cm per frame.
   const CellResult glides = JudgedAfter(*world, [](Json& pose, int f) { pose[0] = pose[0].get<double>() + 0.01 * f; });
   EXPECT_GT(Measured(glides, "foot_slide_cmps"), Measured(own, "foot_slide_cmps") + 5);
   EXPECT_EQ(Measured(glides, "clean_share"), 0);
@@ -204,7 +203,7 @@ TEST(Inbetween, RefusesWhatCannotBeJudged) {
   EXPECT_TRUE(testing::AnswersAreKept("tests/bench/tasks/inbetween/complaints.txt", [](const std::string& keys) {
     return testing::Refusal(StudyOf(keys, "interpolation"));
   }));
-  // Another skeleton has no training clip.
+  // No training clip has this skeleton.
   ASSERT_OK(study, StudyOf("truth: [assimp:Boxing_Toes], training: [assimp:01_01], rate_hz: 30", "interpolation"));
   EXPECT_THAT(WorldOf(*study, 0)->WhySkipped().value_or(""), HasSubstr("no training clip has the same joints"));
 }

@@ -18,7 +18,7 @@ class FindLoneClipsTest : public ::testing::Test {
     EXPECT_TRUE(WriteFileAtomically(folder_.path() / name, "x"));
     return (folder_.path() / name).string();
   }
-  /// Finds the clips of methods, in whose texts '@' stands for the folder.
+  /// Finds the clips of methods; in their texts '@' stands for the folder.
   Result<FoundFiles> Find(const std::vector<std::string>& methods, const std::string& condition = "{}") {
     std::vector<Node> nodes;
     for (std::string text : methods) {

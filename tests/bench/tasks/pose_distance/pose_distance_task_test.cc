@@ -50,8 +50,8 @@ class PoseDistanceTask : public ::testing::Test {
   std::optional<Fields> fields_;
 };
 
-// The list that the distance was first measured by (pose gap, cm) had a body whose arms ended 0.48 m from the shoulder;
-// the canonical body's end 0.73 m from it, and its feet reach past the ankles. Those of legs agree.
+// The first list (pose gap, cm) had a body whose arms end 0.48 m from the shoulder; the canonical arms end 0.73 m from
+// it, and its feet reach beyond the ankles. Leg distances agree.
 TEST_F(PoseDistanceTask, EveryBlindSpotIsCalledAlikeByPaperAsDistance) {
   ASSERT_OK(task, Make("{pairs: blindspots}", "{name: fuzzy}", {}));
   const double gaps[] = {103, 103, 86, 77, 75, 25, 25, 16};

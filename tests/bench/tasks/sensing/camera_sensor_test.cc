@@ -16,7 +16,7 @@ BodyMotion Clap(std::size_t frames) {
   return motion;
 }
 
-/// Every stage of paper B replaced by the truth.
+/// Returns paper B's method with every stage replaced by its truth.
 CaptureMethod Perfect() {
   CaptureMethod method{.causal = true, .oracle = {true, true, true, true, true, true, true, true}};
   return method;

@@ -17,13 +17,13 @@
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
 
-// Somebody who owns the program, every public clip and the problem recognises the clip and the frame, and answers what
-// is true of them. Turn, place and scale are no hindrance: what is compared are distances between ends.
+// An attack: somebody with the program, all public clips and the problem finds the clip and frame, and answers from it.
+// Distances between ends are compared, so turn, place and scale do not matter.
 
 namespace etude {
 namespace {
 
-using Ends = std::vector<double>;  // distances of root and ends from each other, over the length of all limbs
+using Ends = std::vector<double>;  // distances of the root and the ends from each other, over the length of all limbs
 
 Ends EndsOf(const KinematicTree& tree, const TreeState& root, const std::vector<EffectorTarget>& targets) {
   double size = 0;
@@ -43,10 +43,10 @@ double Misfit(const Ends& a, const Ends& b) {
   return sum;
 }
 
-/// The clip of the library whose window, at every begin and pace, fits the problem best: its angles, frame by frame.
+/// Returns the angles per frame of the library's clip window, over every begin and pace, that fits the problem best.
 std::vector<std::vector<double>> LookUp(const TrackingWorld& world, const std::vector<LibraryClip>& clips,
                                         double rate_hz) {
-  constexpr double kFiner = 4;  // begins and paces between frames, too
+  constexpr double kFiner = 4;  // begins and paces between frames are tried, too
   std::vector<Ends> asked;
   for (std::size_t k = 0; k < world.truth.size(); ++k) {
     asked.push_back(EndsOf(world.tree, world.truth[k], world.targets[k]));
@@ -80,7 +80,7 @@ std::vector<std::vector<double>> LookUp(const TrackingWorld& world, const std::v
   }
   std::vector<std::vector<double>> angles;
   std::vector<AngleRange> ranges = world.tree.limits;
-  for (std::size_t k = 0; k < asked.size(); ++k) {  // as worlds are made
+  for (std::size_t k = 0; k < asked.size(); ++k) {  // solve each frame within the speed limits, as worlds do
     const double frame = best_start + 30 / rate_hz * best_pace * static_cast<double>(k);
     const auto state = FindStartState(world.tree, PoseOfClip(best->motion.poses, frame), ranges);
     angles.push_back(state ? state->angles : angles.back());
@@ -93,7 +93,7 @@ std::vector<std::vector<double>> LookUp(const TrackingWorld& world, const std::v
   return angles;
 }
 
-/// The angles that meet the targets and are nearest to those that were looked up.
+/// Returns the angles that meet the targets and are nearest to those looked up.
 TrackingAnswer SolveNear(const TrackingWorld& world, const std::vector<std::vector<double>>& angles) {
   TrackingAnswer answer;
   const GaussNewtonSolver solver(world.tree);
@@ -109,7 +109,7 @@ struct Gains {
   double looked_up = 0, solved_near = 0, ours = 0;
 };
 
-/// Means over twelve worlds of what is gained by looking up, by solving from there, and by our own solver.
+/// Means over twelve worlds: errors by look-up, by solving from the look-up, and by our own solver.
 std::map<std::string, Gains> Attack(const std::function<Seed(std::uint64_t)>& seed_of) {
   constexpr int kWorlds = 12;
   const std::vector<LibraryClip> clips = LoadClips({"builtin:boxing", "builtin:clap", "builtin:sway"}, {})->clips;
@@ -149,8 +149,8 @@ TEST(RecognisedClip, TellsNoTruthOfASecretWorld) {
   EXPECT_GT(gains["mpjpe_mm"].looked_up, 2.5 * gains["mpjpe_mm"].ours);
   EXPECT_GT(gains["position_error_cm"].looked_up, 100 * gains["position_error_cm"].ours);
   EXPECT_GT(gains["orientation_error_deg"].looked_up, 100 * gains["orientation_error_deg"].ours);
-  // Who meets the targets, and takes from the public clip what they leave open, does little better than who takes it
-  // from the frame before: 12.4° and 15.8°, 27 and 32 mm. (Were open angles the clip's, 2.7° and 10.1°, 4 and 24 mm.)
+  // Taking undetermined angles from the public clip is little better than taking them from the frame before: 12.4°
+  // against 15.8°, 27 mm against 32 mm. (With the clip's own open angles: 2.7° and 10.1°, 4 mm and 24 mm.)
   EXPECT_GT(gains["hidden_angle_error_deg"].solved_near, 0.7 * gains["hidden_angle_error_deg"].ours);
   EXPECT_GT(gains["mpjpe_mm"].solved_near, 0.6 * gains["mpjpe_mm"].ours);
 }

@@ -139,7 +139,7 @@ TEST(Follow, KeepsEveryFrameWithinTheToleranceOfTheOneBefore) {
   EXPECT_LE(largest_step_deg(), 3 + 1e-9);
 }
 
-// Standing is far from how these clips begin, and few steps lead into a corner of the limits.
+// Standing is far from the first pose of these clips, and a few steps may lead into a corner of the limits.
 TEST(Follow, AMotionIsNotLostForGoodWhereStepsAreFew) {
   for (const char* clip : {"builtin:fast_sway", "builtin:side_stretch", "builtin:jump"}) {
     ASSERT_OK(world, MakeTrackingWorld({}, BuiltinClipOf(clip), kWorld));

@@ -84,7 +84,7 @@ TEST(TrackingWorld, ASecretOneIsDisguisedWithItsTargetsMetWithinTheLimits) {
   }
 }
 
-// An arm that scratches a head leaves its range and comes back at the other end of it.
+// An arm that scratches the head leaves its range and comes back at the other end of the range.
 TEST(TrackingWorld, NoJointTurnsFasterThanItCan) {
   const LibraryClip clip = BuiltinClipOf("builtin:puzzled");
   const TrackingWorld world = MakeWorld({.duration_s = 60}, clip);

@@ -1,6 +1,6 @@
-// Transitions that no body can make. Each is led by quintics to the wanted pose, and is chosen among forty by the very
-// metric that must not credit it. `ETUDE_CHEAT_CLIPS` names another library than the built-in moves, one pattern per
-// line (`scripts/soak cheats`).
+// Transitions that no body can make. Each follows quintics to the wanted pose, and is chosen among forty by the metric
+// that must not credit it. `ETUDE_CHEAT_CLIPS` replaces the built-in moves by another library, one pattern per line
+// (`scripts/soak cheats`).
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kCheatRequests = 40;
 
-/// Returns the quintic from place, velocity and acceleration at s = 0 to those at s = 1.
+/// Returns the quintic from position, velocity and acceleration at s = 0 to those at s = 1.
 glm::dvec3 Quintic(const std::array<glm::dvec3, 3>& from, const std::array<glm::dvec3, 3>& to, double s) {
   const auto& [p0, v0, a0] = from;
   const auto& [p1, v1, a1] = to;
@@ -35,7 +35,7 @@ glm::dvec3 Quintic(const std::array<glm::dvec3, 3>& from, const std::array<glm::
   return p0 + s * (v0 + s * (0.5 * a0 + s * (c3 + s * (c4 + s * c5))));
 }
 
-/// 0 at both ends of a join, 1 from 1/n of it to 1 − 1/n.
+/// Returns 0 at both ends of a join, and 1 from 1/n to 1 − 1/n of it.
 double Plateau(double s, double n) { return Smootherstep(n * s) - Smootherstep(n * s - (n - 1)); }
 
 /// Changes the pose of one frame as a cheat does. `s` is 0 where the join begins, 1 where it ends, and larger in the
@@ -46,11 +46,11 @@ void Lift(BodyPose& pose, double height) {
   for (glm::dvec3& joint : pose.joints) joint.y += height;
 }
 
-/// No foot steps; both are above the height at which sliding counts.
+/// No foot steps; both feet are above the height at which sliding counts.
 void Glide(BodyPose& pose, double s, double) { Lift(pose, 0.024 * Plateau(s, 5)); }
 void Sink(BodyPose& pose, double s, double) { Lift(pose, -0.08 * Plateau(s, 3)); }
 
-/// The body flies as a ball does, though nothing threw it.
+/// The body follows a ballistic flight without a take-off.
 void Hop(BodyPose& pose, double s, double seconds) { Lift(pose, 0.5 * 9.81 * seconds * seconds * s * (1 - s)); }
 
 void BendKnees(BodyPose& pose, double s, double) {
@@ -59,7 +59,7 @@ void BendKnees(BodyPose& pose, double s, double) {
        {std::tuple{kLeftHip, kLeftKnee, kLeftAnkle}, {kRightHip, kRightKnee, kRightAnkle}}) {
     const glm::dvec3 leg = pose[ankle] - pose[hip];
     const glm::dvec3 on_line = pose[hip] + leg * (glm::dot(pose[knee] - pose[hip], leg) / glm::dot(leg, leg));
-    // A straight leg is bent, too.
+    // A straight leg gets bent, too.
     glm::dvec3 bend = pose[knee] - on_line;
     const glm::dvec3 front = glm::normalize(glm::cross(pose[kLeftHip] - pose[kRightHip], {0, 1, 0}));
     if (glm::length(bend) < 0.1) bend = 0.1 * front;
@@ -67,8 +67,8 @@ void BendKnees(BodyPose& pose, double s, double) {
   }
 }
 
-/// Returns true if both feet of the two clips are at least 5 cm apart, at the join's beginning and at its end, and no
-/// frame of the join is a leap: whoever goes over must step, or glide.
+/// True if both feet of the two clips are at least 5 cm apart at the join's ends, and no frame of the join is a leap:
+/// the body must step or glide.
 bool MustStep(const TransitionOutcome& outcome, std::span<const BodyPose> old, int frames) {
   constexpr double kApart = 0.05;
   const int leave = outcome.record.segments.front().last;
@@ -104,7 +104,7 @@ class Cheats : public TransitionFixture {
     return kStage;
   }
 
-  /// A pair of frames to try; the difference of poses and velocities ranks it.
+  /// A candidate pair of frames, ranked by the difference of poses and velocities.
   struct Pair {
     int leave = 0, enter = 0;
     double cost = 0;
@@ -161,7 +161,7 @@ class Cheats : public TransitionFixture {
       if (cheat) cheat(poses[point + k], k / static_cast<double>(end), end / kJudgedRateHz);
     }
     if (turn == 0) return outcome;
-    // About the vertical line through the hips of the frame left, bit by bit.
+    // Turns a pose gradually about the vertical line through the hips of the frame left.
     const auto turned = [&, hips = poses[point][Role::kHipCentre]](BodyPose pose, double share) {
       const FloorMove about{.yaw = turn * Smootherstep(share)};
       for (glm::dvec3& joint : pose.joints) {
@@ -179,7 +179,7 @@ class Cheats : public TransitionFixture {
 
   static constexpr std::array kRules = {"clean_share_v3", "clean_share"};
 
-  /// The shares of requests for which some candidate counts 1, by version 3 and by today's.
+  /// Returns the shares of requests for which some candidate scores 1, by version 3 and by the current version.
   static std::array<double, 2> Credited(const char* name, double turn, const Cheat& cheat, bool must_step = false) {
     std::array<int, 2> credited{};
     int count = 0;

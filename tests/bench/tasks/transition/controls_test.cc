@@ -1,4 +1,4 @@
-// Ways to fool a metric, each beside the metric that it fools; `clean_share` must credit none of them.
+// Ways to cheat a metric, each beside the metric that it cheats; `clean_share` must credit none of them.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace etude {
 namespace {
 
 constexpr int kRequests = 60;
-constexpr int kManyRequests = 480;  // where much depends on the clip asked for
+constexpr int kManyRequests = 480;  // for results that depend on the requested clip
 
 class Controls : public TransitionFixture {
  protected:
@@ -41,7 +41,7 @@ class Controls : public TransitionFixture {
     return FindChoice(choice)->plan(TheStage().library, request, {}, {});
   }
 
-  /// The share of requests, of those that the way can answer, for which a metric counts 1; `make` may leave one out.
+  /// Returns the share of the answered requests for which a metric is 1; `make` may leave a request unanswered.
   using Way = std::function<std::optional<TransitionOutcome>(const TransitionRequest&)>;
   static double ShareOf(const char* metric, const Way& make, int requests = kRequests) {
     double sum = 0;
@@ -60,7 +60,7 @@ class Controls : public TransitionFixture {
     return sum / count;
   }
 
-  /// At once into the wanted clip, what is shown of its frame k being `shown(k, the frame left, that frame)`.
+  /// Changes to the wanted clip at once; frame k is shown as `shown(k, the frame left, frame k)`.
   static Way AtOnce(std::function<BodyPose(int, const TransitionOutcome&, const BodyPose&)> shown) {
     return [shown](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
       TransitionOutcome outcome = Outcome(request, Plan("now", request), "cut");
@@ -92,7 +92,7 @@ TEST_F(Controls, FreezingAndThenFadingForThreeSecondsFoolsNaturalAloneAndIsNotCl
   const Way freeze = AtOnce([](int k, const TransitionOutcome& outcome, const BodyPose& wanted) {
     constexpr double kFrames = 90;
     const BodyPose& frozen = outcome.splice.points.front().leaving;
-    // It comes to rest within a third of a second, so that even the freezing is smooth.
+    // The body comes to rest within a third of a second, so even the freezing is smooth.
     BodyPose resting = frozen;
     const double reach = 5 * (1 - std::pow(1 - std::min(k / 10.0, 1.0), 3)) / 1.5;
     for (std::size_t j = 0; j < kRoleCount; ++j) {
@@ -129,7 +129,7 @@ TEST_F(Controls, TeleportingWhereTheOldClipIsFastestIsNotClean) {
 }
 
 TEST_F(Controls, WaitingIsNotClean) {
-  // By a minute: the old clip again and again, then a join as good as they come.
+  // Waits for a minute: the old clip is repeated, then follows the best available join.
   const Way wait = [](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
     TransitionRequest patient = request;
     patient.budget_s = 60;
@@ -148,11 +148,11 @@ TEST_F(Controls, WaitingIsNotClean) {
 }
 
 TEST_F(Controls, AGlideLiftedOffTheFloorFoolsTheFootSlideAloneAndIsNotClean) {
-  // Limbs without feet, 2.8 cm above the floor while they go over: there no foot counts as one that slides.
+  // Limbs without feet, 2.8 cm above the floor during the join; at that height no foot counts as sliding.
   const Way lifted = [](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
     TransitionOutcome outcome = Outcome(request, Plan("motion-matching", request), "minimum-jerk");
     std::vector<BodyPose>& poses = outcome.splice.motion.poses;
-    constexpr int kRise = 6, kSink = 36;  // frames after the point
+    constexpr int kRise = 6, kSink = 36;  // frames after the transition point
     const int point = outcome.splice.points.front().frame;
     for (int k = 1; k <= kSink + kRise && point + k < static_cast<int>(poses.size()); ++k) {
       BodyPose& pose = poses[point + k];
@@ -165,13 +165,13 @@ TEST_F(Controls, AGlideLiftedOffTheFloorFoolsTheFootSlideAloneAndIsNotClean) {
     return outcome;
   };
   EXPECT_LE(ShareOf("join_slide_cmps", lifted), 2) << "what it fools";
-  // Two thirds of what passes goes to or from a boxer: bouncing on his toes he holds a heel as high as that.
+  // Two thirds of the credited requests go to or from the boxer, who holds a heel that high while bouncing on his toes.
   EXPECT_LE(ShareOf("clean_share", lifted, kManyRequests), 0.1);
 }
 
 TEST_F(Controls, SkatingOverAtAConstantPoseIsNotClean) {
   const Way skate = AtOnce([](int k, const TransitionOutcome& outcome, const BodyPose& wanted) {
-    // The body glides to where the wanted clip goes, a metre to its side, and only then takes its pose.
+    // The body glides to the wanted clip's place, a metre to its side, and then takes its pose.
     constexpr double kGlide = 30, kTurn = 15;  // frames
     constexpr glm::dvec3 kAside{1, 0, 0};
     BodyPose stiff = outcome.splice.points.front().leaving, there = wanted;

@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Every choice with every join, in the order of the registries.
+/// Returns every choice with every join, in the order of the registries.
 std::string EveryMethod() {
   std::string yaml = "wait_s: 0.5\nmethods:\n";
   for (const Choice& choice : AllChoices()) {
@@ -40,7 +40,7 @@ class TransitionExchange : public TransitionFixture {
 
   static Json Facts(const CellResult& cell) { return Json::parse(cell.recording->extras_json); }
 
-  /// What a method outside would say that found what this built-in one finds.
+  /// Returns a built-in method's record as the answer of an outside method with the same result.
   Json AnswerOf(const TransitionRecord& record, const Choice& choice, const std::string& join) const {
     if (record.segments.empty()) return {{"unsolved", record.why}};
     Json answer = {{"leave_frame", record.segments.front().last},
@@ -65,7 +65,7 @@ class TransitionExchange : public TransitionFixture {
     return answer;
   }
 
-  /// Measured of all pairs that a built-in choice could have taken; a method outside has no threshold.
+  /// Measured over all pairs that a built-in choice accepts; an outside method has no threshold.
   static bool IsOfAThreshold(const std::string& id) {
     return id == "direct_match" || id == "matching_share" || id == "false_smooth_share";
   }
@@ -76,7 +76,6 @@ class TransitionExchange : public TransitionFixture {
     return PoseGapCm(point.leaving, point.arriving);
   }
 
-  /// Judged after a way through text, as from a program.
   static Result<CellResult> JudgeText(TaskWorld& world, const Json& answer) {
     return world.Judge(*ReadJson(*WriteJson(answer), "answer"));
   }
@@ -109,7 +108,7 @@ TEST_F(TransitionExchange, JudgesABuiltInMethodsPlanAsTheMethodItself) {
     for (const Choice& choice : AllChoices()) {
       const TransitionRecord record = choice.plan(stage_.library, request, {}, {});
       record.segments.empty() ? ++unsolved : record.segments.size() > 2 ? ++between : ++direct;
-      const bool answers = choice.name != "unbroken";  // a yardstick: it stays in the clip
+      const bool answers = choice.name != "unbroken";  // `unbroken` is a yardstick that stays in the clip
       for (const auto& join : AllJoins()) {
         SCOPED_TRACE(::testing::Message() << "trial " << trial << ", " << choice.name << ", " << join.name);
         const CellResult own = world->Run(method++);
@@ -122,7 +121,7 @@ TEST_F(TransitionExchange, JudgesABuiltInMethodsPlanAsTheMethodItself) {
           EXPECT_EQ(judged->metrics[i].id, own.metrics[i].id);
           if (IsOfAThreshold(own.metrics[i].id)) continue;
           ASSERT_EQ(judged->metrics[i].value.has_value(), own.metrics[i].value.has_value()) << own.metrics[i].id;
-          // A turned body's features differ in the last digits.
+          // Features of a turned body differ in the last digits.
           const double tolerance = own.metrics[i].id == "fuzzy_distance" ? 1e-9 : 0;
           EXPECT_NEAR(judged->metrics[i].value.value_or(0), own.metrics[i].value.value_or(0), tolerance)
               << own.metrics[i].id;
@@ -145,7 +144,7 @@ TEST_F(TransitionExchange, PlaysAClipOnTheWayLikeItsFramesPutBetween) {
   const int leave = request.request_frame + 1;
   const FloorMove place = AlignOnFloor(on_the_way[2], stage_.library.motions[request.from].poses[leave]);
   for (const auto& join : AllJoins()) {
-    if (join.align != nullptr) continue;  // lays clips by their feet, a method's own frames as they are
+    if (join.align != nullptr) continue;  // aligns clips by their feet; an outside method's frames are not aligned
     const Json through = {{"leave_frame", leave},
                           {"enter_frame", 3},
                           {"join", join.name},
@@ -158,7 +157,7 @@ TEST_F(TransitionExchange, PlaysAClipOnTheWayLikeItsFramesPutBetween) {
     for (const char* id : {"pose_gap_cm", "velocity_gap_cmps", "wait_s"}) {
       EXPECT_NEAR(ValueOf(*judged, id), ValueOf(*expected, id), 1e-9) << join.name << ", " << id;
     }
-    if (join.name != "cut") continue;  // a join goes on from the clip's frame before, which no one told
+    if (join.name != "cut") continue;  // other joins start from the clip's frame before, which is not in the problem
     for (const char* id : {"jump_cm", "foot_slide_cmps", "sparc", "ldlj"}) {
       EXPECT_NEAR(ValueOf(*judged, id), ValueOf(*expected, id), 1e-9) << id;
     }
@@ -192,7 +191,7 @@ TEST_F(TransitionExchange, ScoresAWorseAnswerWorse) {
   const Json late = {{"leave_frame", clip.size() - 1}, {"enter_frame", 0}};
   EXPECT_LT(ValueOf(*world->Judge(soon), "wait_s"), ValueOf(*world->Judge(late), "wait_s"));
 
-  Json stay = soon, leap = soon;  // the frame left is held for a frame; or the whole body leaps five metres to the side
+  Json stay = soon, leap = soon;  // the frame left is held for a frame; or the whole body moves five metres sideways
   BodyPose pose = *ReadPose(clip[request], "");
   stay["between"] = Json::array({EncodePose(pose)});
   for (glm::dvec3& joint : pose.joints) joint.x += 5;

@@ -75,7 +75,7 @@ TEST_F(TransitionTaskTest, CountsWhoGoesThroughAClipThatStandsUpAndWhoHasNone) {
       rise{"rise", "rise", RisingClip(90), {}};
   const std::string played = "methods: [{name: played, choice: played, join: planted-feet}]";
   const auto none = Make(played, {{lie, stand}});
-  for (int trial : {0, 1}) {  // each is left once
+  for (int trial : {0, 1}) {  // each clip is left once
     const CellResult cell = RunWorld(**none, Trial(trial), 1, false)[0];
     EXPECT_EQ(cell.status, Status::kUnsolved);
     EXPECT_THAT(cell.reason, HasSubstr(trial == 0 ? "no join can raise a body" : "no join can lower a body"));
@@ -83,7 +83,7 @@ TEST_F(TransitionTaskTest, CountsWhoGoesThroughAClipThatStandsUpAndWhoHasNone) {
   }
   const auto one = Make(played, {{lie, stand, rise}});
   int through = 0;
-  for (int trial = 0; trial < 12; trial += 3) {  // who lies is left
+  for (int trial = 0; trial < 12; trial += 3) {  // the trials in which the lying clip is left
     const CellResult cell = RunWorld(**one, Trial(trial), 1, true)[0];
     ASSERT_EQ(cell.status, Status::kOk) << cell.reason;
     if (ValueOf(cell, "in_between") == 0) continue;
@@ -155,7 +155,7 @@ TEST_F(TransitionTaskTest, AsksForActsWhileMovesPlay) {
 TEST_F(TransitionTaskTest, IsAFunctionOfTheWorldAlone) {
   const ClipLibrary library = SmallLibrary();
   const auto task = Make(kMethods, library), again = Make(kMethods, library);
-  CellsOf(**again, 5);  // what was run before must not matter
+  CellsOf(**again, 5);  // earlier worlds must not matter
   const auto first = CellsOf(**task, 2), second = CellsOf(**again, 2);
   for (std::size_t m = 0; m < first.size(); ++m) EXPECT_EQ(first[m].digests, second[m].digests);
   const auto other = CellsOf(**task, 3);

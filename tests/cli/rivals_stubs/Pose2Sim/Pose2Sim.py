@@ -58,7 +58,7 @@ def rotation(vector):
 
 
 def triangulation(config=None):
-    print("Triangulating")  # the original prints, too
+    print("Triangulating")  # the original prints as well
     project = checked(config)
     assert pathlib.Path.cwd() == project.resolve(), "looks for its calibration in the working folder"
     files = list((project / "calibration").glob("*.toml"))
@@ -89,7 +89,7 @@ def triangulation(config=None):
                 continue
             point = np.linalg.svd(np.array([line / np.linalg.norm(line[:3]) for line in lines]))[2][-1]
             x, y, z = point[:3] / point[3]
-            row += [y, z, x]  # Z up becomes Y up
+            row += [y, z, x]  # from Z up to Y up
         rows.append([frame, frame / config["project"]["frame_rate"], *row])
     write(project, f"{project.name}_0-{len(rows) - 1}.trc", rows, config)
 

@@ -31,7 +31,7 @@ class Character:
 
 
 def turn(x, y, z):
-    """Euler angles, about the fixed axes X, then Y, then Z."""
+    """Returns the rotation of Euler angles about the fixed axes X, then Y, then Z."""
     cx, sx, cy, sy, cz, sz = np.cos(x), np.sin(x), np.cos(y), np.sin(y), np.cos(z), np.sin(z)
     return (np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]]) @ np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
             @ np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]]))

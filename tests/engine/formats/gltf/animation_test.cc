@@ -27,7 +27,7 @@ struct Curve {
   std::vector<float> values;
 };
 
-/// One node, called "Joint" and resting at (7, 8, 9), and one animation that drives it along these curves.
+/// Returns a file with one node "Joint", at rest at (7, 8, 9), and one animation with these curves.
 std::string Animated(const std::vector<Curve>& curves, const std::string& name = "Move", const std::string& more = "") {
   std::string samplers, channels, accessors, views, binary;
   const auto add = [&](const std::vector<float>& values, const std::string& type, std::size_t width) {
@@ -54,7 +54,7 @@ std::string Animated(const std::vector<Curve>& curves, const std::string& name =
              binary);
 }
 
-/// The one joint's transforms, frame by frame, in the one clip.
+/// Returns the only joint's transforms per frame of the only clip.
 std::vector<LocalTransform> Frames(const Clip& clip) {
   std::vector<LocalTransform> frames;
   for (const LocalPose& pose : clip.frames) frames.push_back(pose.at(0));
@@ -87,7 +87,7 @@ TEST(GltfAnimation, KeepsEvenlySpacedLinearKeysAsFrames) {
   EXPECT_EQ(frames[2].translation, glm::dvec3(4, 4, 4));
 }
 
-// Keys of three axes that are some nanoseconds apart: in single precision their times are equal, or neighbours.
+// Keys of three axes some nanoseconds apart: in single precision their times are equal or adjacent.
 TEST(GltfAnimation, KeysThatCoincideAreOneFrame) {
   for (const float apart : {0.f, 1e-9f, 2e-8f, 1e-6f, 1e-5f}) {
     Curve curve{"translation", "LINEAR", {}, {}};
@@ -124,7 +124,7 @@ TEST(GltfAnimation, SamplesUnevenKeysAt60HzAlongStraightLines) {
 
 TEST(GltfAnimation, TurnsLinearRotationsAtConstantSpeedTheShortWay) {
   const float half = std::sqrt(0.5f);
-  // To 90° about Z, written with the other sign: the short way is still 90°, not 270°.
+  // A rotation of 90° about Z with the other sign: the short way is still 90°, not 270°.
   const Clip clip =
       OnlyClip(Animated({{"rotation", "LINEAR", {0, 1, 1.5f}, {0, 0, 0, 1, 0, 0, -half, -half, 0, 0, half, half}}}));
   const auto frames = Frames(clip);
@@ -155,7 +155,7 @@ TEST(GltfAnimation, HoldsStepsUntilTheNextKey) {
 }
 
 TEST(GltfAnimation, FollowsCubicSplinesWithTheirTangents) {
-  // x = t³ between its keys at 0 and 2 s: values 0 and 8, slopes 0 and 12. In-tangent, value, out-tangent per key.
+  // x = t³ with keys at 0 and 2 s: values 0 and 8, slopes 0 and 12. Each key has in-tangent, value, out-tangent.
   const Clip clip = OnlyClip(Animated(
       {{"translation", "CUBICSPLINE", {0, 2}, {99, 99, 99, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 0, 0, 99, 99, 99}}}));
   const auto frames = Frames(clip);
@@ -169,7 +169,7 @@ TEST(GltfAnimation, MakesCubicSplineRotationsUnit) {
   const Clip clip = OnlyClip(Animated({{"rotation", "CUBICSPLINE", {0, 1}, {0, 0, 0, 0, 0,    0, 0,    1, 0, 0, 0, 0, 0,
                                                                             0, 0, 0, 0, half, 0, half, 0, 0, 0, 0}}}));
   for (const LocalTransform& frame : Frames(clip)) EXPECT_NEAR(glm::length(frame.rotation), 1, 2e-7);
-  // With tangents of zero it is half way at half time, by symmetry.
+  // With zero tangents, symmetry gives half the turn at half the time.
   ExpectTurn(Frames(clip)[30].rotation, std::numbers::pi / 4, {0, 1, 0});
 }
 
@@ -180,13 +180,13 @@ TEST(GltfAnimation, BeginsAtItsFirstKeyAndEndsAtItsLastOfAllChannels) {
   EXPECT_EQ(clip.rate_hz, 10);
   const auto frames = Frames(clip);
   ASSERT_EQ(frames.size(), 4u);
-  EXPECT_EQ(frames[0].translation, glm::dvec3(0));  // held before its first key
+  EXPECT_EQ(frames[0].translation, glm::dvec3(0));  // before the first key its value holds
   EXPECT_EQ(frames[3].translation, glm::dvec3(1, 0, 0));
   EXPECT_EQ(frames[3].scale, glm::dvec3(4));
 }
 
 TEST(GltfAnimation, TakesTheRateFromWhatMoves) {
-  // Exporters give what stands still two keys, as steps.
+  // Exporters give constant values two keys with STEP.
   const Clip clip = OnlyClip(Animated({{"scale", "STEP", {0, 0.1f}, {2, 2, 2, 2, 2, 2}},
                                        {"translation", "LINEAR", {0, 0.05f, 0.1f}, {0, 0, 0, 1, 0, 0, 0, 0, 0}}}));
   EXPECT_EQ(clip.rate_hz, 20);
@@ -216,7 +216,7 @@ TEST(GltfAnimation, HasARateOfItsOwnFromATenthToTenThousand) {
 }
 
 TEST(GltfAnimation, ReadsTheKeysOfALongRecordingAsTheyStand) {
-  // After ten minutes a float knows the time no better than to 60 µs.
+  // After ten minutes a float resolves time only to 60 µs.
   std::vector<float> times, values;
   for (int k = 0; k < 72'001; ++k) {
     times.push_back(static_cast<float>(k / 120.0));
@@ -268,13 +268,13 @@ TEST(GltfAnimation, UnderstandsNormalisedIntegers) {
   const Clip clip = OnlyClip(Glb(json, binary));
   ASSERT_EQ(clip.frames.size(), 3u);
   ExpectTurn(clip.frames[1][1].rotation, std::numbers::pi / 2, {1, 0, 0});
-  EXPECT_EQ(clip.frames[2][1].rotation, glm::dquat(0, -1, 0, 0));  // −32768 is −1 as well
+  EXPECT_EQ(clip.frames[2][1].rotation, glm::dquat(0, -1, 0, 0));  // −32768 also means −1
 }
 
 TEST(GltfAnimation, OfAFileWithCompressedMeshesIsReadWithoutThem) {
   const std::vector<Curve> curves = {{"translation", "LINEAR", {0, 1}, {0, 0, 0, 0, 1, 0}}};
   const GltfContent plain = Read(Animated(curves));
-  // A primitive as Draco's writers have it: its accessors have no data of their own.
+  // A primitive compressed with Draco: its accessors have no data.
   const GltfContent content = Read(Animated(
       curves, "Move",
       R"("extensionsRequired":["KHR_draco_mesh_compression"],"extensionsUsed":["KHR_draco_mesh_compression"],"meshes":[{"primitives":[{"attributes":{"POSITION":9},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]}],)"));

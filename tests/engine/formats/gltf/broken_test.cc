@@ -177,8 +177,7 @@ TEST(BrokenGltf, MayHaveBindMatricesThatAreAffineButForAThousandth) {
 }
 
 TEST(BrokenGltf, MayLackWhatTheFormatLeavesOpen) {
-  // Bones without bind matrices, and a channel that drives no node: versions of tinygltf treat each of them
-  // differently.
+  // Bones without bind matrices, and a channel without a node; tinygltf versions treat these differently.
   const std::string no_binds = Replaced(kSmallGltf, R"(,"inverseBindMatrices":4)", "");
   EXPECT_EQ(GlbComplaint(Glb(no_binds, SmallBinary())), "read without complaint");
   const std::string twice =
@@ -205,7 +204,6 @@ TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {
   }
 }
 
-// Files that are there: a parser that had its own way to read them would find them.
 TEST(BrokenGltf, CannotReadAFileBesideItsFolder) {
   const std::filesystem::path beside = std::filesystem::path(::testing::TempDir()) / "etude_beside_its_folder.bin";
   std::ofstream(beside, std::ios::binary) << SmallBinary();
@@ -245,7 +243,7 @@ TEST(BrokenGltf, IsRefusedForSizesThatDisagree) {
               HasSubstr("found a chunk of 4294967292 bytes at byte 12; allowed: a multiple of 4"));
   EXPECT_THAT(with(12, json_bytes - 1), HasSubstr("allowed: a multiple of 4"));
   EXPECT_THAT(with(16, 7), HasSubstr("found a chunk of type 0x00000007 at byte 12; allowed here: 0x4E4F534A"));
-  // The binary chunk: one word longer than the file, then of another type.
+  // The binary chunk is one word longer than the file; then it has another type.
   EXPECT_THAT(with(20 + json_bytes, 296), HasSubstr("found a chunk of 296 bytes"));
   EXPECT_THAT(with(24 + json_bytes, 7), HasSubstr("found a chunk of type 0x00000007"));
 }
@@ -329,7 +327,7 @@ TEST(BrokenGltf, IsRefusedForMoreTrianglesThanAnyFigureHas) {
 }
 
 TEST(BrokenGltf, IsRefusedForMoreVerticesThanAnyFigureHas) {
-  // Without normals every triangle gets three vertices of its own.
+  // Without normals, each triangle gets three vertices of its own.
   const auto flat = [](std::size_t triangles) {
     const std::size_t corners = triangles + 2;
     std::string json = Replaced(kSmallGltf, R"("indices":3)", R"("indices":3,"mode":5)");
@@ -343,7 +341,7 @@ TEST(BrokenGltf, IsRefusedForMoreVerticesThanAnyFigureHas) {
   EXPECT_EQ(GlbComplaint(flat(666'666)), "read without complaint");
   EXPECT_THAT(GlbComplaint(flat(666'667)),
               HasSubstr("with it there are 2000001 vertices and 666667 triangles; allowed: 2000000 and 2000000"));
-  // Before the joints and weights of so many are looked at.
+  // The count is refused before joints and weights are read.
   constexpr std::size_t kCount = 2'000'001;
   std::string json = Replaced(kSmallGltf, R"("componentType":5126,"count":3,"type":"VEC3")",
                               fmt::format(R"("componentType":5120,"count":{},"type":"VEC3")", kCount));
@@ -365,7 +363,7 @@ TEST(BrokenGltf, IsRefusedForMoreAnimationsThanAnyoneMakes) {
 }
 
 TEST(BrokenGltf, IsRefusedForALongTailBelowACycle) {
-  // 0 → 1 → … → 199 hangs below 200 → 201 → 200.
+  // A cycle: 0 → 1 → … → 199 hangs below 200 → 201 → 200.
   std::string nodes;
   for (int i = 1; i < 200; ++i) nodes += fmt::format(R"({{"children":[{}]}},)", i);
   nodes += R"({},{"children":[0,201]},{"children":[200]})";

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// A picture of two pixels made of the first bytes of a file.
+/// Makes a picture of two pixels from a file's first bytes.
 Result<ColourImage> FirstBytes(std::string_view bytes, std::size_t max_pixels) {
   if (bytes.size() < 4 || max_pixels < 2) return Fail({}, "{} bytes, {} pixels", bytes.size(), max_pixels);
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
@@ -32,7 +32,7 @@ Result<GltfContent> ReadGlb(const std::string& bytes) {
   return read;
 }
 
-/// Puts numbers into a buffer, and tells JSON of them.
+/// Writes numbers into a buffer, and describes them in JSON.
 class PackedNumbers {
  public:
   template <typename T>
@@ -56,8 +56,8 @@ class PackedNumbers {
   int count_ = 0;
 };
 
-/// All that is read of the format in one file: strips and fans, two sets of joints, normalised and sparse numbers,
-/// matrices, a mirrored rigid mesh, every interpolation, textures, and the bones of a VRM file.
+/// Returns a file with all supported features: strips and fans, two sets of joints, normalised and sparse numbers,
+/// matrices, a mirrored rigid mesh, every interpolation, textures, and a VRM file's bones.
 PackedNumbers RichNumbers() {
   PackedNumbers packed;
   std::vector<float> places, normals, on_texture, binds(32), turns, moves, sizes;
@@ -132,7 +132,7 @@ std::string RichJson(const PackedNumbers& packed) {
          "}";
 }
 
-/// JSON texts like this one, each with a number, a text or a key that is another.
+/// Returns JSON texts, each with one number, text or key changed.
 std::vector<std::string> SpoiltJson(const std::string& json, std::uint64_t seed, int count) {
   constexpr std::array<std::string_view, 16> kNumbers = {"0",    "-1",   "1",   "2",    "3",  "7",    "1000",  "5121",
                                                          "5126", "5125", "2e9", "1e10", "[]", "null", "\"x\"", "0.5"};

@@ -24,7 +24,7 @@ SkinnedMesh OnlyMesh(const GltfContent& content) {
   return content.character.meshes.empty() ? SkinnedMesh{} : content.character.meshes[0];
 }
 
-/// A mesh of one primitive with these attributes on one node; accessors and views as given, "buffers" made to fit.
+/// Reads a mesh of one primitive with these attributes on one node; "buffers" is sized to fit.
 GltfContent ReadMesh(const std::string& primitive, const std::string& accessors, const std::string& views,
                      const std::string& binary, const std::string& node = "") {
   return Read(Glb(R"({"asset":{"version":"2.0"},"nodes":[{"name":"Node","mesh":0)" + node +
@@ -34,7 +34,7 @@ GltfContent ReadMesh(const std::string& primitive, const std::string& accessors,
                   binary));
 }
 
-/// Four corners of a square without indices, in this mode.
+/// Returns a square of four corners without indices, in this mode.
 SkinnedMesh Square(int mode, const std::string& node = "") {
   return OnlyMesh(ReadMesh(R"("attributes":{"POSITION":0,"NORMAL":1},"mode":)" + std::to_string(mode),
                            R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
@@ -66,8 +66,8 @@ TEST(GltfMesh, FollowsItsBonesNotItsNode) {
   std::vector<GlobalTransform> globals;
   ComputeGlobals(moved.character.skeleton, moved.clips.at(0).frames.at(1), globals);  // bent forward by 90°
   const DeformedMesh deformed = Deform(OnlyMesh(moved), globals);
-  EXPECT_LT(glm::length(deformed.positions[0] - glm::dvec3(0, 1, 0)), 1e-7);      // on the hips
-  EXPECT_LT(glm::length(deformed.positions[2] - glm::dvec3(0, 1.5, 0.5)), 1e-7);  // 0.5 above the spine, now before it
+  EXPECT_LT(glm::length(deformed.positions[0] - glm::dvec3(0, 1, 0)), 1e-7);      // bound to the hips
+  EXPECT_LT(glm::length(deformed.positions[2] - glm::dvec3(0, 1.5, 0.5)), 1e-7);  // 0.5 above the spine, now 0.5 ahead
 }
 
 TEST(GltfMesh, WithoutASkinHangsOnItsNode) {
@@ -100,7 +100,7 @@ TEST(GltfMesh, OfPointsOrLinesIsPassedOver) {
 }
 
 TEST(GltfMesh, HasUnitNormals) {
-  // The last of the square's normals is 2 long in the file.
+  // The last normal of the square has length 2 in the file.
   for (const auto& vertex : Square(5).vertices) EXPECT_EQ(vertex.normal, glm::dvec3(0, 0, 1));
 }
 
@@ -130,7 +130,7 @@ TEST(GltfMesh, OnAMirroredNodeKeepsItsOutside) {
   EXPECT_THAT(Square(5, R"(,"scale":[-1,1,1])").triangles, ElementsAre(Triangle{0, 2, 1}, Triangle{1, 2, 3}));
 }
 
-/// The small body with eight joints per vertex of which `weights` are the same for all three.
+/// Returns the small body with eight joints per vertex and the same weights for all three vertices.
 SkinnedMesh WithTwoSets(std::initializer_list<float> first, std::initializer_list<float> second) {
   std::string json = Replaced(kSmallGltf, R"("WEIGHTS_0":2)", R"("WEIGHTS_0":2,"JOINTS_1":7,"WEIGHTS_1":8)");
   json = Replaced(json, R"("count":3,"type":"VEC4"}],)",
@@ -169,12 +169,12 @@ TEST(GltfMesh, MakesWeightsSumToOne) {
   const SkinnedMesh mesh = OnlyMesh(Read(Glb(std::string(kSmallGltf), binary)));
   EXPECT_THAT(mesh.vertices[0].weights, ElementsAre(1, 0, 0, 0));
   EXPECT_THAT(mesh.vertices[1].weights, ElementsAre(0.25, 0.75, 0, 0));
-  EXPECT_THAT(mesh.vertices[2].weights, ElementsAre(1, 0, 0, 0));  // of no weight: on the skin's first joint
+  EXPECT_THAT(mesh.vertices[2].weights, ElementsAre(1, 0, 0, 0));  // without weight: bound to the skin's first joint
   EXPECT_THAT(mesh.vertices[2].bindings, ElementsAre(0, 0, 0, 0));
 }
 
 TEST(GltfMesh, UnderstandsSparseAccessors) {
-  // All zeros but elements 1 and 2.
+  // All zero except elements 1 and 2.
   const SkinnedMesh mesh =
       OnlyMesh(ReadMesh(R"("attributes":{"POSITION":0})",
                         R"({"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,
@@ -197,7 +197,7 @@ TEST(GltfMesh, UnderstandsQuantisedPositions) {
 }
 
 TEST(GltfMesh, IsReadFromDataWithinTheText) {
-  // Nine floats, of which the fourth and the eighth are 1.
+  // Nine floats; the fourth and the eighth are 1.
   const std::string text = R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
       "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
       "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],

@@ -32,7 +32,7 @@ Result<GltfContent> ReadModel(const std::string& name, const std::string& bytes)
   });
 }
 
-/// Joints, meshes, triangles, clips.
+/// Numbers of joints, meshes, triangles, clips.
 struct Counts {
   std::size_t joints = 0, meshes = 0, triangles = 0, clips = 0;
   friend bool operator==(const Counts&, const Counts&) = default;
@@ -64,14 +64,14 @@ const std::map<std::string, Counts> kRead = {
     {"glTF2/simple_skin/simple_skin.gltf", {3, 1, 8, 1}},
     {"glTF2/textureTransform/TextureTransformTest.gltf", {12, 12, 24, 0}},
     {"glTF2/draco/2CylinderEngine.gltf", {82, 0, 0, 0}},  // without its compressed meshes
-    // Broken only in what is not read.
+    // The damage is in a part that is not read.
     {"glTF2/wrongTypes/badExtension.gltf", {2, 1, 12, 0}},
     {"glTF2/wrongTypes/badObject.gltf", {2, 1, 12, 0}},
     {"glTF2/wrongTypes/badString.gltf", {2, 1, 12, 0}},
     {"glTF2/wrongTypes/badUint.gltf", {2, 1, 12, 0}},
 };
 
-/// Those that assimp's packages have since 5.4.
+/// Files in assimp's packages since 5.4.
 const std::map<std::string, Counts> kReadSince54 = {
     {"glTF2/simple_skin/quad_skin.glb", {22, 1, 2, 0}},
 };
@@ -99,7 +99,7 @@ const std::map<std::string, std::string> kRefused = {
 };
 // clang-format on
 
-/// The sixteen files of assimp's that show every way to draw: half of them, the lines and points, have no surface.
+/// Returns the counts of assimp's sixteen files, one per drawing mode; lines and points have no surface.
 Counts PrimitiveMode(int number) {
   const bool has_surface = (number >= 4 && number <= 6) || number >= 11;
   return has_surface ? Counts{1, 1, 2, 0} : Counts{1, 0, 0, 0};

@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using testing::Glb;
 using testing::Read;
 
-/// The skeleton of a file of these nodes; without `scenes` all of them count.
+/// Returns the skeleton of a file with these nodes; without `scenes` all nodes count.
 Skeleton SkeletonOf(const std::string& nodes, const std::string& scenes = "") {
   const std::string before = scenes.empty() ? "" : R"("scenes":)" + scenes + ",";
   return Read(Glb(R"({"asset":{"version":"2.0"},)" + before + R"("nodes":)" + nodes + "}")).character.skeleton;
@@ -111,7 +111,7 @@ TEST(GltfNodes, MakeRotationsUnit) {
 }
 
 TEST(GltfNodes, TakeMatricesApart) {
-  // Columns: X to 2Y, Y to −3X, Z to 4Z; then a shift.
+  // Columns: X to 2Y, Y to −3X, Z to 4Z; then a translation.
   const Skeleton skeleton = SkeletonOf(R"([{"matrix":[0,2,0,0,-3,0,0,0,0,0,4,0,5,6,7,1]}])");
   const LocalTransform& rest = skeleton.joints.at(0).rest;
   ExpectPlace(rest.translation, {5, 6, 7});

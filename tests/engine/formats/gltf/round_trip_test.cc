@@ -74,7 +74,7 @@ void ExpectSame(const GltfContent& found, const Character& character, const std:
   }
 }
 
-constexpr double kFloat = 2e-7;  // relative precision of a float, with the sum of a few roundings
+constexpr double kFloat = 2e-7;  // a float's relative precision with a few roundings
 
 SkinnedMesh::Vertex VertexAt(double x, double y, double z) {
   SkinnedMesh::Vertex vertex;
@@ -83,7 +83,7 @@ SkinnedMesh::Vertex VertexAt(double x, double y, double z) {
   return vertex;
 }
 
-/// A person with a skinned coat of two colours, a rigid hat and a rigid feather on one joint, under a scaled root.
+/// Returns a person with a skinned coat of two colours, and a rigid hat and feather on one joint, under a scaled root.
 Character Dressed() {
   Character person{.name = "person", .skeleton = testing::PersonSkeleton(), .materials = {}, .meshes = {}};
   person.skeleton.joints[0].rest.scale = {0.01, 0.01, 0.01};
@@ -131,7 +131,7 @@ Clip Dance(const Character& character, const std::string& name, double rate_hz, 
     testing::At(clip, k, "Hips").translation += glm::dvec3(std::sin(t), 0.1 * t, 0);
     testing::At(clip, k, "LeftArm").rotation = glm::angleAxis(2 * std::sin(3 * t), glm::normalize(glm::dvec3(1, t, 2)));
     testing::At(clip, k, "Head").scale = {1 + 0.1 * t, 1, 1};
-    testing::At(clip, k, "RightArm").rotation = glm::angleAxis(1.5, glm::dvec3(0, 0, 1));  // still, but not at rest
+    testing::At(clip, k, "RightArm").rotation = glm::angleAxis(1.5, glm::dvec3(0, 0, 1));  // constant, but not at rest
   }
   return clip;
 }
@@ -201,14 +201,14 @@ TEST(GltfRoundTrip, KeepsWhichSideOfAMirroredSurfaceIsTheOutside) {
 TEST(GltfRoundTrip, KeepsMeshesOfManyVerticesAndBones) {
   Character chain{.name = "chain", .skeleton = {}, .materials = {{"red", {1, 0, 0}}}, .meshes = {}};
   SkinnedMesh mesh{.name = "scales"};
-  constexpr int kBones = 300;  // more than a byte counts
+  constexpr int kBones = 300;  // more than a byte can count
   for (int i = 0; i < kBones; ++i) {
     chain.skeleton.joints.push_back({.name = "bone " + std::to_string(i), .parent = i == 0 ? -1 : 0, .rest = {}});
     SkinnedMesh::Binding binding;
     binding.joint = i;
     mesh.bindings.push_back(binding);
   }
-  constexpr std::uint32_t kVertices = 70'000;  // more than a short counts
+  constexpr std::uint32_t kVertices = 70'000;  // more than a short can count
   for (std::uint32_t i = 0; i < kVertices; ++i) {
     mesh.vertices.push_back(VertexAt(i * 1e-4, 0.5, 0.25));
     mesh.vertices.back().bindings[0] = static_cast<int>(i) % kBones;

@@ -23,7 +23,6 @@ std::string RawBytes(std::initializer_list<T> values) {
 
 inline std::string Floats(std::initializer_list<float> values) { return RawBytes(values); }
 
-/// Returns a GLB file of these two parts, padded as the format requires.
 inline std::string Glb(std::string json, std::string binary = "") {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   binary.resize((binary.size() + 3) / 4 * 4, '\0');
@@ -33,7 +32,7 @@ inline std::string Glb(std::string json, std::string binary = "") {
   return "glTF" + RawBytes<std::uint32_t>({2}) + size(12 + chunks.size()) + chunks;
 }
 
-/// A body of two bones in one triangle, which bows within two seconds. It is small enough to damage every part of it.
+/// A body of two bones in one triangle that bows within two seconds; small enough to damage every part.
 inline constexpr std::string_view kSmallGltf = R"({"asset":{"version":"2.0"},
 "scene":0,"scenes":[{"nodes":[0,2]}],
 "nodes":[{"name":"Hips","children":[1],"translation":[0,1,0]},{"name":"Spine","translation":[0,0.5,0]},
@@ -74,15 +73,14 @@ inline std::string SmallBinary() {
          RawBytes<std::uint8_t>({0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}) +     // joints
          Floats({1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0}) +               // weights
          RawBytes<std::uint16_t>({0, 1, 2, 0}) +                            // indices, padded
-         Floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1}) +        // from the hips, at height 1
-         Floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1.5f, 0, 1}) +     // from the spine, at 1.5
-         Floats({0, 1, 2}) +                                                // seconds
-         Floats({0, 0, 0, 1, 0.70710678f, 0, 0, 0.70710678f, 0, 0, 0, 1});  // bent by 90° and back
+         Floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1}) +        // inverse bind matrix: hips at height 1
+         Floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1.5f, 0, 1}) +     // inverse bind: spine at height 1.5
+         Floats({0, 1, 2}) +                                                // times, s
+         Floats({0, 0, 0, 1, 0.70710678f, 0, 0, 0.70710678f, 0, 0, 0, 1});  // rotations: bent by 90° and back
 }
 
 inline std::string SmallGlb() { return Glb(std::string(kSmallGltf), SmallBinary()); }
 
-/// Reads the content of a file that must be readable.
 inline GltfContent Read(const std::string& bytes, const FetchFile& fetch = {}) {
   auto content = ReadGltf(bytes, "test.glb", fetch);
   EXPECT_TRUE(content) << (content ? "" : ToString(content.error()));

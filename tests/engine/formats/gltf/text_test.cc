@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-/// Well-formed sequences of two bytes and more: first and last of every row of the Unicode standard's table 3-7.
+/// Well-formed sequences of two bytes and more: the first and last of every row of the Unicode standard's table 3-7.
 TEST(GltfText, KeepsWhatTheUnicodeStandardCallsWellFormed) {
   for (const std::string text :
        {"\xC2\xA0", "\xDF\xBF", "\xE0\xA0\x80", "\xE0\xBF\xBF", "\xE1\x80\x80", "\xEC\xBF\xBF", "\xED\x80\x80",
@@ -24,7 +24,7 @@ TEST(GltfText, ReplacesEveryByteOfWhatLiesJustBeyond) {
         "\xF5\x80\x80\x80", "\xE1\x7F", "\xE1\xC0", "\xE1\x80", "\x1F", "\x7F"}) {
     std::string expected;
     for (char byte : text) expected += byte >= 0x20 && byte < 0x7F ? byte : '?';
-    // 0x7F is a control character although its highest bit is not set.
+    // 0x7F is a control character below 0x80.
     EXPECT_EQ(GltfText(text), expected) << ::testing::PrintToString(text);
   }
 }

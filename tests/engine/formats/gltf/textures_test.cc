@@ -18,7 +18,7 @@ using testing::SmallBinary;
 
 constexpr std::string_view kPng = "\x89PNG of two pixels", kOther = "RIFF of another kind";
 
-/// As wide as `max_pixels` allows at least two.
+/// Decodes kPng to two pixels if `max_pixels` allows it.
 Result<ColourImage> TwoPixels(std::string_view bytes, std::size_t max_pixels) {
   if (max_pixels < 2) return Fail({}, "too many pixels");
   if (bytes != kPng) return Fail({}, "a damaged PNG picture: {} bytes", bytes.size());
@@ -27,7 +27,7 @@ Result<ColourImage> TwoPixels(std::string_view bytes, std::size_t max_pixels) {
   return picture;
 }
 
-/// The small figure whose coat has places on a texture; `material` and what else of the JSON `more` tells.
+/// Returns the small figure with texture coordinates; `more` is further JSON, such as materials.
 std::string Textured(const std::string& more, std::string_view picture, const std::string& factor = "[1,1,1,1]",
                      const std::string& info = R"({"index":0})") {
   std::string binary = SmallBinary() + Floats({0, 0, 1, 0, 0.5f, 2});
@@ -92,7 +92,7 @@ TEST(GltfTextures, AreReadFromFilesBesideAndFromUris) {
     return std::string(kPng);
   };
   EXPECT_TRUE(OnlyMaterial(Textured(R"("images":[{"uri":"coat.png"}],)", "unused"), fetch).texture);
-  // What is not there leaves the plain colour: motion alone may be wanted.
+  // A missing texture leaves the plain colour, because motion alone may be wanted.
   EXPECT_FALSE(OnlyMaterial(Textured(R"("images":[{"uri":"gone.png"}],)", "unused"), fetch).texture);
   EXPECT_FALSE(OnlyMaterial(Textured(R"("images":[{"uri":"../coat.png"}],)", "unused"), fetch).texture);
   EXPECT_TRUE(
@@ -123,7 +123,7 @@ TEST(GltfTextures, ACapOnAllPixelsIsHandedToWhoDecodes) {
   std::size_t told = 0;
   const auto decode = [&](std::string_view, std::size_t most) -> Result<ColourImage> {
     told = most;
-    return ColourImage(9'000, 8'000);  // who decodes does not keep to it
+    return ColourImage(9'000, 8'000);  // a decoder that ignores the limit
   };
   const auto content = ReadGltf(Textured(kWithin, kPng), "test.glb", {}, decode);
   EXPECT_EQ(told, 64'000'000u);

@@ -12,7 +12,6 @@
 namespace etude {
 namespace {
 
-/// Sums of many runs.
 struct Runs {
   std::array<int, 5> ends{};  ///< by IkStatus
   int iterations = 0, evaluations = 0;
@@ -26,7 +25,7 @@ struct Runs {
       off_m += error.position;
       for (int i = 0; i < 3; ++i) off_rad += error.axis_angles[i];
     }
-    double sign = 1;  // so that one angle does not make up for the next
+    double sign = 1;  // alternating weights, so that errors of two angles do not cancel
     for (const double angle : solution.angles) angles += (sign = -0.9 * sign) * angle;
     for (const IkTraceEntry& entry : solution.trace) traced += entry.worst_position + entry.worst_mean_axis;
   }
@@ -41,7 +40,7 @@ struct Runs {
   }
 };
 
-// A body off by 15°, one end of which is out of the way, and whose targets do not all count.
+// A start 15° off, with uneven weights; in trial 3 an end is out of the way.
 IkProblem UnevenBodyProblem(int trial) {
   IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.9), trial, 15);
   problem.targets[trial % 4].axis_weights = {0.5, 0, 2};
@@ -72,7 +71,7 @@ Runs OnAnyTree(const IkSolver& solver, bool by_default) {
     const auto made = MakeRandomProblem(trial);
     if (!made) continue;
     IkOptions options = made->options;
-    // Extrapolation makes much of rounding where nothing moves any more.
+    // Near convergence, extrapolation amplifies rounding.
     options.max_iterations = 1 + trial % (solver.name == "ccd-anderson" ? 5 : 18);
     options.trace = trial % 4 == 1;
     if (!by_default) {

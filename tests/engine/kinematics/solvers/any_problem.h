@@ -16,10 +16,9 @@ inline IkOptions Tightly(int max_iterations = 1000) {
   return options;
 }
 
-/// Statistics of many trials.
 struct SolvedMany {
   int solved = 0, outside = 0;
-  double hidden = 0;  ///< root of the mean squared angle to the truth, in units of the noise
+  double hidden = 0;  ///< root mean square angle error, in units of the noise
   double iterations = 0;
 };
 
@@ -47,8 +46,7 @@ SolvedMany SolveMany(int trials, double pose_range, double noise_deg, const Solv
 using SolverOnTrial =
     std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, int trial)>;
 
-/// Runs random problems, some of which have a solution. Expects that angles stay within their ranges and that the
-/// status is true.
+/// Runs random problems, some solvable. Checks that angles stay within their ranges and that the status is true.
 inline void ExpectHonestAnswersToAnyProblem(const SolverOnTrial& solve) {
   int converged = 0;
   for (int trial = 0; trial < 500; ++trial) {
@@ -72,8 +70,8 @@ inline void ExpectHonestAnswersToAnyProblem(const SolverOnTrial& solve) {
   EXPECT_LT(converged, 450);
 }
 
-/// Runs problems with a body of some 100 km, a target beyond its reach, and weights from nearly nothing to a million.
-/// Expects finite answers.
+/// Runs problems with a body of some 100 km, a target beyond its reach, and weights from nearly zero to a million.
+/// Checks that answers are finite.
 inline void ExpectFiniteAnswersAtAbsurdSizes(const SolverOnTrial& solve, const IkOptions& options) {
   KinematicTree tree = Body();
   for (TreeJoint& joint : tree.joints) joint.p_PJ *= 1e5;

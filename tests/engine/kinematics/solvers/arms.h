@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Returns a chain of limbs along Z; its first joint is 1 m from the root. With one degree of freedom per joint, the
-/// chain lies in the plane of Y and Z, where positive angles rotate Z towards −Y.
+/// Returns a chain of limbs along Z whose first joint is 1 m from the root. With one degree of freedom per joint, it
+/// lies in the plane of Y and Z; positive angles rotate Z towards −Y.
 inline KinematicTree Arm(const std::vector<double>& lengths, int dofs) {
   KinematicTree arm{.joints = {{.name = "root"}}};
   double above = 1;

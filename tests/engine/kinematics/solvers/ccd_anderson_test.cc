@@ -37,7 +37,7 @@ TEST(CcdAnderson, NeedsFarFewerSweepsThanPlainOnes) {
   };
   EXPECT_GT(ratio(Options(WeightRule::kFixedTuned)), 4);
   EXPECT_GT(ratio(Options(WeightRule::kAdaptivePower)), 3);
-  // Weights that moments cannot carry.
+  // These weights cannot use the moment form of the sweep.
   EXPECT_GT(ratio(Options(WeightRule::kWangChen)), 3);
   IkOptions at_every_dof = Options(WeightRule::kAdaptivePower);
   at_every_dof.refresh = WeightRefresh::kDof;
@@ -51,7 +51,7 @@ TEST(CcdAnderson, GainsFromMemory) {
   EXPECT_LT(sweeps(5), sweeps(1));
 }
 
-/// The largest turn of a plain sweep from these angles.
+/// Returns the largest turn of a plain sweep from these angles.
 double NextTurn(IkProblem problem, const std::vector<double>& angles, const IkOptions& options) {
   problem.start.angles = angles;
   return CcdSweep(Body(), problem, options, CcdJoint::kHinges).Sweep();
@@ -60,7 +60,7 @@ double NextTurn(IkProblem problem, const std::vector<double>& angles, const IkOp
 TEST(CcdAnderson, RestsWherePlainSweepsRest) {
   for (const WeightRule rule : {WeightRule::kFixedTuned, WeightRule::kAdaptivePower, WeightRule::kWangChen}) {
     IkOptions options = Options(rule);
-    options.position_goal = options.axis_goal = 0;  // on to the fixed point
+    options.position_goal = options.axis_goal = 0;  // run to the fixed point
     options.stall_change = 1e-8;
     for (int trial = 0; trial < 3; ++trial) {
       const IkProblem problem = Problem(trial);
@@ -88,13 +88,13 @@ TEST(CcdAnderson, NeverRaisesWhatSweepsLower) {
       EXPECT_LE(merit, last * (1 + 1e-9) + 1e-14);
       last = merit;
     }
-    // One pass for the start, one a sweep, and one more for each that was dropped.
+    // Passes: one for the start, one per sweep, and one per dropped extrapolation.
     dropped += solution.fk_evaluations - solution.iterations - 1;
   }
   EXPECT_GT(dropped, 0) << "no extrapolation had to be dropped: nothing was tested";
 }
 
-// There tan((q − middle) / 2) has its pole.
+// At half a turn, tan((q − middle) / 2) has its pole.
 TEST(CcdAnderson, TurnsAFreeAngleByHalfATurn) {
   IkOptions options = Options(WeightRule::kFixedTuned);
   options.limits = false;
@@ -144,7 +144,7 @@ Eigen::VectorXd Extrapolate(AndersonMixing& mixing, const Eigen::VectorXd& x, co
   return out;
 }
 
-// The same by Eigen, from all pairs up to now.
+// The same extrapolation by Eigen, from all pairs so far.
 Eigen::VectorXd ByQr(const Vectors& xs, const Vectors& gs, int memory) {
   const int last = static_cast<int>(xs.size()) - 1, count = std::min(memory, last);
   if (count == 0) return gs[last];
@@ -171,7 +171,7 @@ TEST(AndersonMixing, SolvesItsLeastSquaresAsEigenDoes) {
   }
 }
 
-// Where g is linear, n + 1 pairs of n numbers know the fixed point (Walker and Ni 2011, theorem 2.2).
+// For a linear g, n + 1 pairs of n numbers determine the fixed point (Walker and Ni 2011, theorem 2.2).
 TEST(AndersonMixing, FindsTheFixedPointOfALinearMapInAsManyStepsAsItHasDimensions) {
   constexpr int kSize = 4;
   RandomStream random({.suite_seed = 3, .scenario = "anderson-test", .trial = 0}, "map");

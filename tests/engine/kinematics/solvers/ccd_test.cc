@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-// What a sweep with fixed weights makes smaller: Σ w_p |P_d − P_c|² + Σ w_o |u_d − u_c|².
+// Returns the quantity that a sweep with fixed weights reduces: Σ w_p |P_d − P_c|² + Σ w_o |u_d − u_c|².
 double Penalty(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles, WeightRule rule) {
   const EffectorWeights weights = ComputeWeights(rule, 0, glm::dvec3(0));
   const TreeFrames frames =
@@ -32,7 +32,7 @@ double Penalty(const KinematicTree& tree, const IkProblem& problem, std::span<co
   return penalty;
 }
 
-// The largest rise of the penalty from one sweep to the next, relative to where it stood.
+// Returns the penalty's largest relative rise from one sweep to the next.
 double LargestRise(CcdJoint joint_kind, bool limits) {
   double largest = -1;
   for (int trial = 0; trial < 10; ++trial) {
@@ -73,8 +73,8 @@ TEST(Ccd, AHingeInReachOfItsTargetNeedsOneSweep) {
   }
 }
 
-// Position and axes pull a hinge of lever 0.5 m to different angles α and β: the gain w_p r d cos(φ − α) + 2 w_o
-// cos(φ − β), since two of the axes turn, is largest between them.
+// Position and axes pull a hinge of lever 0.5 m to the angles α and β. Two of the axes turn, so the optimum maximises
+// w_p r d cos(φ − α) + 2 w_o cos(φ − β).
 TEST(Ccd, EveryWeightPullsAHingeAsItsFormulaSays) {
   KinematicTree arm = Arm({0.5}, 1);
   constexpr double kLever = 0.5, kDistance = 0.8, kAlpha = 0.9, kBeta = -0.6;
@@ -84,7 +84,7 @@ TEST(Ccd, EveryWeightPullsAHingeAsItsFormulaSays) {
       100 * std::sqrt(kLever * kLever + kDistance * kDistance - 2 * kLever * kDistance * std::cos(kAlpha));
   struct Row {
     WeightRule rule;
-    double position, axis;  // per cm²; axis 0 stays where it is, so its own weight turns nothing
+    double position, axis;  // weights per cm²; axis 0 is the hinge's, so its weight turns nothing
   };
   for (const Row& row : {Row{WeightRule::kFixed, 1, 1}, Row{WeightRule::kFixedTuned, 0.0015, 1},
                          Row{WeightRule::kAdaptive, apart_cm, Degrees(-kBeta)},
@@ -153,13 +153,13 @@ TEST(Ccd, RefreshingFixedWeightsChangesNoBit) {
   }
 }
 
-// Where every joint is a hinge, anew for each degree of freedom is anew for each joint.
+// If every joint is a hinge, refreshing per degree of freedom equals refreshing per joint.
 TEST(Ccd, RefreshingPerHingeIsRefreshingPerJointOnAChainOfHinges) {
   const KinematicTree arm = Arm({0.5, 0.4, 0.3}, 1);
   const IkProblem problem = Reach(arm, {0.3, 0.2, -0.4}, {0, 0.5, 1.2});
   for (const auto& solve : {SolveCcd, SolveCcdHinges}) {
     const auto angles = [&](WeightRefresh refresh) {
-      IkProblem turned = problem;  // with axes, or weights would scale the gain and move no optimum
+      IkProblem turned = problem;  // axes are needed: with positions alone, weights only scale the gain
       turned.targets[0].axis_weights = glm::dvec3(1);
       turned.targets[0].axes = RotationXyz({0.8, 0, 0}) * arm.standing_root;
       IkOptions options{.weights = WeightRule::kAdaptive, .max_iterations = 4};
@@ -182,7 +182,7 @@ TEST(Ccd, TheOrderInWhichEffectorsAreListedDoesNotMatter) {
   for (std::size_t i = 0; i < listed.angles.size(); ++i) EXPECT_NEAR(listed.angles[i], swapped.angles[i], 1e-9);
 }
 
-// Tables 3.3 and 5.1: with untuned fixed weights positions come right and axes stay off; updated weights bring both.
+// Tables 3.3 and 5.1: untuned fixed weights meet positions but not axes; updated weights meet both.
 TEST(Ccd, UpdatedWeightsBringTheAxesHomeThatFixedOnesLeaveOff) {
   for (int trial = 0; trial < 4; ++trial) {
     const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 15);
@@ -201,7 +201,7 @@ struct Pair {
   glm::dvec3 current, desired;
 };
 
-// g from its meaning: what the weighted dot products are after really turning.
+// A second implementation of g: the weighted dot products after the rotation.
 double GainAfter(const std::vector<Pair>& pairs, const glm::dvec3& axis, double phi) {
   double gain = 0;
   for (const Pair& p : pairs) gain += p.weight * glm::dot(p.desired, AxisRotation(axis, phi) * p.current);
@@ -271,7 +271,7 @@ TEST(HingeGain, TheOptimumCountsModuloAFullTurn) {
 
 TEST(HingeGain, ATieBetweenBothEndsGoesToTheLowerOne) {
   HingeGain gain;
-  gain.Add(1, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1});  // half a turn away: both ways are as good
+  gain.Add(1, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1});  // half a turn: both directions are equal
   EXPECT_EQ(gain.OptimumWithin({-0.5, 0.5}), -0.5);
 }
 

@@ -19,7 +19,7 @@ IkProblem PosedProblem(int trial, double noise_deg) {
   return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, noise_deg);
 }
 
-/// What it says it minimises.
+/// Returns the sum that the solver claims to minimise.
 double Sum(const IkProblem& problem, const std::vector<double>& angles) {
   TreeState state = problem.start;
   state.angles = angles;
@@ -37,7 +37,7 @@ double Sum(const IkProblem& problem, const std::vector<double>& angles) {
   return sum;
 }
 
-// A wrong Jacobian would still come home, by many small steps.
+// A wrong Jacobian would still converge, in many small steps.
 TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
   constexpr int kTrials = 40;
   for (const glm::dvec3& weights : {glm::dvec3(1), glm::dvec3(0, 0, 1), glm::dvec3(1, 2, 3)}) {
@@ -59,8 +59,7 @@ TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
   }
 }
 
-/// The residuals of one whole frame: the gap in units of 0.30 m, and twice √2 the vector part of the quaternion between
-/// the axes.
+/// Returns the residuals of a whole frame: the gap in units of 0.30 m, and 2√2 times the vector part of the rotation.
 Eigen::VectorXd ResidualsOfFrame(const KinematicTree& arm, const IkProblem& problem, const Eigen::VectorXd& angles) {
   TreeState state = problem.start;
   state.angles.assign(angles.begin(), angles.end());
@@ -73,8 +72,8 @@ Eigen::VectorXd ResidualsOfFrame(const KinematicTree& arm, const IkProblem& prob
   return Eigen::VectorXd{{gap.x, gap.y, gap.z, scale * turn.x, scale * turn.y, scale * turn.z}};
 }
 
-// Second implementation: the Jacobian by differences, and a dense solution of (JᵀJ + 1/radius) step = −Jᵀr. Far from
-// the target, where all terms of the derivative count.
+// A second implementation far from the target, where all terms matter: the Jacobian by differences, and a dense
+// solution of (JᵀJ + 1/radius) step = −Jᵀr.
 TEST(CeresLm, BeginsWithTheStepOfTheDampedNormalEquations) {
   const KinematicTree arm = Arm({0.5, 0.4}, 3);
   IkOptions options{.limits = false, .max_iterations = 1};
@@ -159,7 +158,7 @@ TEST(CeresLm, BeginsWithinTheLimits) {
 TEST(CeresLm, SaysNothing) {
   ::testing::internal::CaptureStderr();
   ::testing::internal::CaptureStdout();
-  // Next to no damping: Ceres fails to take steps, and says so.
+  // With almost no damping, Ceres fails to make steps, and reports it.
   for (int trial = 0; trial < 5; ++trial)
     SolveCeresLm(Body(), PosedProblem(trial, 60), {.position_goal = 1e-12}, {.first_radius = 1e16});
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");

@@ -18,7 +18,7 @@ struct Linearised {
   Eigen::VectorXd residuals, preferred, step;
 };
 
-// The step and what it is made of, at a random pose of the body.
+// Returns a step at a random pose of the body, and its inputs.
 Linearised StepAt(int trial, double noise_deg, double damping) {
   const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.8), trial, noise_deg);
   LinearTargets linear(Body(), problem.targets);
@@ -86,7 +86,7 @@ TEST(DampedInverse, SaysWhenThereIsNone) {
   for (const double turn : step) EXPECT_EQ(turn, 0) << "and nothing pulls it sideways";
 }
 
-// A step within limits at a pose of the joints' whole ranges, what it is made of, and Step's, clamped.
+// A step within limits at a random pose, its inputs, and the clamped result of Step.
 struct StepWithinLimits {
   IkProblem problem;
   std::vector<double> preferred, step, clamped;
@@ -120,7 +120,7 @@ double Objective(const StepWithinLimits& made, double damping, const std::vector
   return (made.jacobian * taken - made.residuals).squaredNorm() + damping * (taken - wish).squaredNorm();
 }
 
-// One angle at a time, each to its best place within its range: slow, and free of any active set.
+// A second implementation: minimises one angle at a time within its range; slow, but without an active set.
 std::vector<double> ByCoordinateDescent(const StepWithinLimits& made, double damping) {
   std::vector<double> step(29, 0.0);
   Eigen::VectorXd left = made.residuals;
@@ -153,7 +153,7 @@ TEST(DampedInverse, StepsWithinLimitsAsCoordinateDescentDoes) {
   EXPECT_GE(beside, 20) << "clamping must show";
 }
 
-// The same optimum by Featherstone's elimination along the limbs, which knows no matrix of the whole body.
+// The same optimum by Featherstone's elimination along the limbs, which needs no matrix of the whole body.
 TEST(DampedInverse, StepsWithinLimitsAsGaussNewtonStepDoes) {
   for (const double damping : {1e-3, 0.1, 1.0}) {
     int both = 0, held = 0;
@@ -216,7 +216,7 @@ TEST(DampedInverse, TellsWhatAStepGainsToFirstOrder) {
   EXPECT_GT(gain, 0);
 }
 
-// Angles that cannot move leave the others too few for three coordinates: undamped, nothing solves that.
+// With fixed angles, fewer than three remain for three coordinates: without damping there is no solution.
 TEST(DampedInverse, SaysWhenLimitsLeaveNoStep) {
   const KinematicTree arm = Arm({0.5, 0.4}, 3);
   const IkProblem problem = Reach(arm, {0, 0, 0, 0.5, 0, 0}, {0.02, -0.17, 1.82});

@@ -16,7 +16,7 @@ double Worst(const IkSolution& solution, const IkProblem& problem) {
   return FindWorst(solution.errors, problem.targets).position;
 }
 
-// The body's problem without axes, which FABRIK does not see.
+// Returns the body's problem without axes, which FABRIK ignores.
 IkProblem PositionProblem(const KinematicTree& tree, int trial, double share, double noise_deg) {
   IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, share), trial, noise_deg);
   for (EffectorTarget& target : problem.targets) target.axis_weights = glm::dvec3(0);
@@ -28,7 +28,7 @@ TEST(FabrikPass, DoesToAChainWhatThePaperWrites) {
   const KinematicTree arm = Arm(lengths, 3);
   IkProblem problem = Reach(arm, {0.3, 0.2, 0, -0.4, 0.1, 0.2, 0.5, -0.3, 0, 0.2, 0.2, 0}, {0.6, -0.3, 1.4});
   TreeFrames frames = ComputeFrames(arm, problem.start);
-  // Aristidou and Lasenby 2011, algorithm 1, on bare points.
+  // Aristidou and Lasenby 2011, algorithm 1, on points alone.
   std::vector<glm::dvec3> p;
   for (std::size_t j = 1; j < arm.joints.size(); ++j) p.push_back(frames.joints[j].position);
   p.push_back(frames.effectors[0].position);

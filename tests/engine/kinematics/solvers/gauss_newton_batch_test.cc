@@ -12,8 +12,7 @@
 namespace etude {
 namespace {
 
-// Poses near the limits, whose starts are far off or whose targets cannot be met: some need extra passes, restarts and
-// all that comes after these.
+// Poses near the limits with distant starts or impossible targets; some need extra passes and restarts.
 std::vector<IkProblem> HardProblems(int count) {
   std::vector<IkProblem> problems;
   for (int trial = 0; trial < count; ++trial) {
@@ -76,7 +75,7 @@ TEST(GaussNewtonBatch, InDoubleIsTheSolverOfOneProblemToTheLastBit) {
   EXPECT_GT(out_of_reach, 10);
 }
 
-// Limbs in lanes, the trunk by rows, and one number after the other, by every kind of vectors.
+// Compares limbs in lanes, the trunk by rows, and scalar code, for every vector instruction set.
 TEST(GaussNewton, IsTheSolverOneWouldWriteDownToTheLastBit) {
   const std::vector<IkProblem> problems = HardProblems(61);
   IkOptions bound = Tightly(200);
@@ -121,7 +120,7 @@ TEST(GaussNewton, IsThatSolverOnAnyTree) {
   EXPECT_GT(compared, 100);
 }
 
-// Trees of any shape: joints that turn no axes into others, several effectors on a limb, limbs without any.
+// Trees of any shape: joints that share no axes, several effectors on a limb, limbs without effectors.
 TEST(GaussNewtonBatch, IsTheSolverOfOneProblemOnAnyTree) {
   int compared = 0;
   for (int trial = 0; trial < 300; ++trial) {

@@ -46,7 +46,7 @@ TEST(GaussNewton, SolvesHardProblems) {
   EXPECT_EQ(cold.outside, 0);
 }
 
-// The largest change that a further step towards the start would make: none at the nearest solution.
+// Returns the largest change of a further step towards the start, which is zero at the nearest solution.
 double LeftToGain(const IkProblem& problem, const IkSolution& solution) {
   TreeState state = problem.start;
   state.angles = solution.angles;
@@ -74,7 +74,7 @@ TEST(GaussNewton, FindsTheNearestSolutionToTheStart) {
   EXPECT_LE(nearest_of_other, 25) << "a solver that does not look for it must show";
 }
 
-// Starts near the truth, poses of the joints' whole ranges: many angles are at their limits.
+// Starts near the truth, with poses over the whole ranges: many angles are at their limits.
 TEST(GaussNewton, ExtraPassesOfItsActiveSetBringItNearerToTheStartInFewerSteps) {
   const auto count_far = [](const GaussNewtonOptions& own) {
     int far = 0;
@@ -127,12 +127,11 @@ TEST(GaussNewton, StretchesALimbTowardsATargetOutOfReach) {
   IkProblem problem{StandingState(arm), {{.position = {2, 1, 3}, .axis_weights = glm::dvec3(0)}}, arm.limits};
   const IkSolution solution = SolveGaussNewton(arm, problem, Tightly());
   EXPECT_EQ(solution.status, IkStatus::kUnreachable);
-  // The first limb has no joint below it and stands; the others are three, half a metre each.
+  // The first limb has no joint below it and is fixed; the other three are half a metre each.
   const double nearest = glm::length(glm::dvec3(2, 1, 3) - glm::dvec3(0, 0, 0.5)) - 1.5;
   EXPECT_NEAR(solution.errors[0].position, nearest, 1e-6);
 }
 
-// How far angles are from the targets, by the solver's own measure.
 double SquaresAt(const IkProblem& problem, std::span<const double> angles) {
   TreeState state = problem.start;
   state.angles.assign(angles.begin(), angles.end());
@@ -151,7 +150,7 @@ TEST(GaussNewton, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
     for (std::size_t d = 0; d < solution.angles.size(); ++d) {
       EXPECT_TRUE(solution.angles[d] >= Body().limits[d].lower && solution.angles[d] <= Body().limits[d].upper);
     }
-    // No longer run finds a nearer pose from here.
+    // A longer run from here finds no nearer pose.
     IkProblem from_there = problem;
     from_there.start.angles = solution.angles;
     const double found = SquaresAt(problem, solution.angles);
@@ -161,8 +160,7 @@ TEST(GaussNewton, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
   EXPECT_GE(unsolved, 10) << "else nothing was checked";
 }
 
-// The share of frames that are solved along motions of which the first pose is far off; every frame begins at the
-// answer to the one before.
+// Returns the share of solved frames of motions whose first pose is far off; each frame starts from the last answer.
 double ShareFollowed(int max_iterations) {
   constexpr int kMotions = 120, kFrames = 60;
   int solved = 0;
@@ -192,8 +190,8 @@ double ShareFollowed(int max_iterations) {
 
 TEST(GaussNewton, FollowsAMotionWithFewIterationsAFrameAndTheBetterTheMoreItHas) {
   double fewer = 0;
-  // Of these, 0.8625, 0.9485, 0.983, 0.988 and 0.9985 are; of 400 motions 0.858, 0.946, 0.979, 0.988 and 0.9985. Any
-  // 40 motions make a test of luck: ten lots of 40 lie between 0.80 and 0.92 with three iterations.
+  // These motions give 0.8625, 0.9485, 0.983, 0.988 and 0.9985; 400 motions give 0.858, 0.946, 0.979, 0.988 and 0.9985.
+  // Other sets of 40 motions vary between 0.80 and 0.92 with three iterations.
   for (const auto& [budget, at_least] : {std::pair(3, 0.86), {5, 0.945}, {10, 0.98}, {20, 0.985}, {50, 0.998}}) {
     const double share = ShareFollowed(budget);
     EXPECT_GE(share, at_least) << budget;

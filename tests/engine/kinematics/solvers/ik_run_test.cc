@@ -18,7 +18,7 @@ struct Trial {
   IkOptions options;
 };
 
-// All effectors as far off as this, metres and radians.
+// Returns equal errors for all effectors, metres and radians.
 std::vector<EffectorError> ErrorsOf(double position, double axis) {
   return std::vector<EffectorError>(4, {position, glm::dvec3(axis)});
 }
@@ -64,7 +64,7 @@ TEST(IkRun, GoesOnWhileOneAxisIsOffAndTracesTheMeanToo) {
   EXPECT_EQ(solution.trace[1].worst_axis, Radians(0.09));
 }
 
-// Frames of which one limb is twisted about itself: two of its axes move, its own stays.
+// One limb is twisted about its axis: two of its frame's axes move, one stays.
 TEST(IkRun, SeesATwistedLimbByItsFramesToo) {
   const Trial trial;
   TreeState truth = RandomPose(trial.tree, 1, 0.5);
@@ -200,7 +200,7 @@ TEST(Restarts, BeginAtOtherPosesAroundTheStartWithinTheRanges) {
   EXPECT_EQ(std::ranges::adjacent_find(poses), poses.end()) << "each is a try of its own";
 }
 
-// Where no range cuts it off, every tenth of the 3 rad gets about a tenth of many numbers.
+// Where no limit cuts the interval of 3 rad, each tenth of it gets a tenth of the numbers.
 TEST(Restarts, AreSpreadEvenly) {
   const std::vector<AngleRange> wide(6, {-100, 100});
   const std::vector<double> start = {0, 0.3, -0.7, 1.1, 2, -2};

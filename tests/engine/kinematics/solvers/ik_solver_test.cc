@@ -14,9 +14,9 @@
 namespace etude {
 namespace {
 
-// A near pose: noise that every solver gets rid of.
+// A near pose, which every solver must recover.
 IkProblem NearProblem(int trial) { return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 3); }
-// A far one, near its limits.
+// A far pose near the limits.
 IkProblem FarProblem(int trial) { return DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 30); }
 
 IkOptions PatientOptions() {
@@ -32,7 +32,7 @@ class EverySolver : public ::testing::TestWithParam<std::string> {
 
   bool uses_axes() const { return FindIkSolver(GetParam())->uses_axes; }
 
-  // The problem without what the solver does not see.
+  // Returns the problem without the parts that the solver ignores.
   IkProblem AsSeen(IkProblem problem) const {
     if (uses_axes()) return problem;
     for (EffectorTarget& target : problem.targets) target.axis_weights = glm::dvec3(0);
@@ -46,7 +46,7 @@ TEST_P(EverySolver, BringsTheEffectorsHome) {
     const IkSolution solution = Solve(problem, PatientOptions());
     ASSERT_EQ(solution.status, IkStatus::kConverged) << trial;
     EXPECT_GT(solution.iterations, 0);
-    // Judged by forward kinematics of our own, not by the solver's word.
+    // Judged by this test's own forward kinematics, not by the solver's status.
     const TreeFrames found =
         ComputeFrames(Body(), {problem.start.root_position, problem.start.root_frame, solution.angles});
     for (std::size_t e = 0; e < problem.targets.size(); ++e) {
@@ -84,7 +84,6 @@ TEST_P(EverySolver, AnswersManyAsItAnswersEach) {
   }
 }
 
-// Whatever it was asked before, bad problems and other options included.
 TEST_P(EverySolver, AnswersPreparedAsItAnswersEach) {
   const auto prepared = Prepare(*FindIkSolver(GetParam()), Body());
   IkProblem bad = FarProblem(0);
@@ -151,7 +150,7 @@ TEST_P(EverySolver, FollowsDirectionsAloneWhenOtherAxesHaveNoWeight) {
   IkProblem problem = NearProblem(2);
   for (EffectorTarget& target : problem.targets) {
     target.axis_weights = {0, 0, 1};
-    // X and Y lie: turned about Z by a right angle.
+    // X and Y are wrong: turned about Z by a right angle.
     target.axes = {target.axes[1], -target.axes[0], target.axes[2]};
   }
   const IkSolution solution = Solve(problem, PatientOptions());
@@ -306,10 +305,9 @@ TEST(Solvers, TakeTheSettingsThatTheyDescribe) {
       EXPECT_NE(solver.solve(Body(), FarProblem(1), changed).angles, angles) << solver.name << ", " << setting.key;
     }
   }
-  EXPECT_GE(settings, 8);  // or it asked none
+  EXPECT_GE(settings, 8);  // or no solver had settings
 }
 
-// What the documentation of scenarios promises: these values are taken, and none beyond.
 TEST(Solvers, TakeSettingsInTheRangesThatAreDocumented) {
   struct Range {
     std::string solver, key;

@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-// The sum of squares after every iteration of `solution`, which is traced.
+// Returns the sum of squares after every iteration of a traced solution.
 std::vector<double> CostsOf(const IkProblem& problem, const IkSolution& solution) {
   const LinearTargets linear(Body(), problem.targets);
   std::vector<double> costs;
@@ -35,7 +35,7 @@ TEST(DampedLeastSquares, ItsFirstStepSolvesTheNormalEquations) {
     IkOptions options{.limits = false, .max_iterations = 1};
     const IkSolution solution = SolveDampedLeastSquares(Body(), problem, options, {.first_damping = 0.1});
 
-    // The other way round: (JᵀJ + λI) Δq = Jᵀe, of 29 unknowns.
+    // A second form: (JᵀJ + λI) Δq = Jᵀe with 29 unknowns.
     LinearTargets linear(Body(), problem.targets);
     linear.Build(ComputeFrames(Body(), problem.start));
     const Eigen::Map<const Eigen::MatrixXd> jacobian(linear.jacobian().data(), linear.rows(), linear.columns());
@@ -65,11 +65,11 @@ TEST(DampedLeastSquares, TurnsAHingeByDampedStepsOfBoundedLength) {
 TEST(DampedLeastSquares, StallsOnlyOnceAStepGainsNextToNothing) {
   const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), 3, 0.5), 3, 30);
   IkOptions options;
-  options.angle_change_tolerance = Radians(4);  // nothing that meets the targets is so near
+  options.angle_change_tolerance = Radians(4);  // no pose this near meets the targets
   options.trace = true;
   const IkSolution solution = SolveDampedLeastSquares(Body(), problem, options);
   EXPECT_EQ(solution.status, IkStatus::kStalled);
-  std::vector<double> gains;  // of each step that was taken, as parts of the sum
+  std::vector<double> gains;  // relative decrease of the sum in each accepted step
   double before = 0;
   for (const double cost : CostsOf(problem, solution)) {
     if (cost < before) gains.push_back((before - cost) / before);
@@ -98,7 +98,7 @@ TEST(DampedLeastSquares, NeverRaisesTheSumOfSquaresWithOrWithoutAnActiveSet) {
   EXPECT_GT(at_ends, 100) << "else no bound was put to the test";
 }
 
-// Where limits bind nothing the two are one method, but for how long steps are shortened.
+// Far from the limits both methods are equal, except for how long steps are shortened.
 TEST(DampedLeastSquares, StepsAlikeWithAndWithoutAnActiveSetFarFromTheLimits) {
   for (int trial = 0; trial < 10; ++trial) {
     const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 3);
@@ -112,7 +112,7 @@ TEST(DampedLeastSquares, StepsAlikeWithAndWithoutAnActiveSetFarFromTheLimits) {
 
 TEST(JacobianPinv, FindsTheAnglesOfAnElbowByTheLawOfCosines) {
   KinematicTree arm = Arm({0.5, 0.4}, 1);
-  arm.joints[1].dof_count = 2;  // out of the plane, too: three angles for three coordinates
+  arm.joints[1].dof_count = 2;  // it also leaves the plane: three angles for three coordinates
   arm.joints[2].first_dof = 2;
   arm.limits.push_back({-kPi, kPi});
   for (const double elbow : {0.4, 1.2, 2.2}) {
@@ -134,7 +134,7 @@ TEST(JacobianPinv, NeedsDampingWhereLimbsCannotLeaveAPlane) {
 }
 
 TEST(JacobianPinv, StallsWhereTheInverseDoesNotExist) {
-  // Figure 3.8: a limb stretched, its target on its own line.
+  // Figure 3.8: a stretched limb with its target on its own line.
   const KinematicTree arm = Arm({0.5, 0.4}, 3);
   const IkProblem problem = Reach(arm, std::vector<double>(6, 0.0), {0, 0, 1.5});
   for (const double damping : {0.0, 0.1}) {
@@ -143,7 +143,7 @@ TEST(JacobianPinv, StallsWhereTheInverseDoesNotExist) {
     EXPECT_EQ(solution.angles, problem.start.angles);
     EXPECT_EQ(solution.iterations, damping > 0 ? 1 : 0);
   }
-  // Bent a little, the same arm gets there.
+  // The same arm reaches it when slightly bent.
   EXPECT_EQ(SolveJacobianPinv(arm, Reach(arm, {0, 0, 0, 0.3, 0, 0}, {0, 0, 1.5}), {}).status, IkStatus::kConverged);
 }
 
@@ -160,7 +160,7 @@ TEST(JacobianPinv, StaysNearerToTheStartThanStepsWithoutAPreferredPosture) {
     const IkSolution solution = SolveJacobianPinv(Body(), problem, options);
     ASSERT_EQ(solution.status, IkStatus::kConverged) << trial;
     with_posture += square(solution.angles);
-    // The same steps, each starting afresh.
+    // The same steps one by one, each started afresh.
     IkProblem problem_now = problem;
     IkOptions one_step = options;
     one_step.max_iterations = 1;
@@ -177,7 +177,7 @@ TEST(JacobianTranspose, OneHingeTurnsByItsTorqueOverTheSquareOfItsLever) {
   const IkProblem problem = Reach(arm, {0.3}, {0, -0.5 * std::sin(0.5), 1 + 0.5 * std::cos(0.5)});
   for (const double gain : {1.0, 0.25}) {
     IkOptions options{.max_iterations = 1};
-    // J is the lever, 0.5 m across the limb; of dX only what lies along J counts: 0.5 m times the sine of 0.2 rad.
+    // J is the lever, 0.5 m across the limb. Only dX along J counts: 0.5 m times the sine of 0.2 rad.
     EXPECT_NEAR(SolveJacobianTranspose(arm, problem, options, {.gain = gain}).angles[0], 0.3 + gain * std::sin(0.2),
                 1e-12);
   }
@@ -198,7 +198,7 @@ TEST(JacobianTranspose, EveryStepLowersTheSumOfSquaresNearTheTarget) {
       IkOptions options{.limits = limits, .max_iterations = 100, .trace = true};
       const std::vector<double> costs = CostsOf(problem, SolveJacobianTranspose(Body(), problem, options));
       for (std::size_t i = 1; i < costs.size(); ++i, ++steps) {
-        // A limb that is clamped on its way loses part of its step.
+        // A limb that is clamped during a step loses part of the step.
         ASSERT_LT(costs[i], costs[i - 1] * (limits ? 1.05 : 1)) << trial << " step " << i;
       }
     }
@@ -220,7 +220,7 @@ TEST(JacobianTranspose, AnAngleThatIsPushedOutOfItsRangeTakesNoPart) {
   problem.limits[1] = {0, 1.0};
   const IkSolution held = SolveJacobianTranspose(arm, problem, {.max_iterations = 1});
   EXPECT_EQ(held.angles[1], 1.0);
-  // As if the forearm were no joint at all.
+  // The result is as if the forearm were rigid.
   const glm::dvec3 gap = place - TwoHingeTip(0.5, 0.4, 0.1, 1.0);
   const glm::dvec3 arm_now = TwoHingeTip(0.5, 0.4, 0.1, 1.0) - glm::dvec3(0, 0, 1);
   const glm::dvec3 lever = glm::cross(glm::dvec3(1, 0, 0), arm_now);

@@ -19,7 +19,7 @@ double CostAt(const IkProblem& problem, const std::vector<double>& angles) {
   return LinearTargets(Body(), problem.targets).Cost(ComputeFrames(Body(), state));
 }
 
-// An elbow that may bend by 0.9 rad at most: the nearest the tip comes to its target is found by one angle alone.
+// An elbow that bends by at most 0.9 rad: one angle alone decides the tip's smallest distance.
 TEST(LevenbergMarquardt, FindsTheNearestPoseWhereALimitBinds) {
   KinematicTree arm = Arm({0.5, 0.4}, 1);
   arm.limits[1] = {0, 0.9};
@@ -27,13 +27,14 @@ TEST(LevenbergMarquardt, FindsTheNearestPoseWhereALimitBinds) {
   const IkSolution solution = SolveLevenbergMarquardt(arm, Reach(arm, {0.4, 0.3}, place), Exactly());
   EXPECT_EQ(solution.status, IkStatus::kStalled);
   EXPECT_EQ(solution.angles[1], 0.9);
-  // The shoulder turns the tip, at the elbow's end, into the target's direction.
+  // The shoulder turns the tip, with the elbow at its limit, towards the target.
   const auto direction = [](const glm::dvec3& p) { return std::atan2(-p.y, p.z - 1); };
   const double turn = direction(place) - direction(TwoHingeTip(0.5, 0.4, 0, 0.9));
   EXPECT_NEAR(solution.angles[0], turn, 1e-6);
 }
 
-// A hinge of lever r, δ short of its target: with a = (r / 30 cm)² the sum is a (2 sin δ/2)², a step a sin δ / (a + μ).
+// A hinge of lever r, δ short of its target: with a = (r / 30 cm)² the sum is a (2 sin δ/2)², and a step a sin δ / (a +
+// μ).
 TEST(LevenbergMarquardt, FollowsTheRatioOfGainToPromise) {
   const KinematicTree arm = Arm({0.5}, 1);
   const double a = (0.5 / kPositionScale) * (0.5 / kPositionScale), target = 0.9;
@@ -56,7 +57,7 @@ TEST(LevenbergMarquardt, FollowsTheRatioOfGainToPromise) {
   EXPECT_NEAR(angle_after(1, 1e-6), kMaxTurn, 1e-12) << "steps are of bounded length";
 }
 
-// How often the sum rises along a trace; a restart may raise it, and costs a pass more than an iteration.
+// Returns how often the sum rises along a trace. A restart may raise it, and costs one pass more than an iteration.
 template <typename Solve>
 std::pair<int, int> CountRises(const Solve& solve) {
   int steps = 0, rises = 0;
@@ -109,7 +110,7 @@ TEST(LevenbergMarquardt, SolvesFromFarAway) {
   }
 }
 
-// Without the active set, and all else of damped least squares the same, limits bring steps to a crawl.
+// Without an active set, limits make the steps of damped least squares very short.
 TEST(LevenbergMarquardt, SolvesWhereClampingCrawlsAlongTheLimits) {
   IkOptions options = Tightly();
   options.max_iterations = 25;
@@ -128,8 +129,8 @@ TEST(LevenbergMarquardt, SolvesWhereClampingCrawlsAlongTheLimits) {
   EXPECT_LE(solved_by(Bounds::kClamped), 120) << "else the active set is not what solves them";
 }
 
-// Second implementations: `gauss-newton` with its steps along the limbs, and Ceres, which often gives up beside the
-// minimum where bounds hold it.
+// Second implementations: `gauss-newton` with its steps along the limbs, and Ceres, which often stops beside the
+// minimum if bounds are active.
 TEST(LevenbergMarquardt, FindsTheMinimumThatOthersFindWhereTargetsContradictEachOther) {
   int same = 0, held = 0, better = 0;
   for (int trial = 0; trial < 40; ++trial) {
@@ -168,8 +169,8 @@ TEST(LevenbergMarquardt, StaysFiniteWithWeightsAndLimbsOfAbsurdSizes) {
   ExpectFiniteAnswersAtAbsurdSizes(solve, Tightly());
 }
 
-// A hinge a little off the direction of a target far beyond its reach: undamped steps overshoot. In closed form, with
-// lever 1, distance D and angle a: the step D sin a / (1 + μ) raises the sum while it is longer than 2a.
+// A hinge points slightly beside a target far beyond its reach, so undamped steps overshoot. With lever 1, distance D
+// and angle a, the step D sin a / (1 + μ) raises the sum while it exceeds 2a.
 TEST(LevenbergMarquardt, DampsARejectedStepByNielsensRule) {
   const KinematicTree arm = Arm({1.0}, 1);
   constexpr double kDistance = 8, kOff = 0.1, kShare = 1e-3;

@@ -18,7 +18,7 @@ double Square(std::span<const double> values) {
   return sum;
 }
 
-// A problem whose targets weigh differently in everything.
+// Returns a problem whose targets all have different weights.
 IkProblem Weighted(const KinematicTree& tree, double noise_deg) {
   IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 3, 0.5), 3, noise_deg);
   problem.targets[0].position_weight = 0.25;
@@ -35,7 +35,7 @@ TEST(LinearTargets, SquaresOfTheResidualsAreTheSumNearTheTarget) {
     LinearTargets linear(Body(), problem.targets);
     linear.Build(frames);
     EXPECT_GT(linear.Cost(frames), 0);
-    // The angle's third power is what first order leaves out.
+    // The first-order residual neglects the third power of the angle.
     EXPECT_NEAR(Square(linear.residuals()) / linear.Cost(frames), 1, 10 * Radians(noise_deg) * Radians(noise_deg));
   }
 }
@@ -92,9 +92,9 @@ TEST(LinearTargets, StepsEndAtTheRangesAndAreShortenedAsAWhole) {
   EXPECT_EQ(angles[2], 0);
 }
 
-// Forward kinematics by products of exponentials (Brockett 1984; Lynch and Park 2017, chapter 4): each angle is a screw
-// in the world, as it lies when all angles are zero, and a place on a limb is moved by the screws between the root and
-// it, the one nearest to it first. No frame of a posed limb comes in.
+// Forward kinematics by products of exponentials (Brockett 1984; Lynch and Park 2017, chapter 4). Each angle is a screw
+// in the world at zero angles; a point is moved by the screws from its limb to the root. No frame of a posed limb is
+// used.
 class Screws {
  public:
   Screws(const KinematicTree& tree, const TreeState& state) : tree_(tree), angles_(state.angles) {
@@ -106,10 +106,9 @@ class Screws {
     }
   }
 
-  // Where the frame of a limb goes.
   glm::dmat4 LimbFrame(int joint) const { return Movement(joint, tree_.joints[joint].dof_count) * at_zero_[joint]; }
 
-  // What one radian of an angle does to a point of the world that hangs below it: its velocity and the rotation vector.
+  // Returns the velocity and rotation vector that one radian of an angle gives to a point below it.
   std::array<glm::dvec3, 2> Twist(int joint, int axis, const glm::dvec3& point) const {
     const glm::dmat4 before = Movement(joint, axis);
     const glm::dvec3 turn(before * at_zero_[joint][axis]);
@@ -118,7 +117,7 @@ class Screws {
   }
 
  private:
-  // The product of all exponentials from the root to the first `axes` angles of `joint`.
+  // Returns the product of all exponentials from the root to the first `axes` angles of `joint`.
   glm::dmat4 Movement(int joint, int axes) const {
     const TreeJoint& row = tree_.joints[joint];
     glm::dmat4 product = row.parent < 0 ? glm::dmat4(1) : Movement(row.parent, tree_.joints[row.parent].dof_count);
@@ -141,7 +140,7 @@ struct Posed {
   TreeState state;
 };
 
-// The body and trees that no solver has ever seen.
+// Returns the body, and random trees that no solver was written for.
 std::vector<Posed> Samples() {
   std::vector<Posed> samples;
   for (int trial = 0; trial < 20; ++trial) {

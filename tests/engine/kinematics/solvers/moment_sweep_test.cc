@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// The largest difference of an angle between both forms of the sweep, over poses and sweeps.
+/// Returns the largest difference of an angle between both forms of the sweep, over poses and sweeps.
 double LargestDifference(const KinematicTree& tree, WeightRule rule, bool limits, int sweeps) {
   double largest = 0;
   for (int trial = 0; trial < 20; ++trial) {

@@ -13,7 +13,7 @@ namespace {
 
 struct SomeBody {
   CaptureBody body;
-  double share;  // of the angles' ranges that poses are drawn from
+  double share;  // share of the angles' ranges from which poses are drawn
 };
 
 std::vector<SomeBody> Bodies() {
@@ -52,7 +52,7 @@ TEST_P(EveryStarter, ReturnsAStartThatHasNoError) {
   }
 }
 
-// The control: a start that is off is moved, and brought nearer on either body.
+// The control: a wrong start is moved, and gets nearer for either body.
 TEST_P(EveryStarter, MovesOneThatIsOff) {
   for (const SomeBody& some : Bodies()) {
     const TreeState truth = RandomPose(some.body.tree, 1, some.share);

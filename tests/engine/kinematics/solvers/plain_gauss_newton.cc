@@ -147,7 +147,6 @@ double DotSix(const double* a, const double* b) {
   return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
 }
 
-// Computes y = M s for a symmetric M.
 void Multiply(const double* __restrict matrix, const double* __restrict s, double* __restrict y) {
   for (int i = 0; i < 6; ++i) {
     y[i] = (matrix[i] * s[0] + matrix[6 + i] * s[1]) + (matrix[12 + i] * s[2] + matrix[18 + i] * s[3]) +
@@ -155,7 +154,6 @@ void Multiply(const double* __restrict matrix, const double* __restrict s, doubl
   }
 }
 
-// Computes M −= scale · y yᵀ.
 void SubtractOuter(const double* __restrict y, double scale, double* __restrict matrix) {
   for (int r = 0; r < 6; ++r) {
     const double share = scale * y[r];
@@ -169,7 +167,6 @@ void Add(const double* __restrict from, double* __restrict to) {
   for (int i = 0; i < kSize; ++i) to[i] += from[i];
 }
 
-// Computes to += scale · from.
 void AddScaled(const double* __restrict from, double scale, double* __restrict to) {
   for (int i = 0; i < 6; ++i) to[i] += scale * from[i];
 }

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-// A linearised problem the plain way: J and e in full, one column per angle.
+// A linearised problem in dense form: J and e, one column per angle.
 struct Linear {
   std::vector<std::vector<double>> columns;
   std::vector<double> residual;
@@ -45,8 +45,8 @@ Linear Linearise(const KinematicTree& tree, std::span<const EffectorTarget> targ
   return linear;
 }
 
-// How far `change` is from the conditions of Karush, Kuhn and Tucker of min |J dq − e|² + μ |dq − pull|²: the largest
-// slope along which an angle could still move.
+// Returns the largest slope along which an angle could still move: the violation of the Karush–Kuhn–Tucker conditions
+// of min |J dq − e|² + μ |dq − pull|².
 double LargestSlope(const Linear& linear, std::span<const double> change, std::span<const double> pull,
                     std::span<const double> angles, std::span<const AngleRange> ranges, double damping) {
   std::vector<double> rest = linear.residual;
@@ -66,9 +66,9 @@ double LargestSlope(const Linear& linear, std::span<const double> change, std::s
 
 struct Step {
   bool is_exact = false;
-  int held = 0;              // angles at an end of their ranges
-  double slope = 0;          // of the answer
-  double slope_clipped = 0;  // of the unbounded answer, clipped: what an active set is for
+  int held = 0;              // angles at a limit
+  double slope = 0;          // slope of the answer
+  double slope_clipped = 0;  // slope of the clipped unbounded answer, for comparison
 };
 
 Step TakeStep(const KinematicTree& tree, const IkProblem& problem, std::span<const double> wanted, double damping) {
@@ -85,7 +85,7 @@ Step TakeStep(const KinematicTree& tree, const IkProblem& problem, std::span<con
 
   Step taken;
   std::span<const double> change;
-  for (int more = 0; more < 40 && !taken.is_exact; ++more) {  // the active set is kept from call to call
+  for (int more = 0; more < 40 && !taken.is_exact; ++more) {  // the active set is kept between calls
     change = step.Solve(angles, wanted, problem.limits, damping);
     taken.is_exact = step.is_exact();
   }
@@ -111,7 +111,7 @@ Step TakeStep(const KinematicTree& tree, const IkProblem& problem, std::span<con
 
 TEST(GaussNewtonStep, MeetsTheConditionsOfAnOptimumOnTheBody) {
   constexpr int kTrials = 200;
-  // Of these, shares of 0.635, 0.825 and 1 end exactly; of 800 trials 0.61, 0.80 and 1.
+  // The shares that end exactly are 0.635, 0.825 and 1 here; over 800 trials 0.61, 0.80 and 1.
   for (const auto& [damping, at_least] : {std::pair(1e-6, 0.61), {1e-3, 0.8}, {0.1, 0.99}}) {
     int exact = 0, held = 0;
     double slope_clipped = 0;

@@ -12,8 +12,8 @@ struct RandomProblem {
   IkOptions options;
 };
 
-/// Makes a random problem: any tree, with fixed and free joints, starts outside the limits, weights of zero, one
-/// iteration or many. Returns nothing for the few trees that cannot move.
+/// Makes a random problem: any tree, fixed and free joints, starts outside the limits, zero weights, one or many
+/// iterations. Returns nothing for the few trees that cannot move.
 inline std::optional<RandomProblem> MakeRandomProblem(int trial) {
   RandomStream random({.suite_seed = 9, .scenario = "null-space-test", .trial = trial}, "problem");
   KinematicTree tree = RandomTree(trial, 4 + trial % 10);

@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-/// Clip 0 plays; clip 1 is unlike it; clip 2 goes from the one to the other in 20 frames.
+/// Clip 0 plays; clip 1 is unlike it; clip 2 leads from clip 0 to clip 1 in 20 frames.
 MotionLibrary LibraryOfThree() {
   std::vector<double> levels(21);
   std::vector<int> frames(21);
@@ -35,7 +35,7 @@ TEST(FuzzyBridge, TellsOfThePairsItDidNotTake) {
   library.tagged[0] = ClipOfLevels({0, 0.3, 5, 0, 0}, {0, 1, 2, 3});
   const TransitionRecord record =
       FindChoice("fuzzy-bridge")->plan(library, {.from = 0, .request_frame = 0, .to = 2}, {}, {});
-  // Frame 0 sees 0.05, 0.15, 0.25, 0.35 below 0.4; frame 1 the first seven of 0.05 … 2.05; frame 3 as frame 0.
+  // Frames 0 and 3 have distances 0.05, 0.15, 0.25, 0.35 below 0.4; frame 1 has the first seven of 0.05 … 2.05.
   EXPECT_EQ(record.pairs_seen, 4 * 20);
   EXPECT_EQ(record.pairs_matched, 4 + 7 + 4);
   ASSERT_EQ(record.candidates.size(), 5u) << "the taken pair, and the nearest other of each bridge frame";

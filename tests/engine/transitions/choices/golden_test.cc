@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// Requests between all clips, at any frame, the last one too, some with no time to wait and some with plenty.
+/// Returns requests between all clips at any frame, also the last one, with no or plenty of time to wait.
 std::vector<TransitionRequest> RequestsOf(const MotionLibrary& library, int count) {
   testing::Dice dice(7);
   std::vector<TransitionRequest> requests;
@@ -27,7 +27,8 @@ std::vector<TransitionRequest> RequestsOf(const MotionLibrary& library, int coun
   return requests;
 }
 
-/// Paper A's rules; others on every count; comparing inside the class alone; and hardly ever a match.
+/// Returns paper A's rules; rules with every setting changed; rules that compare within the class only; and rules that
+/// hardly ever match.
 std::array<MatchRules, 4> FourRules() {
   std::array<MatchRules, 4> rules;
   rules[1].weights = {0.25, 1.5, 0.5, 1, 2, 0.75, 0.3, 0.7, 0.5, 0.5};

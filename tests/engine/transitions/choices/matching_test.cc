@@ -17,7 +17,7 @@ MotionLibrary LibraryOf(const std::vector<BodyMotion>& clips) {
   return MakeLibrary(names, clips, MakeBodyProportions(PosedBody().Pose(), PosedBody::kStandingHipHeight));
 }
 
-/// Clip 1 is clip 0 from its frame 40 on, danced elsewhere.
+/// Clip 1 is clip 0 from frame 40 on, in another place.
 MotionLibrary OneDanceTwice() {
   RandomStream dice({.suite_seed = 6, .scenario = "matching", .trial = 0}, "dance");
   const BodyMotion whole = RandomClip(dice, 200, 0.8);
@@ -56,7 +56,7 @@ TEST(MatchingChoices, LookAtEveryPairOfBudgetAndLeastPlay) {
 }
 
 TEST(FuzzyGate, LetsOnlyMatchingPairsThrough) {
-  // Frame 150 of the wanted clip is the only one with hanging arms, as clip 0 has them.
+  // Only frame 150 of the wanted clip has hanging arms, as clip 0 has.
   BodyMotion raised = StandingClip(300, 170);
   raised.poses[150] = StandingClip(1, 0).poses[0];
   const MotionLibrary library = LibraryOf({StandingClip(100, 0), raised});
@@ -94,7 +94,7 @@ TEST(FuzzyGate, ComparesInsideTheClassOnlyWhenAsked) {
 }
 
 TEST(MotionMatching, TellsArmsThatRiseFromArmsThatSink) {
-  // The same pose passes twice: on the way down at frame 100 (falling), on the way up at 200.
+  // The same pose occurs twice: falling at frame 100, rising at frame 200.
   BodyMotion rising, both;
   for (int f = 0; f < 60; ++f) rising.poses.push_back(StandingClip(1, 2.0 * f).poses[0]);
   for (int f = 0; f < 300; ++f) {

@@ -49,7 +49,7 @@ TEST(ReachAround, EndsWithTheShorterClipOnEachSide) {
   EXPECT_EQ(cut.after, 1);
 }
 
-// The second implementation: every window from scratch.
+// A second implementation: computes every window from scratch.
 double WindowDistance(std::span<const Grades> a, int frame_a, std::span<const Grades> b, int frame_b, int reach,
                       const FeatureWeights& weights) {
   const int before = std::min({reach, frame_a, frame_b});
@@ -78,7 +78,7 @@ TEST(FuzzyWindowRows, AreTheWindowDistance) {
   }
 }
 
-/// Both clouds laid onto each other by trying turns, each with the shift that fits it best.
+/// A second implementation: tries turns of one cloud, each with its best shift.
 double CloudDistanceByTrying(const BodyMotion& a, int frame_a, const BodyMotion& b, int frame_b, int half) {
   const Reach reach =
       ReachAround(frame_a, static_cast<int>(a.poses.size()), frame_b, static_cast<int>(b.poses.size()), half);

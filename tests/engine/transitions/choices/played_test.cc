@@ -74,7 +74,7 @@ TEST(Played, GoesThroughTheClipThatStandsUp) {
             "hips at 0.83 m when it can be entered: no join can raise a body without support; through ");
   ASSERT_EQ(made.splice.between.size(), 1u);
   EXPECT_EQ(made.splice.between[0].size(), 60u - rise.first) << "of the clip from its point on";
-  // While the body rises, its hips are where the clip has them, but for what its two joins still do.
+  // While the body rises, its hips follow the clip, apart from the decay of the two joins.
   const int shown = made.splice.points.front().frame;
   for (int f = rise.first; f <= rise.last; ++f) {
     const double hips = made.splice.motion.poses[shown + f - rise.first][Role::kHipCentre].y;
@@ -104,7 +104,7 @@ TEST(Played, SaysThatNoClipShowsHowABodyLiesDown) {
   EXPECT_EQ(PlayedFrom(library, 0, 10, 0).segments.size(), 2u) << "who stands is joined as before";
 }
 
-/// Stands still with both straight legs so many degrees to the sides.
+/// Stands still with both straight legs spread by this angle.
 BodyMotion StraddlingClip(int frames, double degrees) {
   PosedBody body;
   body.left_leg = {PosedBody::Raised(degrees, kLeftwards), PosedBody::Raised(degrees, kLeftwards)};
@@ -115,7 +115,7 @@ BodyMotion StraddlingClip(int frames, double degrees) {
   return {kJudgedRateHz, std::vector<BodyPose>(static_cast<std::size_t>(frames), pose)};
 }
 
-/// The most frames in a row after the last transition point that nothing holds up.
+/// Returns the longest run of unsupported frames after the last transition point.
 int LongestFloat(const Splice& splice, const BodyMotion& left) {
   const int first = splice.points.front().frame, last = static_cast<int>(splice.motion.poses.size()) - 1;
   const std::vector<SupportingClip> clips = {{.poses = left.poses, .begin = 0, .left_at = first},

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Clips of arms that stay down, wave, and stay up: the first has nothing in common with the last.
+/// Clips of arms that stay down, wave, and stay up; the first has nothing in common with the last.
 MotionLibrary SmallLibrary(const TagRules& rules = {}) {
   const BodyMotion clips[] = {StandingClip(60, 0), WavingClip(80), WavingClip(70, 1.5), StandingClip(40, 150)};
   return MakeLibrary({"down", "wave", "wave too", "up"}, clips, MakeBodyProportions(StandingClip(1, 0).poses[0], 0.9),
@@ -27,7 +27,7 @@ double DistanceToKey(const MotionLibrary& library, const InBetweenNet& net, int 
   return nearest;
 }
 
-/// How many bridge frames have no key within the threshold.
+/// Returns the number of bridge frames without a key within the threshold.
 int CountUncovered(const MotionLibrary& library, const InBetweenNet& net) {
   int uncovered = 0;
   for (int clip = 0; clip < static_cast<int>(library.tagged.size()); ++clip) {
@@ -144,7 +144,7 @@ TEST(InBetween, IsForcedWhereTheWindowHasNoBridgeFrame) {
 TEST(InBetween, GoesByTheHubWhenALimbWouldTurnTooFar) {
   MotionLibrary library = SmallLibrary();
   const auto frames = [&] { return Take(library, {.from = 0, .request_frame = 5, .to = 3}).segments[1].own.size(); };
-  library.in_betweens.keys.insert(library.in_betweens.keys.begin(), {1, 0});  // arms at 80 degrees
+  library.in_betweens.keys.insert(library.in_betweens.keys.begin(), {1, 0});  // a key with the arms at 80 degrees
   const std::size_t by_hub = frames();
   library.in_betweens.tween.widest_turn = kPi;
   EXPECT_GT(by_hub, frames());

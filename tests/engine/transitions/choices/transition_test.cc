@@ -15,7 +15,7 @@ struct Trial {
   std::vector<TransitionRequest> requests;
 };
 
-/// Small libraries and the requests that are most likely to go wrong.
+/// Returns a small library, and a request that is likely to go wrong.
 Trial DrawTrial(int number) {
   RandomStream dice({.suite_seed = 6, .scenario = "switch-clips", .trial = number}, "library");
   std::vector<int> lengths(2 + number % 3);
@@ -65,9 +65,9 @@ void ExpectCandidates(const TransitionRecord& record) {
   EXPECT_EQ(static_cast<std::size_t>(taken), record.candidates.empty() ? 0 : record.distances.size());
 }
 
-constexpr double kMaxLength_s = 60;  // the largest setting of `played`
+constexpr double kMaxLength_s = 60;  // seconds, the largest setting of `played`
 
-/// As late as the choice may come, seconds.
+/// Returns the latest time of the choice, seconds.
 double LatestWait(const TransitionRecord& record, const MotionLibrary& library, const TransitionRequest& request) {
   const TaggedClip& playing = library.tagged[request.from];
   const double tweens = LongestInBetween(library.in_betweens.tween, playing.rate_hz);
@@ -107,7 +107,7 @@ void ExpectSame(const Transition& a, const Transition& b) {
   }
 }
 
-/// Whether a way was found.
+/// Checks a transition; returns true if one was found.
 bool CheckTransition(const MotionLibrary& library, const TransitionRequest& request, const TransitionWay& method) {
   const Transition result = MakeTransition(library, request, method);
   const TransitionRecord& record = result.record;
@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryChoice, ::testing::ValuesIn(ChoiceNames()), [
   return name;
 });
 
-/// The settings' defaults, but one at its lowest, and one at its largest.
+/// Returns the default settings, each time with one setting at its lowest or largest value.
 std::vector<std::vector<double>> Extremes(std::span<const NumberSetting> settings) {
   std::vector<double> defaults;
   for (const NumberSetting& setting : settings) defaults.push_back(setting.fallback);
@@ -195,7 +195,7 @@ TEST(MakeTransition, TakesSettingsToTheirLimits) {
   EXPECT_EQ(tried, 2 * (8 + 10)) << "eight settings of choices, ten of joins";
 }
 
-// Dead blending shows its own continuation in place of the clip's, so there a difference is right.
+// Dead blending continues the clip by extrapolation, so it differs here.
 TEST(Unbroken, IsTheClipItselfByAnyJoinButDeadBlending) {
   const Trial trial = DrawTrial(5);
   const TransitionRequest request{.from = 1, .request_frame = 1, .to = 0};

@@ -18,7 +18,7 @@ JointTree ThreeJoints() {
   return {{"root", "knee", "foot"}, {-1, 0, 1}, {{0, 0, 0}, {0, -0.4, 0.05}, {0, -0.4, 0}}, {false, false, false}};
 }
 
-/// The root moves straight on, joints turn about fixed axes, all at constant speed; at rest with speed 0.
+/// Returns a root with constant velocity and joints turning about fixed axes at constant speed; at speed 0 it rests.
 std::vector<TreePose> Steady(std::size_t frames, double speed) {
   std::vector<TreePose> poses;
   for (std::size_t f = 0; f < frames; ++f) {
@@ -30,7 +30,7 @@ std::vector<TreePose> Steady(std::size_t frames, double speed) {
   return poses;
 }
 
-/// A motion that changes its speed and turns everywhere.
+/// Returns a motion that changes its speed and rotates everywhere.
 std::vector<TreePose> Wild(std::size_t frames) {
   std::vector<TreePose> poses;
   for (std::size_t f = 0; f < frames; ++f) {
@@ -53,7 +53,7 @@ double FarthestApart(std::span<const TreePose> a, std::span<const TreePose> b) {
   return farthest;
 }
 
-/// How far a filler is from the frames that it does not see.
+/// Returns the filler's error in the frames that it does not see.
 double ErrorOf(const Filler& filler, const std::vector<TreePose>& poses, std::size_t past, std::size_t missing,
                std::size_t given, const GapLibrary* library = nullptr) {
   const JointTree tree = ThreeJoints();
@@ -83,7 +83,7 @@ TEST(Fillers, HoldABodyThatStands) {
   }
 }
 
-/// The largest error of a law's positions and velocities at both ends.
+/// Returns a law's largest error of position and velocity at both ends.
 double ErrorAtEnds(const Law& law, const Ends& ends) {
   constexpr double kStep = 1e-6;
   const double last = ends.seconds;
@@ -130,7 +130,7 @@ TEST(Fillers, LeaveAnUnknownVelocityWhereTheJerkIsLeast) {
   }
 }
 
-/// A body of hips and two legs, whose knees are bent.
+/// A body of hips and two legs with bent knees.
 struct Walker {
   Walker() {
     for (const double x : {0.1, -0.1}) {
@@ -150,13 +150,13 @@ struct Walker {
   TreePose At(double x, double z) const {
     return {{x, 0.95, z}, std::vector<glm::dquat>(tree.size(), glm::dquat(1, 0, 0, 0))};
   }
-  /// Fills a second from where the body stands to where it stands again.
+  /// Fills a second between two places where the body stands.
   std::vector<TreePose> Filled(const char* filler, const TreePose& end, bool knows_roles = true) const {
     const std::vector<TreePose> past(10, At(0, 0)), future(1, end);
     const auto none = RawMotion::NoRoles();
     return FillerOf(filler).fill({tree, past, future, 30, 30, nullptr, knows_roles ? roles : none}, {});
   }
-  /// The largest speed of the slower toes, metres per second, and the largest height of any toes.
+  /// Returns the largest speed of the slower toes, m/s, and the largest height of any toes.
   std::pair<double, double> SlowerToes(std::vector<TreePose> poses) const {
     poses.insert(poses.begin(), At(0, 0));
     double fastest = 0, highest = 0;
@@ -209,7 +209,7 @@ TEST(Fillers, FindAGapInALibraryThatHoldsItTurnedAndMoved) {
   library.Add(held);
   EXPECT_LT(ErrorOf(FillerOf("nearest-gap"), poses, 10, 20, 1, &library), 1e-9);
   EXPECT_EQ(ErrorOf(FillerOf("nearest-gap"), poses, 10, 20, 1), 1e9) << "without a library nothing is filled";
-  // Of one gap that is the same and otherwise none near, a third of what dead blending misses is taken (weights 1 and
+  // With one identical gap in the library and no other near, a third of dead blending's error is removed (weights 1 and
   // 2).
   GapLibrary of_held;
   of_held.Add(held);

@@ -11,7 +11,7 @@ namespace {
 
 double ArmDegrees(const BodyPose& pose) { return ComputeFeatures(pose, PosedBody::kStandingHipHeight)[Feature::kRH]; }
 
-/// Arms hang at the transition point; what the old motion would have shown next is given.
+/// The arms hang at the transition point; `continuation` is the old motion's next frames.
 Blend FadeOutOf(const std::vector<BodyPose>& continuation, const BodyPose& target) {
   const BodyPose hanging = StandingClip(1, 0).poses[0];
   return Crossfade({.shown = {hanging, hanging},

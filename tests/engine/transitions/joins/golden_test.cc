@@ -11,7 +11,7 @@ namespace {
 
 using testing::Fingerprint;
 
-/// Moves with feet, and dances of limbs that swing any way.
+/// Returns moves with feet, and dances with limbs that swing in any direction.
 std::vector<BodyMotion> JoinedClips() {
   std::vector<BodyMotion> clips = LibraryOfMoves().motions;
   RandomStream dice({.suite_seed = 6, .scenario = "golden", .trial = 0}, "joins");
@@ -29,7 +29,7 @@ void AddTo(Fingerprint& print, const Splice& splice) {
   for (const std::vector<BodyPose>& poses : splice.between) print.Add(JointsOf(poses));
 }
 
-/// Two clips, three clips, at their first and last frames, and frames of the way's own, in place and not.
+/// Returns ways of two and three clips, at first and last frames, and with in-between frames, placed and not.
 std::vector<std::vector<Segment>> Ways(const std::vector<BodyMotion>& clips, std::optional<PreferredJoin> preferred) {
   const auto last = [&](int clip) { return static_cast<int>(clips[clip].poses.size()) - 1; };
   const auto to = [&](int clip, int first, int end) {

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// What a law makes of an offset of `x` metres that changes by `v` per second.
+/// Returns what remains of an offset of `x` metres with velocity `v`.
 double Left(const DecayLaw& law, double x, double v, double seconds) { return law({{x, 0, 0}, {v, 0, 0}}, seconds).x; }
 
 DecayLaw SpringLaw() {
@@ -34,7 +34,7 @@ TEST(Inertialise, ShowsTheOldPoseAtTheTransitionPointAndHalfTheOffsetAfterItsHal
   const auto arm_degrees = [&](double seconds) {
     return ComputeFeatures(offsets.Apply(raised, seconds), PosedBody::kStandingHipHeight)[Feature::kRH];
   };
-  // Critically damped from rest: (1 + yt)e^−yt of the offset is left, with yt = 2 ln 2 after a half-life.
+  // Critically damped from rest, the share (1 + yt)e^−yt of the offset remains; after a half-life yt = 2 ln 2.
   EXPECT_NEAR(arm_degrees(0.1), 60 * (1 - (1 + 2 * std::log(2)) / 4), 1e-6);
   EXPECT_NEAR(arm_degrees(2), 60, 1e-3);
 }
@@ -48,8 +48,8 @@ TEST(Inertialise, StartsInTheShownPoseWithTheShownSpeed) {
   EXPECT_NEAR(SpeedAtStart(QuinticLaw(), 0.3, 0.5), 0, 1e-3) << "the quintic does not";
 }
 
-/// How fast an arm's elbow, seen 1/30 s before the transition point and at it raised by so many degrees sideways over a
-/// new motion in which it hangs still, goes on, degrees per second. A limb's turn is its rotation vector.
+/// Returns the speed (degrees per second) with which an elbow's offset continues. The elbow is raised sideways by
+/// `before` 1/30 s before the transition point and by `now` at it; in the new motion it hangs still.
 double SpeedOfElbow(double before, double now) {
   const auto raised = [](double degrees) {
     PosedBody body;
@@ -79,12 +79,12 @@ TEST(QuinticDecay, ComesToRestAtZeroWhenTheBlendEnds) {
   const DecayLaw law = QuinticLaw({.blend_s = 0.4});
   constexpr double kStep = 1e-4;
   EXPECT_EQ(Left(law, 0.3, -0.2, 0.4), 0);
-  // A root of third order: speed and acceleration are zero, too.
+  // A root of third order: velocity and acceleration are zero, too.
   EXPECT_NEAR(Left(law, 0.3, -0.2, 0.4 - kStep), 0, 1e-9);
   EXPECT_GT(Left(law, 0.3, -0.2, 0.35), 0);
 }
 
-// Bollo's choice: five halves of the time in which a parabola from x0 with slope v0 would come to rest, 2 x0 / −v0.
+// Bollo's choice: five halves of the time in which a parabola from x0 with slope v0 comes to rest, 2 x0 / −v0.
 TEST(QuinticDecay, TakesFiveHalvesOfAParabolasTimeWhereThatIsShorterThanTheBlend) {
   const DecayLaw law = QuinticLaw({.blend_s = 0.4});
   constexpr double kEnd = 5 * 0.3 / 6;
@@ -111,7 +111,7 @@ TEST(QuinticDecay, IsNothingWithoutOffsetOrWithoutTime) {
   EXPECT_EQ(Left(QuinticLaw({.blend_s = 0}), 0.3, 0, 0.03), 0);
 }
 
-// A velocity v that halves every h leads v·h/ln 2·(1 − 2^(−t/h)) far in the time t.
+// A velocity v with half-life h travels v·h/ln 2·(1 − 2^(−t/h)) in the time t.
 TEST(DeadBlending, GoesOnWithVelocitiesThatHalveWhileTheNewMotionFadesIn) {
   const auto raised = [](double degrees, double x) {
     PosedBody body;
@@ -129,7 +129,7 @@ TEST(DeadBlending, GoesOnWithVelocitiesThatHalveWhileTheNewMotionFadesIn) {
     const double way = kHalf_s / std::log(2) * (1 - std::pow(0.5, t / kHalf_s));
     const BodyPose shown = blend(wanted, frames);
     EXPECT_NEAR(shown[Role::kHipCentre].x, (1 - share) * (0.1 + 0.03 * kRate * way) + share * 3, 1e-9) << frames;
-    // The arm turns in one plane, so its angles add up: it goes on by 2° a frame, and back to 0.
+    // The arm turns in one plane, so angles add: it continues by 2° a frame, and returns to 0.
     const double angle = ComputeFeatures(shown, PosedBody::kStandingHipHeight)[Feature::kLH];
     EXPECT_NEAR(angle, (1 - share) * (20 + 2 * kRate * way), 1e-6) << frames;
   }

@@ -8,7 +8,6 @@
 namespace etude {
 namespace {
 
-/// Two clips that do not fit at all.
 const std::vector<BodyMotion>& Strangers() {
   static const std::vector<BodyMotion> kClips = {WavingClip(40), WavingClip(120, 5)};
   return kClips;

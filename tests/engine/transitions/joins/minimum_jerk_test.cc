@@ -15,7 +15,7 @@ const Movement kMovement{.start = {0.4, -0.1, 0.2}, .start_velocity = {-1, 2, 0.
 
 glm::dvec3 At(double seconds) { return MinimumJerkAt(kMovement, seconds, kBlend_s); }
 
-/// By differences of four points on one side: +h at the start, −h at the end.
+/// Differences over four points on one side: +h at the start, −h at the end.
 glm::dvec3 VelocityAt(double t, double h) {
   return (-11.0 * At(t) + 18.0 * At(t + h) - 9.0 * At(t + 2 * h) + 2.0 * At(t + 3 * h)) / (6 * h);
 }
@@ -59,7 +59,7 @@ TEST_P(AllWays, ShowTheOldMotionsNextFrameFirstButForTheBlendsOwnBeginning) {
   way.back().preferred = PreferredJoin{.blend_s = 1, .way = GetParam()};
   const Splice splice = SpliceSegments(clips, way, *FindJoin("minimum-jerk"));
   for (Role role : AllRoles()) {
-    // At s = 1/30 a share of 10 s³ of the gap, at most 1.7 m here.
+    // At s = 1/30, 10 s³ of the gap is covered; the gap is at most 1.7 m here.
     EXPECT_LT(glm::distance(splice.motion.poses[20][role], clips[0].poses[20][role]), 10 * 1.7 / 27000 + 1e-3)
         << RoleName(role);
   }

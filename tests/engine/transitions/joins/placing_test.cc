@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kRate = kJudgedRateHz;
 
-/// A body that does not move its limbs glides ahead (+Z).
 BodyMotion Gliding(int frames, double metres_per_s) {
   BodyMotion motion = StandingClip(frames, 20);
   for (int f = 0; f < frames; ++f) motion.poses[f] = FloorMove{.z = metres_per_s * f / kRate}.Apply(motion.poses[f]);
@@ -39,7 +38,7 @@ TEST(CarriedShift, StopsAPointMassOverItsCapturePoint) {
 
 TEST(CarriedShift, LetsABodyGoOnThatKeepsItsSpeed) {
   const BodyMotion glides = Gliding(60, 1.7);
-  // Entered at its frame 12 instead of 30: where it would be anyway is 18 frames farther on.
+  // It is entered at frame 12 instead of 30, so its own path continues 18 frames further on.
   const glm::dvec3 shift = CarriedShift(EndOf(glides, 30), glides.poses[30], EndOf(glides, 24), 12);
   EXPECT_NEAR(shift.z, 1.7 * 18 / kRate, 1e-12);
 }
@@ -63,7 +62,7 @@ TEST(Splice, BrakesEvenlyWhereMomentumCarriesIt) {
   };
   const std::vector<BodyPose> carried = joined(true);
   EXPECT_NEAR(carried.back()[Role::kHipCentre].z - carried[40][Role::kHipCentre].z, 0.5 * kSpeed * kSeconds, 1e-9);
-  // The quintic from speed v to rest over its middle way brakes with 6 v s (1 − s)/T, at most 1.5 v/T.
+  // The quintic from speed v to rest at its middle decelerates by 6 v s (1 − s)/T, at most 1.5 v/T.
   EXPECT_NEAR(hardest(carried), 1.5 * kSpeed / kSeconds, 0.01);
   for (std::size_t f = 40; f + 1 < carried.size(); ++f) {
     EXPECT_GE(carried[f + 1][Role::kHipCentre].z, carried[f][Role::kHipCentre].z - 1e-9) << "it never goes back";

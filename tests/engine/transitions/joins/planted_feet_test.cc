@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-/// Stands on both feet, the left one `ahead` metres in front, the knees bent enough for it.
+/// Stands on both feet, the left one `ahead` metres in front, with knees bent as needed.
 BodyPose Stride(double ahead) {
   BodyPose pose = StandingClip(1, 20).poses[0];
   constexpr double kSink = 0.08;
@@ -76,7 +76,7 @@ TEST(AlignOnPlantedFeet, TrustsFeetThatStandMoreThanATrunkThatLeans) {
 TEST(AlignOnPlantedFeet, TurnsNobodyAboutForItsFeet) {
   const BodyPose stride = Stride(0.5);
   for (double degrees : {10.0, 25.0, 90.0, 180.0}) {
-    BodyPose straddle = stride;  // its feet stand turned under a trunk that faces as before
+    BodyPose straddle = stride;  // its feet are turned under an unturned trunk
     for (const LegRoles& leg : kLegs) {
       for (Role role : {leg.ankle, leg.foot}) straddle[role] = FloorMove{.yaw = Radians(degrees)}.Apply(stride[role]);
     }
@@ -98,7 +98,6 @@ TEST(PlanSteps, LetsFeetThatMustTravelGoOneAfterTheOther) {
   EXPECT_TRUE(steps[0].end <= steps[1].begin || steps[1].end <= steps[0].begin);
 }
 
-/// Lifts a foot from one frame to another, both included.
 void Lift(Role foot, int first, int last, std::vector<BodyPose>& poses) {
   const Role ankle = *ParentOf(foot);
   for (int f = first; f <= last; ++f) {
@@ -108,7 +107,7 @@ void Lift(Role foot, int first, int last, std::vector<BodyPose>& poses) {
 
 TEST(PlanSteps, LeavesAFootStandingWhoseOwnMotionLiftsItWhileTheOtherTravels) {
   JoinWindow window = Window(Stride(0.15), Stride(-0.15), 30);
-  // Both motions lift their right foot at once, which leaves nothing for the left one to travel by.
+  // Both motions lift the right foot at once, so the left foot has no time to step.
   Lift(Role::kRightFoot, 8, 30, window.old);
   Lift(Role::kRightFoot, 0, 14, window.next);
   const auto [steps, unplanted_frames] = PlanSteps(window);
@@ -127,7 +126,7 @@ TEST(PlanSteps, LetsFeetThatSlideInTheirClipsStayWhereTheyStand) {
   EXPECT_EQ(unplanted_frames, 0);
   int long_stands = 0;
   for (const FootStep& step : steps) {
-    // Over three tenths of a second the clip slides by 3 cm, which weighs more than to stop dead at 10 cm/s.
+    // In 0.3 s the clip slides by 3 cm, which costs more than stopping at 10 cm/s.
     if (step.begin >= 9) {
       EXPECT_EQ(step.stays_from, 0);
     }
@@ -221,11 +220,11 @@ TEST(SolveLeg, KeepsItsLimbsAndItsDirectionWhereItCannotReach) {
 }
 
 TEST(CarriedOffset, TurnsWithTheLeg) {
-  const glm::dvec3 carried = CarriedOffset({0, 0, 0.1}, {0, -1, 0}, {0, 0, 1});  // down to forwards, about x
+  const glm::dvec3 carried = CarriedOffset({0, 0, 0.1}, {0, -1, 0}, {0, 0, 1});  // from down to forwards, about x
   EXPECT_LT(glm::distance(carried, glm::dvec3(0, 0.1, 0)), 1e-12);
 }
 
-/// Stride, with both knees as far behind the legs as it has them in front.
+/// Stride with both knees bent backwards by as much.
 BodyPose Overextended(double ahead) {
   BodyPose pose = Stride(ahead);
   for (const LegRoles& leg : kLegs) {

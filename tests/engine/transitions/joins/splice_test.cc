@@ -18,7 +18,7 @@ TEST(SpliceSegments, ReproducesAClipThatIsJoinedToItself) {
   for (BodyPose& pose : elsewhere.poses) pose = FloorMove{.yaw = 1, .x = 2, .z = 3}.Apply(pose);
   const BodyMotion clips[] = {clip, elsewhere};
   for (const JoinKind& join : AllJoins()) {
-    if (join.name == "dead-blending") continue;  // it shows its own continuation (choices/transition_test.cc)
+    if (join.name == "dead-blending") continue;  // continues by extrapolation (choices/transition_test.cc)
     const Splice splice = SpliceSegments(clips, Segments(19, 19, clip), join);
     ASSERT_EQ(splice.motion.poses.size(), clip.poses.size());
     for (std::size_t f = 0; f < clip.poses.size(); ++f) ExpectSamePose(splice.motion.poses[f], clip.poses[f], 1e-9);
@@ -68,7 +68,7 @@ TEST(SpliceSegments, PassesThroughAnInBetween) {
   EXPECT_NEAR(PoseGap(splice.motion.poses.back(), clips[1].poses.back()), 0, 1e-9);
 
   const Splice smooth = SpliceSegments(clips, way, Spring());
-  for (int i : {0, 1}) {  // the gap belongs to the choice of frames, not to the join
+  for (int i : {0, 1}) {  // the choice of frames decides the gap, not the join
     ExpectSamePose(smooth.points[i].leaving, splice.points[i].leaving, 0);
     ExpectSamePose(smooth.points[i].arriving, splice.points[i].arriving, 0);
   }

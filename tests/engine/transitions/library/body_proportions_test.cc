@@ -29,13 +29,13 @@ TEST(PerformedBy, SetsClipsOfOnePersonDownTogetherAndOthersByThemselves) {
   const BodyProportions character = MakeBodyProportions(StandingClip(1, 0).poses[0], 0.9);
   std::vector<BodyMotion> clips = {StandingClip(100, 0), StandingClip(20, 0), StandingClip(20, 0)};
   for (BodyPose& pose : clips[1].poses) {
-    for (glm::dvec3& joint : pose.joints) joint.y += 0.4;  // on a chair
+    for (glm::dvec3& joint : pose.joints) joint.y += 0.4;  // stands on a chair
   }
   for (BodyPose& pose : clips[2].poses) {
     for (glm::dvec3& joint : pose.joints)
-      joint = 0.5 * joint + glm::dvec3(0, 0.4, 0);  // a child's file with its own floor
+      joint = 0.5 * joint + glm::dvec3(0, 0.4, 0);  // a child's file with another floor
   }
-  clips.push_back(StandingClip(4, 0));  // few frames, a hand's breadth below the others
+  clips.push_back(StandingClip(4, 0));  // few frames, 10 cm lower than the others
   for (BodyPose& pose : clips[3].poses) {
     for (glm::dvec3& joint : pose.joints) joint.y -= 0.1;
   }

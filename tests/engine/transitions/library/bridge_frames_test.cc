@@ -12,7 +12,7 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// The neck bent forward by `degrees` in every frame.
+/// Returns a neck bent forward by `degrees` in every frame.
 BodyMotion WithNeckBent(double degrees) {
   BodyMotion motion = StandingClip(5, 0);
   for (BodyPose& pose : motion.poses) {
@@ -22,7 +22,7 @@ BodyMotion WithNeckBent(double degrees) {
   return motion;
 }
 
-/// The neck goes forward by `degrees_per_s`, from 10° behind.
+/// Returns a neck that turns forward at `degrees_per_s`, from 10° behind.
 BodyMotion WithNeckTurning(double degrees_per_s) {
   BodyMotion motion = StandingClip(7, 0);
   for (int f = 0; f < 7; ++f) motion.poses[f] = WithNeckBent(-10 + degrees_per_s * f / 30).poses[0];

@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// 30 frames of which 10 and 14 match the second clip, and a third clip that matches nothing.
+/// 30 frames, of which 10 and 14 match the second clip; the third clip matches nothing.
 std::vector<TaggedClip> ThreeClips() {
   std::vector<double> levels(30, 5.0);
   levels[10] = levels[14] = levels[20] = 0;
@@ -69,12 +69,12 @@ TEST(Coverage, WithoutPairsKnowsTheWaysIntoTheClipsThatAreWanted) {
   EXPECT_DOUBLE_EQ(coverage.IntoAny(0).in_between_share, 15.0 / 30);
 }
 
-/// Clips of many lengths; some frames of each are bridge frames.
+/// Returns clips of many lengths with some bridge frames each.
 std::vector<TaggedClip> UnevenLibrary() {
   RandomStream dice = SearchDice("partners");
   std::vector<std::vector<Grades>> all;
   for (int count : {200, 1, 2, 47, 0, 90, 260}) all.push_back(WanderingFrames(count, dice));
-  // A clip that passes through another one's frames again, so that equal distances occur, far apart in time.
+  // A clip repeats another one's frames backwards, so that equal distances occur far apart in time.
   all.push_back(all[0]);
   all.back().insert(all.back().end(), all[0].rbegin(), all[0].rend());
   std::vector<TaggedClip> clips;
@@ -88,7 +88,7 @@ std::vector<TaggedClip> UnevenLibrary() {
   return clips;
 }
 
-/// The second implementation: every frame with every frame.
+/// A second implementation: compares every frame with every frame.
 bool HasMatchByLoop(const TaggedClip& from, int frame, const TaggedClip& to, std::span<const int> entering,
                     const MatchRules& rules) {
   return std::ranges::any_of(entering, [&](int other) {

@@ -13,7 +13,7 @@ namespace {
 
 BodyPose ArmsAt(double degrees) { return StandingClip(1, degrees).poses[0]; }
 
-/// A body with a thigh lifted to the front, elsewhere on the floor and turned.
+/// Returns a body with a thigh lifted forward, at another place and heading.
 BodyPose LegLifted() {
   PosedBody body;
   body.left_leg.upper = PosedBody::Raised(70, {0, 0, 1});
@@ -26,7 +26,7 @@ double Lowest(const BodyPose& pose) {
   return lowest;
 }
 
-/// The fastest that any limb turns between two frames, degrees per second.
+/// Returns the fastest turn of a limb between two frames, degrees per second.
 double FastestTurn(const std::vector<BodyPose>& frames) {
   double fastest = 0;
   for (std::size_t f = 1; f < frames.size(); ++f) {
@@ -114,7 +114,7 @@ TEST(SampledTween, TakesAtLeastTheShortestTimeAndAtMostTheLongest) {
   EXPECT_LE(SampleTween(half_turn, kJudgedRateHz, rules).size() - 1.0, std::ceil(longest * kJudgedRateHz));
 }
 
-/// A clip of these levels, of which each frame has the tags of its class, a digit. All are bridge frames.
+/// Returns a clip of these levels; a digit per frame gives the class that sets its tags. All are bridge frames.
 TaggedClip ClipOfClasses(const std::vector<double>& levels, const std::string& classes) {
   std::vector<int> frames;
   for (std::size_t f = 0; f < levels.size(); ++f) frames.push_back(static_cast<int>(f));
@@ -129,8 +129,7 @@ std::vector<double> LevelsOf(const InBetweenNet& net, const std::vector<TaggedCl
   return levels;
 }
 
-// Class 0 occurs in one clip and eight frames, 1 in two and four, 2 in two and five, 3 in three and three; each lies
-// apart from the rest.
+// Class 0 is in one clip and eight frames, 1 in two and four, 2 in two and five, 3 in three and three; classes differ.
 TEST(InBetweenNet, TakesItsKeysFromTheMostFrequentPoseToTheRarest) {
   const std::vector<TaggedClip> clips = {
       ClipOfClasses({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0}, "00000000112223"),
@@ -145,7 +144,7 @@ TEST(InBetweenNet, PutsThePoseOfMoreFramesFirstAmongThoseOfAsManyClips) {
 }
 
 TEST(InBetweenNet, TakesTheMostTypicalFrameOfAPoseForItsKey) {
-  // Root mean squares of the distances to the other clips' frames: 0.26, 0.18, 0.36, all within the threshold.
+  // RMS distances to the other clips' frames: 0.26, 0.18, 0.36, all within the threshold.
   const std::vector<TaggedClip> clips = {ClipOfClasses({1.00}, "1"), ClipOfClasses({1.05}, "1"),
                                          ClipOfClasses({1.30}, "1")};
   EXPECT_EQ(LevelsOf(BuildInBetweens(clips), clips), std::vector{1.05});
@@ -184,7 +183,7 @@ TEST(InBetweenNet, IsMadeOfBridgeFramesWhereThereAreAnyElseOfAllFrames) {
 }
 
 TEST(InBetweenNet, TakesAtMostTwoOfTheLongestTweensInWholeFrames) {
-  // Half a turn, eased, lasts 1.875 / 2 s at one turn a second: 28.125 frames of 30 a second, so 29.
+  // Half a turn, eased, lasts 1.875 / 2 s at one turn a second: 28.125 frames at 30 Hz, so 29.
   EXPECT_NEAR(LongestInBetween({}, 30), 2 * 29 / 30.0, 1e-12);
 }
 

@@ -25,7 +25,7 @@ TEST(MotionFeatures, DoNotSeeWhereADanceTakesPlaceNorWhichWayItFaces) {
 TEST(MotionFeatures, HaveVectorsOfStandardDeviationOne) {
   const BodyMotion clips[] = {WavingClip(50), WavingClip(70, 2)};
   const auto features = ComputeMotionFeatures(clips);
-  constexpr std::size_t kLeftHand = 2;  // after the feet
+  constexpr std::size_t kLeftHand = 2;  // index, after the feet
   double variance = 0;
   for (std::size_t axis = 3 * kLeftHand; axis < 3 * kLeftHand + 3; ++axis) {
     double sum = 0, squares = 0;
@@ -50,7 +50,7 @@ TEST(MotionFeatures, OfABodyThatNeverMovesCountNothing) {
 }
 
 TEST(MotionFeatures, HoldTheHipsVelocityInTheDirectionOfFacing) {
-  // Walks 0.03 m per frame the way it faces, and stops halfway.
+  // Walks 0.03 m per frame straight ahead, and stops half-way.
   BodyMotion walk;
   for (int f = 0; f < 40; ++f) {
     walk.poses.push_back(
@@ -69,7 +69,7 @@ TEST(MotionFeatures, HoldTheHipsVelocityInTheDirectionOfFacing) {
 
 TEST(UsualAcceleration, IsWhatNineOfTenFramesKeepTo) {
   BodyMotion motion;
-  // Eleven frames in the middle, of which one jumps: x = f² / 2 · 0.02 m but for the last step.
+  // x = f² / 2 · 0.02 m, except for a jump in the last step; eleven frames have neighbours.
   for (int f = 0; f < 13; ++f) {
     BodyPose& pose = motion.poses.emplace_back();
     pose[Role::kLeftHand].x = 0.01 * f * f + (f == 12 ? 0.5 : 0);

@@ -26,7 +26,7 @@ TEST(FindTransitionPoint, TakesTheFirstMatchInPlayingOrderThenTargetOrder) {
 
 TEST(FindTransitionPoint, LooksAtTheFrontHalfBeforeTheRearHalf) {
   const TaggedClip playing = ClipOfLevels({0, 0}, {0, 1});
-  // Smallest: the rear half holds an exact match, the front half only a fair one.
+  // By smallest distance: the rear half has an exact match, the front half only a fair one.
   const TaggedClip next = ClipOfLevels({5, 0.3, 0.2, 5, 0, 5}, {1, 2, 4});
   MatchRules smallest;
   smallest.pick = Pick::kSmallest;
@@ -34,7 +34,7 @@ TEST(FindTransitionPoint, LooksAtTheFrontHalfBeforeTheRearHalf) {
   const TaggedClip rear_only = ClipOfLevels({5, 5, 5, 0.3, 0, 5}, {0, 3, 4});
   ExpectPoint(FindTransitionPoint(playing, kAll, rear_only, {}), 0, 3);
   ExpectPoint(FindTransitionPoint(playing, kAll, rear_only, smallest), 0, 4);
-  // A later frame with a match in the front half goes before an earlier one with a nearer one in the rear half.
+  // A later frame that matches in the front half precedes an earlier one with a nearer match in the rear half.
   const TaggedClip later = ClipOfLevels({0, 0.5}, {0, 1});
   ExpectPoint(FindTransitionPoint(later, kAll, ClipOfLevels({5, 0.8, 5, 0, 5}, {1, 3}), smallest), 1, 1);
   ExpectPoint(FindTransitionPoint(later, kAll, ClipOfLevels({5, 0.8, 5, 0, 5}, {1, 3}), {}), 0, 3);

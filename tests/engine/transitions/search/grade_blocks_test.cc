@@ -16,7 +16,7 @@ FrameBlock BlockOf(std::span<const Grades> frames) {
   return block;
 }
 
-/// On every kind of vectors that this CPU has.
+/// Runs each test with every vector instruction set of this CPU.
 class GradeBlocks : public ::testing::Test {
  protected:
   ~GradeBlocks() override { SetBlockTarget(""); }
@@ -89,8 +89,8 @@ TEST_F(GradeBlocks, BoundNoPairOfTwoBoxesTooHigh) {
   });
 }
 
-// Boxes are kept in single precision: of 24 terms each is at most 2⁻²⁴ too wide, so the root of ΣS (1 of each term)
-// times that is what the bound may lack, and it never has too much.
+// Boxes are stored in single precision: each of 24 terms is at most 2⁻²⁴ too wide, so the bound is at most √ΣS · 2⁻²⁴
+// (a term counts 1) too low, and never too high.
 TEST_F(GradeBlocks, BoundAFrameThatIsABoxByItsDistanceRoundedOutwards) {
   RandomStream dice = SearchDice("single");
   const GradeMetric metric(PaperWeights());

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// The second implementation: a loop over `ComputeDistance`.
+/// A second implementation: a loop over `ComputeDistance`.
 bool HasMatchByLoop(const std::vector<Grades>& frames, const FeatureWeights& weights, const std::vector<Tags>& tags,
                     const GradeIndex::Query& query) {
   for (int f = 0; f < static_cast<int>(frames.size()); ++f) {
@@ -20,8 +20,8 @@ bool HasMatchByLoop(const std::vector<Grades>& frames, const FeatureWeights& wei
   return false;
 }
 
-/// Asks both whether frames match, by many thresholds and from clips of many lengths. Returns how often the answer was
-/// yes and how often no.
+/// Checks that both implementations agree whether frames match, for many thresholds and clip lengths. Returns the
+/// numbers of matches and non-matches.
 struct Answers {
   int yes = 0, no = 0;
 };

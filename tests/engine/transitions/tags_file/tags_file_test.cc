@@ -104,7 +104,7 @@ TEST(TagsFile, RefusesHostileInput) {
       Replaced(text, "grades=\"0", "grades=\"2"),
       Replaced(text, "min-clips=\"2\"", ""),
       Replaced(text, "<rules", "<rules extra=\"1\""),
-      Replaced(text, "version=\"1.0\"", "version=\"1.1\""),  // libxml2 only warns of it, and of the next
+      Replaced(text, "version=\"1.0\"", "version=\"1.1\""),  // libxml2 only warns about this edit and the next
       Replaced(text, "<bridge-tags", "<bridge-tags xmlns=\"relative\""),
   };
   for (const std::string& input : inputs) {
@@ -126,7 +126,7 @@ TEST(TagsFile, IsRefusedBeforeItTakesMinutes) {
 }
 
 TEST(TagsFile, GivesLibxml2sWordsUpTo500Bytes) {
-  // The value found is part of the complaint: a letter more makes it longer by one.
+  // The complaint contains the value found, so a letter more makes it longer by one.
   const std::string text = SomeText();
   const auto complaint = [&](std::size_t letters) {
     return Complaint(Replaced(text, "RH=\"mid\"", "RH=\"" + std::string(letters, 'x') + "\"")).message;
@@ -185,7 +185,7 @@ TEST(TagsComparison, FindsWhatHasChanged) {
       << "weights, grades, a frame, a clip gone and a clip come";
 }
 
-/// The tags of a library with feet, by rules that are no defaults.
+/// Returns the tags of a library with feet, by rules that differ from the defaults.
 BridgeTags TagsOfMoves() {
   const MotionLibrary library = LibraryOfMoves();
   std::vector<std::string> sources;
@@ -202,7 +202,7 @@ BridgeTags TagsOfMoves() {
       {.weights = {0.25, 1.5, 0.5, 1, 2, 0.75, 0.3, 0.7, 0.5, 0.5}, .threshold = 0.3, .within_class = true});
 }
 
-/// The text of tags whose numbers are rounded, since their last digits are the compiler's.
+/// Returns the tags' text with rounded numbers, because last digits depend on the compiler.
 std::string TextOf(BridgeTags tags) {
   const auto round = [](double& number) { number = std::round(1e6 * number) / 1e6; };
   for (ClipTags& clip : tags.clips) {
