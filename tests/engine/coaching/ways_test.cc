@@ -2,7 +2,6 @@
 // window into every corrective act, from there into the slow demonstration, and from there back to the dance.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <set>
 #include <string>
 #include <tuple>
