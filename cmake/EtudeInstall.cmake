@@ -17,8 +17,7 @@ endif()
 
 install(DIRECTORY scenarios examples DESTINATION share/etude USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
 install(DIRECTORY ci DESTINATION share/etude USE_SOURCE_PERMISSIONS)
-install(DIRECTORY docs/schemas DESTINATION share/etude PATTERN protocol.schema.json EXCLUDE)
-install(FILES python/etude/protocol.schema.json DESTINATION share/etude/schemas)
+install(DIRECTORY docs/schemas DESTINATION share/etude)
 # The Python package has a folder of its own, which the fence shows to outside methods. A path file tells Debian's
 # Python where it is.
 install(DIRECTORY python/etude DESTINATION share/etude/python PATTERN __pycache__ EXCLUDE)

@@ -86,8 +86,7 @@ def _write(source, arrays, room):
     """Returns a program's folder in this part of the cache: with its source, arrays and imported modules."""
     here = pathlib.Path(__file__).resolve().parent
     files = {"program.py": source.encode(), **{f"{name}.npy": data for name, data in arrays.items()}}
-    for name in ("__init__.py", "conversation.py", "engine.py", "messages.py", "problems.py",
-                 "protocol.schema.json"):
+    for name in ("__init__.py", "conversation.py", "engine.py", "messages.py", "problems.py"):
         files[f"etude/{name}"] = (here / name).read_bytes()
     digest = hashlib.sha256()
     for name, data in sorted(files.items()):
