@@ -32,18 +32,6 @@ class Errors(EtudeCase):
     def test_yaml_that_is_none(self):
         self.refuses_scenario(IK + "clips: [a, b\n", says=[":10:1: not valid YAML"])
 
-    def test_unknown_keys_suggest_the_nearest(self):
-        self.refuses_scenario(IK + "trails: 4\n", says=[":9:1: ", "'trails'; did you mean 'trials'?"])
-        self.refuses_scenario(IK.replace("fixed, solver: ccd, weights:", "fixed, solver: ccd, wieghts:"),
-                              says=[":7:32: ", "'wieghts'; did you mean 'weights'?"])
-
-    def test_unknown_names_list_what_is_allowed(self):
-        self.refuses_scenario(IK.replace("task: ik", "task: ki"),
-                              says=[":3:7: ", "did you mean 'ik'? Allowed: transition, detection, ik, tracking, capture, "
-                                            "pose-distance"])
-        self.refuses_scenario(IK.replace("solver: ccd, weights: fixed", "solver: cdc, weights: fixed"),
-                              says=[":7:27: ", "unknown solver 'cdc'; did you mean 'ccd'?", "ccd-hinges"])
-
     def test_clips_that_cannot_be_found_or_read(self):
         scenario = IK.replace("task: ik", "task: transition").replace("sweep: {joint_noise_deg: [2, 5]}\n", "")
         scenario = scenario[: scenario.index("methods:")] + "methods: [{name: now, choice: now}]\n"

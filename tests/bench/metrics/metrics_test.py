@@ -167,22 +167,6 @@ MUTANTS = {
 }
 
 
-JOINS = """
-scenario: joins
-question: Can what holds a body up be told from a recording?
-task: transition
-clips: [builtin:sway, builtin:jump, builtin:boxing, builtin:clap]
-trials: 3
-methods:
-  - {name: cut, choice: now}
-  - {name: faded, choice: now, join: crossfade}
-  - {name: bridged, choice: fuzzy-bridge, join: crossfade}
-  - {name: unbroken, choice: unbroken}
-metrics: [supported_share]
-video: {compare: [cut, faded, bridged, unbroken], trials: [0, 1, 2]}
-"""
-
-
 class Metrics(EtudeCase):
     @classmethod
     def setUpClass(cls):
@@ -265,40 +249,6 @@ class Metrics(EtudeCase):
                 self.assertNotEqual(own_complaints({**rows[0], key: value}, schema), [])
         del rows[0]["reason"]
         self.assertNotEqual(own_complaints(rows[0], schema), [])
-
-    def recorded_joins(self):
-        """Returns the row and the join of each recording of a run, with joins in the vectors' format."""
-        for row in self.run_suite(self.write("joins.yaml", JOINS)):
-            name = row["cell"].replace("/", "~") + ".json"
-            recording = json.loads((self.out / "recordings" / name).read_text())
-            join = {key: self.motion(track) for track in recording["tracks"]
-                    for key in [{"coach": "shown"}.get(track["name"], track["name"])]}
-            points = recording["extras"]["transition_frames"]
-            yield row, {"join": {**join, "request": recording["extras"]["request_frame"], "first": points[0],
-                                 "last": points[-1]}}
-
-    def motion(self, track):
-        poses = track["poses"]
-        return {"rate_hz": track["rate_hz"], "frames": len(poses), "joints_m": {
-            joint["name"]: [pose[3 * i:3 * i + 3] for pose in poses]
-            for i, joint in enumerate(self.catalogue["joints"])}}
-
-    def test_what_holds_a_body_up_is_recomputed_from_recordings(self):
-        floating, lifted = 0, 0
-        for row, given in self.recorded_joins():
-            with self.subTest(row["cell"]):
-                self.assertEqual(row["unsupported_frames"], second.METRICS["unsupported_frames"](given))
-                self.assertEqual(row["supported_share"], second.METRICS["supported_share"](given))
-                self.assertAlmostEqual(row["balance_cm"], second.METRICS["balance_cm"](given), 9)
-                self.assertAlmostEqual(row["settle_s"], second.METRICS["settle_s"](given), 9)
-            floating += row["unsupported_frames"] > 0
-            # The control: a body lifted by 4 cm must give another value than the run's.
-            for joint in given["join"]["shown"]["joints_m"].values():
-                for place in joint:
-                    place[1] += 0.04
-            lifted += row["unsupported_frames"] != second.METRICS["unsupported_frames"](given)
-        self.assertGreater(floating, 0)
-        self.assertGreater(lifted, 6)
 
     def test_the_row_schema_knows_exactly_the_metrics_of_the_catalogue(self):
         properties = load_schema("row.schema.json")["properties"]

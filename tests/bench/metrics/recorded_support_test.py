@@ -1,5 +1,5 @@
-"""Recomputes in Python, from a run's recordings, the longest run of unsupported frames of each request, by the
-definition of `unsupported_frames` (docs/reference/metrics.md), and compares it with the run."""
+"""Computes from recordings, in Python, what holds a body up in each request that a run keeps, by the definitions in
+docs/reference/metrics.md, and compares it with the run."""
 import json
 import math
 import pathlib
@@ -9,7 +9,7 @@ import unittest.mock
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parents[1] / "cli")]
-from independent import support  # noqa: E402
+from independent import support, transition  # noqa: E402
 from etude_case import EtudeCase, heavy  # noqa: E402
 
 METHODS = {"played": ("played", "planted-feet"), "fade": ("now", "crossfade"), "spring": ("now", "inertialised-spring")}
@@ -51,7 +51,7 @@ def join_of(recording):
     points = recording["extras"]["transition_frames"]
     between = [{**clip, "begin": begin, "left_at": left_at} for clip, begin, left_at in zip(through, points, points[1:])]
     return {"shown": tracks["coach"], "left": tracks["left"], "wanted": tracks["wanted"], "between": between,
-            "first": points[0], "last": points[-1]}
+            "request": recording["extras"]["request_frame"], "first": points[0], "last": points[-1]}
 
 
 class RecordedSupport(EtudeCase):
@@ -80,6 +80,8 @@ class RecordedSupport(EtudeCase):
             found.append(support.longest_unsupported({"join": join}))
             self.assertEqual(found[-1], cell["unsupported_frames"], cell["cell"])
             self.assertEqual(support.supported({"join": join}), cell["supported_share"], cell["cell"])
+            for name, measure in (("balance_cm", support.balance), ("settle_s", transition.settle)):
+                self.assertAlmostEqual(measure({"join": join}), cell[name], 9, cell["cell"])
             flights += any(held and not own for own, held in zip(joints, holds))
             through += bool(join["between"])
             for name, value in MISTAKES.items():

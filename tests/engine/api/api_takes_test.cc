@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "engine/fuzzy/features.h"
 #include "engine/silhouettes/track_silhouettes.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "engine/base/angles.h"
 #include "sim/random/stream.h"
 #include "tests/support/results.h"
 

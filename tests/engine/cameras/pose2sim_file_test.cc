@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/base/angles.h"
 #include "engine/motion/rest_body.h"
 #include "tests/engine/capture/marked_body.h"
 #include "tests/engine/kinematics/rest_bodies.h"

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "engine/coaching/coach.h"
-#include "engine/coaching/policy.h"
 #include "tests/engine/coaching/small_dance.h"
 #include "tests/support/fingerprint.h"
 #include "tests/support/kept_lines.h"

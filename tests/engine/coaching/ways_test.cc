@@ -2,7 +2,6 @@
 // every corrective act, on to the slow demonstration, and back to the dance.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <set>
 #include <string>
 #include <tuple>

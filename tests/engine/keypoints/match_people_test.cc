@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/result.h"
 #include "engine/keypoints/pixel_fit.h"
 #include "engine/keypoints/recover_person.h"
 #include "tests/support/results.h"

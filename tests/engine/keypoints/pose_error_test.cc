@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/base/angles.h"
 #include "engine/cameras/robust_triangulation.h"
 #include "engine/capture/fit_pose.h"
 #include "engine/keypoints/recover_person.h"

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "engine/base/angles.h"
 #include "tests/support/random_clip.h"
 
 namespace etude {

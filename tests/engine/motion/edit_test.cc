@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "engine/base/angles.h"
 #include "engine/motion/clip.h"
 #include "tests/engine/formats/spoilt.h"
 #include "tests/support/person.h"

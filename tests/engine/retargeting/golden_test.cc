@@ -7,7 +7,6 @@
 #include <ranges>
 
 #include "engine/base/angles.h"
-#include "engine/base/names.h"
 #include "engine/retargeting/anatomy.h"
 #include "engine/retargeting/map_file.h"
 #include "engine/retargeting/marker_sets.h"

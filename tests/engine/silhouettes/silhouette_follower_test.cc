@@ -67,5 +67,12 @@ TEST(SilhouetteFollower, TellsNothingWhereNobodyIsShownAndGoesOnAfterwards) {
   EXPECT_LT(take.MeanErrorOf(4, told[4]->state), 0.06);
 }
 
+TEST(SilhouetteFollower, FindsNobodyWhereLinesOfSightAreOne) {
+  const SwingingTake take(1);
+  const std::vector<ProjectionMatrix> same(2, take.matrices[0]);
+  SilhouetteFollower nowhere(take.body, same, std::nullopt, TrackInSmallPictures());
+  EXPECT_FALSE(nowhere.Next(std::vector<Silhouette>(2, take.silhouettes[0][0])));
+}
+
 }  // namespace
 }  // namespace etude

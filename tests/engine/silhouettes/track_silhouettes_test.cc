@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-#include <vector>
-
 #include "engine/silhouettes/fit_joints.h"
 #include "tests/engine/silhouettes/swinging_take.h"
 

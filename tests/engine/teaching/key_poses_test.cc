@@ -7,7 +7,6 @@
 #include "tests/engine/teaching/arms.h"
 #include "tests/support/kept_lines.h"
 #include "tests/support/random_clip.h"
-#include "tests/support/results.h"
 
 namespace etude::testing {
 namespace {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/base/smoothstep.h"

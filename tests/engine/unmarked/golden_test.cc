@@ -2,7 +2,6 @@
 // this folder check that results are right.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 #include "engine/unmarked/recover_unmarked.h"

@@ -1,12 +1,11 @@
-// The golden values of pictures: people in front of rooms, and limbs recognised by the colours of a suit. The other
-// tests of this folder check that results are right.
+// The golden value of pictures: limbs recognised by the colours of a suit. The other tests of this folder check that
+// results are right.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/vision/limb_colours.h"
-#include "engine/vision/person_finder.h"
 #include "tests/engine/vision/pen.h"
 #include "tests/support/fingerprint.h"
 
@@ -141,51 +140,6 @@ TEST(VisionGolden, LimbsOfColouredSuits) {
     }
   }
   EXPECT_TRUE(print.Is(66878, -3167.84249411));
-}
-
-/// Returns a person of many colours, some of them the room's, who crosses a room in drifting light beside a shadow.
-std::vector<ColourImage> WalkThrough(testing::Dice& dice, const ColourImage& room, int frames, int pixels) {
-  std::vector<ColourImage> film;
-  for (int k = 0; k < frames; ++k) {
-    ColourImage& picture = film.emplace_back(room);
-    for (int y = 0; y < room.height; ++y) {
-      for (int x = 0; x < room.width; ++x) {
-        const int left = pixels * k - 8;
-        const int top = pixels == 5 ? 0 : 6, bottom = pixels == 5 ? room.height : 55;
-        const bool is_person = x >= left && x < left + 26 - y / 5 && y >= top && y < bottom;
-        const Rgb8 worn = y < 25 ? Rgb8{LevelFrom(110 + 2 * y), 95, LevelFrom(70 + 3 * (x - left))}
-                                 : Rgb8{50, LevelFrom(130 - y), LevelFrom(40 + 2 * y)};
-        const double light = (1 + 0.01 * k) * (!is_person && y > 50 && x > left && x < left + 40 ? 0.4 + 0.005 * x : 1);
-        picture.At(x, y) = Noisy(dice, is_person ? worn : room.At(x, y), light, 3);
-      }
-    }
-  }
-  return film;
-}
-
-TEST(VisionGolden, PeopleInFilms) {
-  testing::Dice dice(4);
-  ColourImage room(97, 61);
-  for (int y = 0; y < room.height; ++y) {
-    for (int x = 0; x < room.width; ++x) {
-      room.At(x, y) =
-          Noisy(dice, x < 40 ? Rgb8{LevelFrom(90 + 2 * x), 100, 130} : Rgb8{150, LevelFrom(90 + y), 60}, 1, 9);
-    }
-  }
-  Fingerprint print;
-  for (const int pixels : {5, 22}) {
-    const std::vector<ColourImage> film = WalkThrough(dice, room, 18, pixels);
-    for (const auto& [segmenter, options] :
-         {std::pair(Segmenter::kRunning, ChangeOptions()),
-          {Segmenter::kRunning, {.learning_rate = 0.2, .running_deviations = 2.5, .min_deviation = 2}},
-          {Segmenter::kLikelihood, {}},
-          {Segmenter::kRatio, {}}}) {
-      PersonFinder finder(room, {.segmenter = segmenter, .change = options, .pieces = PersonPieces::kLarge});
-      for (const ColourImage& picture : film) print.Add(finder.Find(picture).pixels);
-      for (const ColourImage& picture : film) print.Add(finder.Detect(picture).pixels);
-    }
-  }
-  EXPECT_TRUE(print.Is(1704384, -5215.40520714));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "bench/model/recording.h"
 #include "bench/recordings/capture_extras.h"
 #include "io/drawing/canvas.h"
-#include "io/drawing/look.h"
 #include "reports/films/capture_panel.h"
 #include "reports/films/capture_scene.h"
 #include "reports/films/shown_cell.h"

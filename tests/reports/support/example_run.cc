@@ -6,7 +6,6 @@
 
 #include "bench/model/recording.h"
 #include "bench/recordings/capture_extras.h"
-#include "engine/base/angles.h"
 
 namespace etude {
 namespace {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/reports/support/count_of.h"
 #include "tests/reports/support/example_run.h"
 
 namespace etude {
@@ -16,12 +17,6 @@ struct Example {
   std::vector<RecordedRequest> Worlds() const { return RecordedRequestsOf(run, run.scenarios.front()); }
   RunData run;
 };
-
-int CountOf(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 TEST(TransitionSection, TellsTheWayTheDistancesAndWhyTheWinnerWon) {
   const std::string html = TransitionsHtml(Example().Worlds());

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "engine/base/angles.h"
 #include "engine/fuzzy/features.h"
 #include "sim/random/stream.h"

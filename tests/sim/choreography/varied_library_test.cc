@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 
 #include "engine/fuzzy/features.h"
 #include "engine/fuzzy/membership.h"

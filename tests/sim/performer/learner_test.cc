@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "tests/sim/performer/all_moves.h"
 
@@ -29,6 +28,8 @@ class Coaching {
       : learner_(Key(trial), DrawPerson(Key(trial), people), AllMoves(), AllShowable(), options) {}
 
   Learner& learner() { return learner_; }
+  /// What is kept of a move.
+  double Kept(std::size_t move) const { return learner_.RetainedChanceOfRight(move, 0); }
   const std::vector<BodyPose>& poses() const { return poses_; }
 
   void Show(const Shown& shown) { poses_.push_back(learner_.Step(shown)); }
@@ -53,6 +54,15 @@ class Coaching {
     Show({});
   }
   void Correct(std::size_t move) { Do(Shown::Act::kCorrect, move); }
+  /// Dances a move until its truth is this one.
+  void DanceUntil(std::size_t move, Truth truth) {
+    for (int i = 0; i < 40; ++i) {
+      const Truth was = Dance(move);
+      Wait(3);
+      if (was == truth) return;
+    }
+    FAIL() << "never " << TruthName(truth);
+  }
 
  private:
   static WorldKey Key(int trial) { return {3, "learner-test", trial}; }
@@ -210,33 +220,25 @@ TEST(Learner, LessSkillNeverTakesAFaultAway) {
   EXPECT_GT(faults(0.1), faults(1));
 }
 
-/// Dances a move until an attempt has the truth `truth`.
-void DanceUntil(Coaching& coaching, std::size_t move, Truth truth) {
-  for (int i = 0; i < 40; ++i) {
-    const Truth was = coaching.Dance(move);
-    coaching.Wait(3);
-    if (was == truth) return;
-  }
-  FAIL() << "never " << TruthName(truth);
-}
-
 class UnderEveryLaw : public ::testing::TestWithParam<LearningLaw> {
  protected:
   LearnerOptions Options() const { return {.law = GetParam(), .skill = 0.4}; }
+
+  const std::size_t clap = IndexOf("clap"), sway = IndexOf("sway"), bird = IndexOf("bird");
+  Coaching coaching{Options()};
 };
 
 TEST_P(UnderEveryLaw, ACorrectionOfAMistakeTeachesAndOneWithoutCostsPatience) {
-  const std::size_t clap = IndexOf("clap");
   Coaching contingent(Options()), needless(Options());
-  DanceUntil(contingent, clap, Truth::kWrong);
-  DanceUntil(needless, clap, Truth::kRight);
-  const double wrong_before = contingent.learner().RetainedChanceOfRight(clap, 0);
-  const double right_before = needless.learner().RetainedChanceOfRight(clap, 0);
+  contingent.DanceUntil(clap, Truth::kWrong);
+  needless.DanceUntil(clap, Truth::kRight);
+  const double wrong_before = contingent.Kept(clap);
+  const double right_before = needless.Kept(clap);
   const double patience = contingent.learner().patience();
   contingent.Correct(clap);
   needless.Correct(clap);
-  EXPECT_GT(contingent.learner().RetainedChanceOfRight(clap, 0), wrong_before + 0.005);
-  EXPECT_EQ(needless.learner().RetainedChanceOfRight(clap, 0), right_before);
+  EXPECT_GT(contingent.Kept(clap), wrong_before + 0.005);
+  EXPECT_EQ(needless.Kept(clap), right_before);
   EXPECT_LT(needless.learner().patience(), contingent.learner().patience());
   const double once = contingent.learner().patience();
   EXPECT_GT(once, patience - 0.05);
@@ -246,86 +248,73 @@ TEST_P(UnderEveryLaw, ACorrectionOfAMistakeTeachesAndOneWithoutCostsPatience) {
 }
 
 TEST_P(UnderEveryLaw, ACorrectionAboutAnotherMoveTeachesNothing) {
-  const std::size_t clap = IndexOf("clap"), sway = IndexOf("sway");
-  Coaching coaching(Options());
-  DanceUntil(coaching, clap, Truth::kWrong);
-  const double before = coaching.learner().RetainedChanceOfRight(clap, 0);
+  coaching.DanceUntil(clap, Truth::kWrong);
+  const double before = coaching.Kept(clap);
   coaching.Correct(sway);
-  EXPECT_EQ(coaching.learner().RetainedChanceOfRight(clap, 0), before);
+  EXPECT_EQ(coaching.Kept(clap), before);
 }
 
 TEST_P(UnderEveryLaw, PracticeAndDemonstrationTeach) {
-  const std::size_t bird = IndexOf("bird");
-  Coaching coaching(Options());
-  double before = coaching.learner().RetainedChanceOfRight(bird, 0);
+  double before = coaching.Kept(bird);
   coaching.Dance(bird);
   coaching.Wait();
-  EXPECT_GT(coaching.learner().RetainedChanceOfRight(bird, 0), before);
-  const double practised = coaching.learner().RetainedChanceOfRight(bird, 0);
+  EXPECT_GT(coaching.Kept(bird), before);
+  const double practised = coaching.Kept(bird);
   coaching.Do(Shown::Act::kDemonstrate, bird);
-  EXPECT_GT(coaching.learner().RetainedChanceOfRight(bird, 0) - practised, practised - before);
+  EXPECT_GT(coaching.Kept(bird) - practised, practised - before);
 }
 
 TEST_P(UnderEveryLaw, APerformanceThatIsCutIsNone) {
-  const std::size_t bird = IndexOf("bird");
-  Coaching coaching(Options());
-  const double before = coaching.learner().RetainedChanceOfRight(bird, 0);
+  const double before = coaching.Kept(bird);
   coaching.Dance(bird, 2);
   coaching.Wait();
   EXPECT_TRUE(coaching.learner().performances().back().is_cut);
-  EXPECT_EQ(coaching.learner().RetainedChanceOfRight(bird, 0), before);
+  EXPECT_EQ(coaching.Kept(bird), before);
 }
 
 TEST_P(UnderEveryLaw, PraiseForAMistakeUnteachesAndCostsPatience) {
-  const std::size_t clap = IndexOf("clap");
-  Coaching coaching(Options());
-  DanceUntil(coaching, clap, Truth::kRight);
-  coaching.Correct(clap);  // lowers patience below one, so that it can rise
+  coaching.DanceUntil(clap, Truth::kRight);
+  coaching.Correct(clap);  // patience below one, so that it can rise
   const double spent = coaching.learner().patience();
   coaching.Praise();
   EXPECT_GT(coaching.learner().patience(), spent);
-  DanceUntil(coaching, clap, Truth::kWrong);
-  const double before = coaching.learner().RetainedChanceOfRight(clap, 0), patience = coaching.learner().patience();
+  coaching.DanceUntil(clap, Truth::kWrong);
+  const double before = coaching.Kept(clap), patience = coaching.learner().patience();
   coaching.Praise();
-  EXPECT_LT(coaching.learner().RetainedChanceOfRight(clap, 0), before);
+  EXPECT_LT(coaching.Kept(clap), before);
   EXPECT_LT(coaching.learner().patience(), patience);
 }
 
 TEST_P(UnderEveryLaw, FeedbackHelpsAtOnceMoreThanItLasts) {
-  const std::size_t clap = IndexOf("clap");
-  Coaching coaching(Options());
-  DanceUntil(coaching, clap, Truth::kWrong);
-  const double now = coaching.learner().ChanceOfRight(clap), later = coaching.learner().RetainedChanceOfRight(clap, 0);
+  coaching.DanceUntil(clap, Truth::kWrong);
+  const double now = coaching.learner().ChanceOfRight(clap), later = coaching.Kept(clap);
   coaching.Correct(clap);
-  EXPECT_GT(coaching.learner().ChanceOfRight(clap) - now, coaching.learner().RetainedChanceOfRight(clap, 0) - later);
+  EXPECT_GT(coaching.learner().ChanceOfRight(clap) - now, coaching.Kept(clap) - later);
 }
 
 TEST_P(UnderEveryLaw, TheMoreFrequentFeedbackTheLessEachTeaches) {
-  const std::size_t clap = IndexOf("clap");
   const auto gain = [&](bool fed_before) {
     LearnerOptions options = Options();
     options.skill = 0.6;
-    Coaching coaching(options);
+    Coaching taught(options);
     for (int i = 0; i < 5; ++i) {
-      coaching.Dance(clap);
-      coaching.Wait(3);
-      if (fed_before) coaching.Do(Shown::Act::kDemonstrate, clap, 3);
+      taught.Dance(clap);
+      taught.Wait(3);
+      if (fed_before) taught.Do(Shown::Act::kDemonstrate, clap, 3);
     }
-    // The gain is measured relative to what is left to be learnt.
-    const double before = 1 - coaching.learner().RetainedChanceOfRight(clap, 0);
-    coaching.Wait(3);
-    coaching.Do(Shown::Act::kDemonstrate, clap, 3);
-    return (before - (1 - coaching.learner().RetainedChanceOfRight(clap, 0))) / before;
+    // What is left to be learnt differs, so the gain is measured on it.
+    const double before = 1 - taught.Kept(clap);
+    taught.Wait(3);
+    taught.Do(Shown::Act::kDemonstrate, clap, 3);
+    return (before - (1 - taught.Kept(clap))) / before;
   };
   EXPECT_LT(gain(true), 0.9 * gain(false));
 }
 
 TEST_P(UnderEveryLaw, WhoIsInterruptedForNothingGivesUpAndStands) {
-  const std::size_t clap = IndexOf("clap");
-  Coaching coaching(Options());
   int corrections = 0;
   while (!coaching.learner().HasGivenUp() && corrections < 20) {
-    DanceUntil(coaching, clap, Truth::kRight);
+    coaching.DanceUntil(clap, Truth::kRight);
     coaching.Correct(clap);
     ++corrections;
   }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/reports/support/count_of.h"
+
 namespace etude {
 namespace {
 
@@ -18,18 +20,12 @@ BodyMotion OnOneLeg() {
   return motion;
 }
 
-std::size_t CountOf(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 TEST(ContactIndex, HasABarWhereAFootStands) {
   const std::string svg = ContactIndexSvg("a < b", OnOneLeg());
   EXPECT_THAT(svg, HasSubstr("a &lt; b: left foot stands 100 % of the time, right foot stands 48 %"))
       << "the frame before it leaves is fast already";
-  EXPECT_EQ(CountOf(svg, "<polyline"), 4u) << "height and speed of two feet";
-  EXPECT_EQ(CountOf(svg, "<rect x="), 2u);
+  EXPECT_EQ(CountOf(svg, "<polyline"), 4) << "height and speed of two feet";
+  EXPECT_EQ(CountOf(svg, "<rect x="), 2);
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
@@ -39,7 +35,7 @@ TEST(ContactIndex, OfABodyThatStandsOnItsHandsHasNone) {
   for (glm::dvec3& joint : handstand.poses[0].joints) joint.y = 1;
   handstand.poses[0][Role::kLeftHand].y = handstand.poses[0][Role::kRightHand].y = 0;
   const std::string svg = ContactIndexSvg("handstand", handstand);
-  EXPECT_EQ(CountOf(svg, "<rect x="), 0u);
+  EXPECT_EQ(CountOf(svg, "<rect x="), 0);
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 

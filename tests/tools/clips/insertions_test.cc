@@ -56,8 +56,9 @@ std::optional<std::pair<int, int>> Window(const BodyMotion& motion, double secon
   return std::pair(first, first + static_cast<int>(std::lround(seconds * motion.rate_hz)));
 }
 
-Inserted Between(const BodyMotion& motion, int first, int last) {
-  return {.from_s = first / motion.rate_hz, .to_s = last / motion.rate_hz};
+Inserted Between(const BodyMotion& motion, int first, int last, std::optional<Role> joint = {},
+                 std::optional<double> size = {}) {
+  return {.from_s = first / motion.rate_hz, .to_s = last / motion.rate_hz, .joint = joint, .size = size};
 }
 
 void MoveAll(BodyPose& pose, const glm::dvec3& by) {
@@ -94,9 +95,7 @@ Insert Skating(double speed) {
     for (int f = window->first; f < static_cast<int>(motion.poses.size()); ++f) {
       MoveAll(motion.poses[f], speed * (std::min(f, window->second) - window->first) / motion.rate_hz * way);
     }
-    Inserted inserted = Between(motion, window->first, window->second);
-    inserted.size = speed;
-    return inserted;
+    return Between(motion, window->first, window->second, {}, speed);
   };
 }
 
@@ -107,9 +106,7 @@ std::optional<Inserted> Jump(BodyMotion& motion, RandomStream& dice) {
   const bool is_once = dice.Chance(0.5);
   const int end = is_once ? window->first + 1 : static_cast<int>(motion.poses.size());
   for (int f = window->first; f < end; ++f) MoveAll(motion.poses[f], 0.5 * way);
-  Inserted inserted = Between(motion, window->first, window->first);
-  inserted.size = 0.5;
-  return inserted;
+  return Between(motion, window->first, window->first, {}, 0.5);
 }
 
 std::optional<Inserted> Pop(BodyMotion& motion, RandomStream& dice) {
@@ -120,10 +117,7 @@ std::optional<Inserted> Pop(BodyMotion& motion, RandomStream& dice) {
   for (const Role joint : {kLeftWrist, kLeftHand}) {
     motion.poses[window->first][is_left ? joint : Mirrored(joint)] += 0.5 * way;
   }
-  Inserted inserted = Between(motion, window->first, window->first);
-  inserted.joint = is_left ? kLeftWrist : kRightWrist;
-  inserted.size = 0.5;
-  return inserted;
+  return Between(motion, window->first, window->first, is_left ? kLeftWrist : kRightWrist, 0.5);
 }
 
 /// Returns true if the body flies: for 0.2 s both ankles are 10 cm above their rest, and the mass centre falls at about
@@ -179,9 +173,7 @@ std::optional<Inserted> Stretched(BodyMotion& motion, RandomStream& dice) {
       }
     }
   }
-  Inserted inserted = Between(motion, window->first, window->second);
-  inserted.joint = end;
-  return inserted;
+  return Between(motion, window->first, window->second, end);
 }
 
 /// Rises from 0 to 1 in a quarter of a second, and falls at the end.
@@ -209,9 +201,7 @@ std::optional<Inserted> BentKnee(BodyMotion& motion, RandomStream& dice) {
     pose[of(kLeftAnkle)] = pose[of(kLeftKnee)] + turn * shank;
     pose[of(kLeftFoot)] = pose[of(kLeftAnkle)] + turn * toes;
   }
-  Inserted inserted = Between(motion, window->first, window->second);
-  inserted.joint = of(kLeftKnee);
-  return inserted;
+  return Between(motion, window->first, window->second, of(kLeftKnee));
 }
 
 /// A hand passes through the chest for half a second; the arm keeps its lengths.
@@ -240,9 +230,7 @@ std::optional<Inserted> HandThroughChest(BodyMotion& motion, RandomStream& dice)
     pose[of(kLeftWrist)] = shoulder + reach * along;
     pose[of(kLeftHand)] = pose[of(kLeftWrist)] + hand;
   }
-  Inserted inserted = Between(motion, window->first, window->second);
-  inserted.joint = of(kLeftWrist);
-  return inserted;
+  return Between(motion, window->first, window->second, of(kLeftWrist));
 }
 
 /// A part of the body is displaced by 40 cm for 1.5 s, in any direction.
@@ -255,9 +243,7 @@ Insert Torn(std::vector<Role> parts) {
     for (int f = window->first; f <= window->second; ++f) {
       for (const Role part : parts) motion.poses[f][is_left ? part : Mirrored(part)] += by;
     }
-    Inserted inserted = Between(motion, window->first, window->second);
-    inserted.joint = is_left ? parts.front() : Mirrored(parts.front());
-    return inserted;
+    return Between(motion, window->first, window->second, is_left ? parts.front() : Mirrored(parts.front()));
   };
 }
 
@@ -279,9 +265,7 @@ Insert FootSkating(double speed) {
       const glm::dvec3 by = speed * (std::min(f, window->second) - window->first) / motion.rate_hz * way;
       for (const Role joint : {ankle, toes}) motion.poses[f][joint] += by;
     }
-    Inserted inserted = Between(motion, window->first, window->second);
-    inserted.joint = toes;
-    return inserted;
+    return Between(motion, window->first, window->second, toes);
   };
 }
 

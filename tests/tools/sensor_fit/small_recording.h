@@ -2,7 +2,6 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "sim/random/stream.h"
 #include "tests/sim/performer/all_moves.h"
 #include "tools/sensor_fit/fit.h"
 

@@ -5,6 +5,7 @@ from independent import common
 from independent.common import BONES, ROLES, angle, distance, dot, flat, frames_of, minus
 
 PCK_MM, AUC_MM = 50, 200
+FEWEST = 3  # points that an alignment needs
 
 
 def joint_errors_mm(found, truth):
@@ -36,26 +37,34 @@ def largest_eigen(matrix):
     return a[best][best], [v[k][best] for k in range(n)]
 
 
+def rotation_of(quaternion):
+    w, x, y, z = quaternion
+    return [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z]]
+
+
+def fit(pairs, scaled):
+    """What maps the first points onto the second, by Horn's quaternions (1987); None where it is not determined."""
+    if len(pairs) < FEWEST:
+        return None
+    centre, goal = ([common.mean([pair[side][k] for pair in pairs]) for k in range(3)] for side in (0, 1))
+    moved = [(minus(a, centre), minus(b, goal)) for a, b in pairs]
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = (
+        [math.fsum(a[i] * b[j] for a, b in moved) for j in range(3)] for i in range(3))
+    largest, quaternion = largest_eigen([
+        [xx + yy + zz, yz - zy, zx - xz, xy - yx], [yz - zy, xx - yy - zz, xy + yx, zx + xz],
+        [zx - xz, xy + yx, yy - xx - zz, yz + zy], [xy - yx, zx + xz, yz + zy, zz - xx - yy]])
+    scatter = math.fsum(dot(a, a) for a, _ in moved)
+    scale = largest / scatter if scaled and scatter > 0 else 1.0
+    rotation = rotation_of(quaternion)
+    return lambda p: [goal[i] + scale * dot(rotation[i], minus(p, centre)) for i in range(3)]
+
+
 def aligned(pose, truth):
-    """Returns `pose` after the best similarity transform, by Horn's quaternions (1987), which need no singular
-    values and cannot reflect."""
-    centre = [common.mean([pose[role][k] for role in ROLES]) for k in range(3)]
-    goal = [common.mean([truth[role][k] for role in ROLES]) for k in range(3)]
-    p = {role: minus(pose[role], centre) for role in ROLES}
-    t = {role: minus(truth[role], goal) for role in ROLES}
-    m = [[math.fsum(p[role][i] * t[role][j] for role in ROLES) for j in range(3)] for i in range(3)]
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = m
-    largest, (w, x, y, z) = largest_eigen([
-        [xx + yy + zz, yz - zy, zx - xz, xy - yx],
-        [yz - zy, xx - yy - zz, xy + yx, zx + xz],
-        [zx - xz, xy + yx, yy - xx - zz, yz + zy],
-        [xy - yx, zx + xz, yz + zy, zz - xx - yy]])
-    scatter = math.fsum(dot(p[role], p[role]) for role in ROLES)
-    scale = largest / scatter if scatter > 0 else 1.0
-    rotation = [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
-                [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z]]
-    return {role: [goal[i] + scale * dot(rotation[i], p[role]) for i in range(3)] for role in ROLES}
+    """`pose` after the best similarity."""
+    move = fit([(pose[role], truth[role]) for role in ROLES], True)
+    return {role: move(pose[role]) for role in ROLES}
 
 
 def pa_mpjpe(given):

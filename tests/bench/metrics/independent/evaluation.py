@@ -4,42 +4,16 @@ import cmath
 import math
 
 from . import common
-from .capture import largest_eigen
+from .capture import FEWEST, fit
 from .common import cross, distance, dot, minus, norm
 
 LOW_M, GMD_MPS, GMD_REACH = 0.05, 0.5, 2
 PCK_MM, AUC_STEP_MM, AUC_STEPS = 150, 5, 31
-FEWEST = 3
 BEAT_SIGMA, SMOOTHING, MINT_ORDER = 3, 5, 10  # frames
 
 
 def seen_pairs(found, truth):
     return [(a, b) for a, b in zip(found, truth, strict=True) if a and b]
-
-
-def rotation_of(quaternion):
-    w, x, y, z = quaternion
-    return [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z]]
-
-
-def fit(pairs, scaled):
-    """Returns the transform from the first points to the second, by Horn's quaternions; None if it is not
-    determined."""
-    if len(pairs) < FEWEST:
-        return None
-    centre, goal = ([common.mean([pair[side][k] for pair in pairs]) for k in range(3)] for side in (0, 1))
-    moved = [(minus(a, centre), minus(b, goal)) for a, b in pairs]
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = (
-        [math.fsum(a[i] * b[j] for a, b in moved) for j in range(3)] for i in range(3))
-    largest, quaternion = largest_eigen([
-        [xx + yy + zz, yz - zy, zx - xz, xy - yx], [yz - zy, xx - yy - zz, xy + yx, zx + xz],
-        [zx - xz, xy + yx, yy - xx - zz, yz + zy], [xy - yx, zx + xz, yz + zy, zz - xx - yy]])
-    scatter = math.fsum(dot(a, a) for a, _ in moved)
-    scale = largest / scatter if scaled and scatter > 0 else 1.0
-    rotation = rotation_of(quaternion)
-    return lambda p: [goal[i] + scale * dot(rotation[i], minus(p, centre)) for i in range(3)]
 
 
 def apply(function, frames):

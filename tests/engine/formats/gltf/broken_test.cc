@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tests/engine/formats/gltf/small_glb.h"
+#include "tests/support/kept_answers.h"
 #include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
@@ -23,6 +24,7 @@ using testing::Replaced;
 using testing::SmallBinary;
 using ::testing::StartsWith;
 
+/// What tinygltf and the JSON parser refuse, in their words. The file beside this one has the others.
 struct BrokenText {
   const char* what;
   const char* from;
@@ -33,89 +35,11 @@ struct BrokenText {
 // clang-format off
 constexpr BrokenText kBrokenTexts[] = {
     {"no version", R"("version":"2.0")", R"("generator":"x")", R"(not glTF 2.0: "asset" object not found)"},
-    {"version 1", R"("version":"2.0")", R"("version":"1.0")", "asset.version: found '1.0'; allowed: 2.0"},
     {"no JSON", R"("nodes":[{)", R"("nodes":[{{)", "not glTF 2.0: syntax error while parsing object key"},
-    {"meshopt", R"("scene":0)", R"("extensionsRequired":["KHR_texture_transform","EXT_meshopt_compression"])", "extensionsRequired: found 'EXT_meshopt_compression'; allowed: KHR_materials_*"},
-    // scenes and nodes
-    {"scene out of range", R"("scene":0)", R"("scene":1)", "scene: found 1; allowed: 0 to 0"},
-    {"scene of no node", R"([{"nodes":[0,2]}])", R"([{"nodes":[0,3]}])", "scenes[0].nodes[1]: found 3; allowed: 0 to 2"},
-    {"negative root", R"([{"nodes":[0,2]}])", R"([{"nodes":[-1]}])", "scenes[0].nodes[0]: found -1; allowed: 0 to 2"},
-    {"a child as root", R"([{"nodes":[0,2]}])", R"([{"nodes":[1]}])", "scenes[0].nodes[0]: found node 1, a child of node 0; allowed: roots"},
-    {"child out of range", R"("children":[1])", R"("children":[3])", "nodes[0].children[0]: found 3; allowed: 0 to 2"},
-    {"own child", R"("children":[1])", R"("children":[0])", "nodes[0]: is its own ancestor; allowed: a tree"},
-    {"cycle of two", R"({"name":"Spine",)", R"({"name":"Spine","children":[0],)", "nodes[0]: is its own ancestor"},
-    {"two parents", R"("name":"Body",)", R"("children":[1],)", "nodes[2].children[0]: found node 1, a child of node 0 already; allowed: one parent"},
-    {"child twice", R"("children":[1])", R"("children":[1,1])", "nodes[0].children[1]: found node 1, a child of node 0 already"},
-    {"translation of two numbers", "[0,0.5,0]", "[0,0.5]", "nodes[1].translation: found 2 numbers; allowed: 3"},
-    {"translation beyond sense", "[0,0.5,0]", "[0,1e10,0]", "nodes[1].translation: found 10000000000; allowed: numbers within ±1e+09"},
     {"beyond any double", "[0,0.5,0]", "[0,1e999,0]", "number overflow parsing '1e999'"},
-    {"rotation of length 0", R"("translation":[0,0.5,0])", R"("rotation":[0,0,0,0])", "nodes[1].rotation: found a quaternion of length 0; allowed: unit quaternions"},
-    {"matrix of 15 numbers", R"("translation":[0,0.5,0])", R"("matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0])", "nodes[1].matrix: found 15 numbers; allowed: 16"},
-    {"sheared matrix", R"("translation":[0,0.5,0])", R"("matrix":[1,0,0,0,0.5,1,0,0,0,0,1,0,0,0,0,1])", "nodes[1].matrix: shears; allowed: translation, rotation, scale"},
-    {"flat matrix", R"("translation":[0,0.5,0])", R"("matrix":[1,0,0,0,0,0,0,0,0,0,1,0,0,0,0,1])", "nodes[1].matrix: flattens an axis"},
-    {"projecting matrix", R"("translation":[0,0.5,0])", R"("matrix":[1,0,0,1,0,1,0,0,0,0,1,0,0,0,0,1])", "nodes[1].matrix: found a projection; allowed: a last row of 0, 0, 0, 1"},
-    {"scales that multiply beyond sense", R"([0,1,0]},{"name":"Spine",)", R"([0,1,0],"scale":[1e6,1,1]},{"name":"Spine","scale":[1e6,1,1],)", "nodes: found joint 'Spine' beyond ±1e+09 in the world"},
-    // skins and meshes
-    {"skin out of range", R"("skin":0)", R"("skin":1)", "nodes[2].skin: found 1; allowed: 0 to 0"},
-    {"bone out of range", R"("joints":[0,1])", R"("joints":[0,3])", "skins[0].joints[1]: found 3; allowed: 0 to 2"},
-    {"skin without bones", R"("joints":[0,1])", R"("joints":[])", "skins[0].joints: found none"},
-    {"too few bind matrices", R"("joints":[0,1])", R"("joints":[0,1,0])", "skins[0].inverseBindMatrices: found 2; 3 joints need as many"},
-    {"bind matrices that are a text", R"("inverseBindMatrices":4)", R"("inverseBindMatrices":"4")", "skins[0].inverseBindMatrices: found \"4\"; allowed: a whole number from 0"},
-    {"negative bind matrices", R"("inverseBindMatrices":4)", R"("inverseBindMatrices":-1)", "skins[0].inverseBindMatrices: found -1; allowed: a whole number from 0"},
-    {"bind matrices of another kind", R"("inverseBindMatrices":4)", R"("inverseBindMatrices":2)", "skins[0].inverseBindMatrices (accessors[2]): found another type; allowed: MAT4"},
-    {"mesh out of range", R"("mesh":0)", R"("mesh":1)", "nodes[2].mesh: found 1; allowed: 0 to 0"},
-    {"mesh without primitives", R"("primitives")", R"("primitive")", "meshes[0].primitives: found none; at least one is needed"},
-    {"accessor out of range", R"("POSITION":0)", R"("POSITION":7)", "meshes[0].primitives[0].POSITION: found 7; allowed: 0 to 6"},
-    {"negative accessor", R"("POSITION":0)", R"("POSITION":-2147483648)", "meshes[0].primitives[0].POSITION: found -2147483648"},
-    {"positions of another type", R"("POSITION":0)", R"("POSITION":3)", "POSITION (accessors[3]): found another type; allowed: VEC3"},
-    {"indices of another type", R"("indices":3)", R"("indices":5)", "indices (accessors[5]): found component type 5126; allowed: 5121, 5123 or 5125"},
-    {"joints as floats", R"("JOINTS_0":1)", R"("JOINTS_0":2)", "JOINTS (accessors[2]): found component type 5126"},
-    {"weights as integers", R"("WEIGHTS_0":2)", R"("WEIGHTS_0":1)", "WEIGHTS (accessors[1]): found component type 5121"},
-    {"joints without weights", R"(,"WEIGHTS_0":2)", "", "found one of JOINTS_0 and WEIGHTS_0; allowed: both or none"},
-    {"a skinned mesh without joints", R"(,"JOINTS_0":1,"WEIGHTS_0":2)", "", "found no JOINTS_0; its skin needs them"},
-    {"unknown mode", R"("indices":3)", R"("indices":3,"mode":7)", "meshes[0].primitives[0].mode: found 7; allowed: 0 to 6"},
-    {"material out of range", R"("material":0)", R"("material":1)", "meshes[0].primitives[0].material: found 1; allowed: 0 to 0"},
-    {"two corners of three", R"("componentType":5123,"count":3)", R"("componentType":5123,"count":2)", "found 2 corners; allowed: multiples of 3"},
-    // animations
-    {"sampler out of range", R"("sampler":0)", R"("sampler":1)", "animations[0].channels[0].sampler: found 1; allowed: 0 to 0"},
-    {"target that is negative", R"("node":1)", R"("node":-1)", "animations[0].channels[0].target.node: found -1; allowed: a whole number from 0"},
-    {"target that is a text", R"("node":1)", R"("node":"1")", "animations[0].channels[0].target.node: found \"1\"; allowed: a whole number from 0"},
-    {"no path", R"("node":1,"path":"rotation")", R"("node":1)", "animations[0].channels[0].target.path: found no text; allowed: translation, rotation, scale, weights"},
-    {"neither node nor path", R"("node":1,"path":"rotation")", "", "animations[0].channels[0].target.path: found no text"},
-    {"target out of range", R"("node":1)", R"("node":99)", "animations[0].channels[0].target.node: found 99; allowed: 0 to 2"},
-    {"unknown path", R"("path":"rotation")", R"("path":"colour")", "animations[0].channels[0].target.path: found 'colour'; allowed: translation, rotation, scale, weights"},
-    {"rotations for a translation", R"("path":"rotation")", R"("path":"translation")", "animations[0].samplers[0].output (accessors[6]): found another type; allowed: VEC3"},
-    {"unknown interpolation", R"("output":6)", R"("output":6,"interpolation":"BEZIER")", "animations[0].samplers[0].interpolation: found 'BEZIER'; allowed: LINEAR, STEP, CUBICSPLINE"},
-    {"spline without tangents", R"("output":6)", R"("output":6,"interpolation":"CUBICSPLINE")", "animations[0].samplers[0].output: found 3 values; 3 times need 9"},
-    {"input out of range", R"("input":5)", R"("input":-7)", "animations[0].samplers[0].input: found -7; allowed: 0 to 6"},
-    {"the same channel twice", R"("channels":[)", R"("channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}},)", "animations[0].channels[1]: found the rotation of node 1 again; allowed: one channel each"},
-    // accessors, views, buffers
-    {"huge count", R"("componentType":5126,"count":3)", R"("componentType":5126,"count":4000000000)", "POSITION (accessors[0]): found 4000000000 elements; allowed: 1 to"},
-    {"count near 2^64", R"("componentType":5126,"count":3)", R"("componentType":5126,"count":18446744073709551615)", "found 18446744073709551615 elements; allowed: 1 to"},
-    {"no elements", R"("componentType":5126,"count":3)", R"("componentType":5126,"count":0)", "found 0 elements; allowed: 1 to"},
-    {"one element too many", R"("componentType":5126,"count":3)", R"("componentType":5126,"count":4)", "POSITION (accessors[0]): found 4 elements of 12 bytes every 12 bytes at byte 0; bufferViews[0] holds 36"},
-    {"offset near 2^64", R"({"bufferView":0,)", R"({"bufferView":0,"byteOffset":18446744073709551604,)", "at byte 18446744073709551604; bufferViews[0] holds 36"},
-    {"zeros without end", R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,)", R"("accessors":[{"componentType":5126,"count":100000000,)", "found 100000000 elements; allowed: 1 to"},
-    {"doubles", R"("componentType":5126,"count":3,"type":"VEC3")", R"("componentType":5130,"count":3,"type":"VEC3")", "POSITION (accessors[0]): found component type 5130; allowed: 5126 (float)"},
-    {"view out of range", R"({"bufferView":0)", R"({"bufferView":7)", "POSITION (accessors[0]).bufferView: found 7; allowed: 0 to 6"},
-    {"stride below an element", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteStride":8})", "bufferViews[0].byteStride: found 8; allowed here: at least 12"},
-    {"stride past the end", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteStride":16})", "found 3 elements of 12 bytes every 16 bytes at byte 0; bufferViews[0] holds 36"},
-    {"buffer out of range", R"({"buffer":0,"byteLength":36})", R"({"buffer":-1,"byteLength":36})", "bufferViews[0].buffer: found -1; allowed: 0 to 0"},
-    {"view past its buffer", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteOffset":280})", "bufferViews[0]: found 36 bytes at byte 280; buffer 0 holds 292"},
-    {"negative offset", R"({"bufferView":0,)", R"({"bufferView":0,"byteOffset":-4,)", "byteOffset: found -4; allowed: a whole number from 0"},
-    {"negative offset of a view", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteOffset":-4})", "bufferViews[0].byteOffset: found -4; allowed"},
-    {"offset that is a text", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteOffset":"4"})", "bufferViews[0].byteOffset: found \"4\"; allowed"},
-    {"view near 2^64", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":18446744073709551615,"byteOffset":12})", "bufferViews[0]: found 18446744073709551615 bytes at byte 12"},
-    {"offset of a view near 2^64", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteOffset":18446744073709551600})", "bufferViews[0]: found 36 bytes at byte 18446744073709551600"},
     {"buffer beyond the file", R"("byteLength":292)", R"("byteLength":296)", "not glTF 2.0: Invalid `byteLength'"},
     {"empty buffer", R"("byteLength":292)", R"("byteLength":0)", "not glTF 2.0: "},
     {"broken data URI", R"("byteLength":292)", R"("byteLength":292,"uri":"data:application/octet-stream;base64,AAAA")", "not glTF 2.0: Failed to decode 'uri'"},
-    {"sparse past the end", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":4,"indices":{"bufferView":3,"componentType":5123},"values":{"bufferView":3}}},)", "indices (accessors[3]).sparse.count: found 4; allowed: 1 to 3"},
-    {"sparse of nothing", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":-1,"indices":{"bufferView":3,"componentType":5123},"values":{"bufferView":3}}},)", "sparse.count: found -1"},
-    {"sparse with float indices", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":3,"componentType":5126},"values":{"bufferView":3}}},)", "sparse.indices.componentType: found 5126"},
-    {"sparse index out of range", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":2,"componentType":5125},"values":{"bufferView":3}}},)", "sparse.indices: found 1065353216; allowed: 0 to 2"},
-    {"sparse with a negative offset", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":3,"byteOffset":-6,"componentType":5123},"values":{"bufferView":3}}},)", "sparse.indices.byteOffset: found -6; allowed: a whole number from 0"},
-    {"sparse values past the view", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":3,"componentType":5123},"values":{"bufferView":3,"byteOffset":5}}},)", "sparse.values: found 1 elements of 2 bytes every 2 bytes at byte 5; bufferViews[3] holds 6"},
 };
 // clang-format on
 
@@ -127,6 +51,10 @@ TEST(BrokenGltf, IsRefusedNamingThePlaceAndWhatIsAllowed) {
     EXPECT_THAT(complaint, StartsWith("test.glb"));
     EXPECT_THAT(complaint, HasSubstr(broken.complaint));
   }
+  const auto complaint = [](const std::string& edit) {
+    return GlbComplaint(Glb(testing::Edited(std::string(kSmallGltf), edit), SmallBinary()));
+  };
+  EXPECT_TRUE(testing::AnswersAreKept("tests/engine/formats/gltf/broken.txt", complaint));
 }
 
 TEST(BrokenGltf, ThatIsNoJsonIsRefusedWithItsLineAndColumnAndTheParsersWords) {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/transitions/library/transition_points.h"
-#include "tests/engine/transitions/lying_clips.h"
 #include "tests/engine/transitions/random_clips.h"
 #include "tests/engine/transitions/test_clips.h"
 

@@ -60,17 +60,6 @@ TEST(TagsFile, SaysWhereWhatWasFoundAndWhatIsAllowed) {
   EXPECT_THAT(error.message, HasSubstr("'down', 'mid', 'up'"));
 }
 
-TEST(TagsFile, RefusesWhatContradictsItself) {
-  const std::string text = SomeText();
-  EXPECT_THAT(Complaint(Replaced(text, "RH=\"mid\"", "RH=\"up\"")).message, HasSubstr("but its grades give mid"));
-  EXPECT_THAT(Complaint(Replaced(text, "frames=\"40\"", "frames=\"4\"")).message, HasSubstr("of a clip that has 4"));
-  EXPECT_THAT(Complaint(Replaced(text, "name=\"wave\"", "name=\"Ärm &amp; &lt;leg&gt; &quot;2&quot;\"")).message,
-              HasSubstr("a second clip"));
-  EXPECT_THAT(Complaint(Replaced(text, "key clip=\"wave\"", "key clip=\"wink\"")).message, HasSubstr("wink"));
-  EXPECT_THAT(Complaint(Replaced(text, "rate-hz=\"30\"", "rate-hz=\"60\"")).message, HasSubstr("time-s"));
-  EXPECT_THAT(Complaint(Replaced(text, "feature=\"RH\"", "feature=\"LH\"")).message, HasSubstr("the weight of RH"));
-}
-
 TEST(TagsFile, RefusesHostileInput) {
   const std::string text = SomeText();
   const std::string bomb =
