@@ -19,13 +19,14 @@ namespace etude {
 
 /// One board in one picture of a camera.
 struct BoardSighting {
-  TargetView view;  ///< view of the board; its target is the board at the moment of this picture
+  TargetView view;  ///< view of the board; the view's target is the board at the time of this picture
   std::size_t board = 0;
   int look = -1;  ///< index of the picture among the examined pictures of a film; −1 if it is not from a film
 };
 
-/// Detects boards in the pictures of a rig's cameras and collects the sightings for `CalibrateFromPlanes`. A board at
-/// one moment is one target: it may move between moments, but all pictures of one moment show it at the same position.
+/// Detects boards in the pictures of a rig's cameras and collects the sightings for `CalibrateFromPlanes`. A moment is
+/// a time at which several cameras take pictures. A board at one moment is one target: it may move between moments, but
+/// all pictures of one moment show it at the same position.
 class BoardViews {
  public:
   explicit BoardViews(std::vector<Board> boards) : boards_(std::move(boards)) {}

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Identifies a sighting: camera, board, look.
+/// Identifies a sighting by camera, board and look (a look is one of the examined, evenly spaced pictures of a film).
 using SightingKey = std::tuple<std::size_t, std::size_t, int>;
 using SightingMap = std::map<SightingKey, const BoardSighting*>;
 
@@ -23,8 +23,8 @@ const glm::dvec2* PixelOf(const SightingMap& map, const SightingKey& key, const 
   return nullptr;
 }
 
-/// Returns the corners of a sighting, interpolated at the time `share` looks later (−0.5 to 0.5). Corners that no
-/// neighbouring look shows are left out.
+/// Returns the corners of a sighting, interpolated at the time of its look plus `share` times the interval between
+/// looks (−0.5 to 0.5). Corners that no neighbouring look shows are left out.
 std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey& key, const BoardSighting& sighting,
                                       double share) {
   constexpr double kNow = 1e-6;

@@ -13,7 +13,7 @@ namespace {
 // Rays that differ by less than this, radians, span no plane; it is about 0.01 pixel at a focal length of 600 pixels.
 constexpr double kSamePixel = 1e-5;
 
-// Returns the planes of the strokes that have a length.
+// Returns the planes of all strokes that are long enough to span a plane.
 std::vector<StrokePlane> PlanesOf(std::span<const LimbSighting> sightings) {
   std::vector<StrokePlane> planes;
   for (const LimbSighting& sighting : sightings) {

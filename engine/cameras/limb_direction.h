@@ -56,9 +56,10 @@ struct LimbDirection {
 /// unit normal N ~ ray(a) × ray(b) that contains the limb. The intersection of two planes is N₁ × N₂ (paper B, section
 /// 2.3). *Ours*: for more planes, the direction is the unit vector d that minimises Σ (Nᵢ·d)²/εᵢ². Here εᵢ ~ |rayᵢ × d|
 /// / (length of the stroke) is the error of Nᵢ·d caused by an error of one pixel at the stroke's ends; a near camera,
-/// which shows the limb as a long stroke, therefore has more weight. εᵢ is computed with the d of equal weights.
-/// Strokes without length are left out. The direction points from a to b in the pictures (ours; the paper does not
-/// say). If pictures disagree about the sense of d, those in which the limb is less foreshortened have more weight.
+/// which shows the limb as a long stroke, therefore has more weight. εᵢ is computed with the d that results from equal
+/// weights. Strokes without length are left out. The direction points from a to b in the pictures (ours; the paper does
+/// not say). If pictures disagree about the sense of d, the pictures in which the limb is less
+/// foreshortened have more weight.
 /// @param min_plane_angle the result is ill-conditioned if no two planes differ by at least this angle, radians
 LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double min_plane_angle = Radians(3));
 

@@ -58,7 +58,7 @@ CalibrationTargetPose Inverse(const CalibrationTargetPose& pose) {
   return {R, -(R * pose.p_WT)};
 }
 
-/// A view with its homography.
+/// A view of a flat board, and the homography from the board to the picture.
 struct PlaneView {
   const TargetView* view;
   glm::dmat3 homography;
@@ -213,7 +213,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   places.targets_.front() = CalibrationTargetPose{};
   while (places.Join(usable)) {
   }
-  // Start the joint adjustment at these poses.
+  // The adjustment of all cameras and boards together starts at these poses.
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {

@@ -40,9 +40,9 @@ std::size_t NumberTargets(std::span<TargetView> views);
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
                                        const RefineOptions& options = {});
 
-/// Finds the poses of flat boards that minimise the reprojection error of known cameras. The cameras, with their
-/// lenses, are not changed; they may be given in any world frame. Views are selected as in `CalibrateFromPlanes`. Fails
-/// if no camera shows a board.
+/// Finds the poses of flat boards by minimising the reprojection error in pictures of known cameras. The cameras, with
+/// their lenses, are not changed; they may be given in any world frame. Views are selected as in `CalibrateFromPlanes`.
+/// Fails if no camera shows a board.
 Result<RefinedRig> LocateBoards(std::span<const Camera> cameras, std::span<const TargetView> views);
 
 }  // namespace etude

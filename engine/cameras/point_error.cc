@@ -19,7 +19,7 @@ struct PixelErrors {
   std::array<glm::dvec2, kCalibrationParameters> by_calibration{};
 };
 
-/// Returns the pixel, with lens distortion, if it lies within the picture.
+/// Returns the pixel that shows Q, with lens distortion; nullopt if the pixel is outside the picture.
 std::optional<glm::dvec2> PixelInPicture(const Camera& camera, const glm::dvec3& p_WQ) {
   const auto pixel = Project(camera, p_WQ);
   const Intrinsics& in = camera.intrinsics;

@@ -20,7 +20,7 @@ struct CalibrationDeviation {
 
 /// The errors of the pixels from which a point is triangulated.
 struct SightingErrors {
-  double noise_px = 5;  ///< standard deviation along each axis of the picture
+  double noise_px = 5;  ///< standard deviation of a pixel's error along each axis of the picture
   double dropout = 0;   ///< probability, below 1, that a camera gives no pixel for a point in its picture
   CalibrationDeviation calibration = {};
 };

@@ -299,7 +299,7 @@ Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
 }
 
 Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file) {
-  // Larger than for one file, because COLMAP's files also list points.
+  // The maximum size of a pair of files, larger than the limit for one file, because COLMAP's files also list points.
   constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;
   if (inside.size() + outside.size() > kMaxPairBytes) {
     return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kMaxPairBytes);

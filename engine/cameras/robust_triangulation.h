@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// A sighting of a point with its accuracy.
+/// A sighting of a point, and the accuracy of its pixel.
 struct InformedSighting {
   Sighting sighting;
   glm::dmat2 information{1};  ///< inverse covariance of the pixel, 1/px²
@@ -29,7 +29,7 @@ std::optional<PointEquations> PointEquationsAt(std::span<const InformedSighting>
 
 struct LikeliestPoint {
   glm::dvec3 position{0};     ///< p_WQ, metres
-  glm::dmat3 information{0};  ///< inverse covariance, 1/m²
+  glm::dmat3 information{0};  ///< inverse covariance of the position, 1/m²
 };
 
 /// Finds the position that minimises Σ rᵀ Λ r, by five Gauss–Newton steps from paper B's linear solution

@@ -64,8 +64,9 @@ TakeBody MakeTakeBody(const LimbLengths& lengths) {
 
 namespace {
 
-/// Returns one state per frame. A frame whose joints give no state takes the state of the frame before it; frames
-/// before the first state take that state. Returns an empty list if no frame gives a state.
+/// Returns one start pose per frame, as the root's pose and joint angles. A frame whose joints give no pose takes the
+/// pose of the frame before it; the frames before the first pose take the first pose. Returns an empty list if no frame
+/// gives a pose.
 std::vector<TreeState> StartOf(const CaptureBody& body, std::span<const OptionalJoints> joints) {
   const BodyPose standing = ToBodyPose(body, StandingState(body.tree));
   std::vector<TreeState> states;

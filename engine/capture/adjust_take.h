@@ -31,7 +31,7 @@ LimbLengths LimbLengthsOf(std::span<const double> lengths);
 std::array<double, 10> ListOf(const LimbLengths& lengths);
 
 struct AdjustTakeInputs {
-  MeasureInputs pictures;  ///< cameras and marks; `known` is ignored
+  MeasureInputs pictures;  ///< cameras and marks; the member `known` is ignored
   LimbLengths lengths;     ///< lengths of the person, metres; the start of the search if lengths are adjusted
   /// The joint positions of each frame at which the search starts (`BridgeJoints`).
   std::span<const OptionalJoints> start;
@@ -50,7 +50,7 @@ struct AdjustedTake {
 
 /// Adjusts a whole take at once (`AdjustBundle`): fits paper B's body in all frames to the marks of all pictures. The
 /// search starts at the angles that point the limbs along the joints of `start` (`FindStartState`); a frame without
-/// such angles starts at those of a neighbouring frame. `is_solved` is false if no frame shows a body.
+/// such angles starts at the angles of a neighbouring frame. `is_solved` is false if no frame shows a body.
 AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions& options = {});
 
 /// Returns the smoothness prior for a motion at this frame rate; it applies to hips, shoulders, wrists, ankles and all

@@ -33,7 +33,7 @@ struct FrameMeasurement {
   RoleVectors directions;  ///< unit vectors in the world: direction of each limb, by the role of its lower joint
   /// For each limb without a direction: the planes through the limb, one per picture that shows it.
   std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
-  /// The sight line of each end that only one picture shows.
+  /// The sight line of each end effector that only one picture shows.
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
@@ -68,9 +68,9 @@ struct MeasureOptions {
 
 /// Triangulates the end effectors and computes the limb directions of every frame (paper B, sections 2.3 and 2.4). A
 /// position or direction needs two or more pictures; partial information from a single picture is kept in `planes` and
-/// `sight_lines`. With two cameras the formulas are the paper's. With more, both are least squares in which views are
-/// weighted by their accuracy (`TriangulateByPixels`, `ComputeLimbDirection`). No view is rejected here; call
-/// `AgreeingMarks` first for that.
+/// `sight_lines`. With two cameras the formulas are the paper's. With more cameras, positions and directions are
+/// least-squares solutions in which views are weighted by their accuracy (`TriangulateByPixels`,
+/// `ComputeLimbDirection`). No view is rejected here; call `AgreeingMarks` first for that.
 std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const MeasureOptions& options = {});
 
 }  // namespace etude

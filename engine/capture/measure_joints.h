@@ -15,7 +15,7 @@ namespace etude {
 
 /// The error model of marks that a method may use.
 struct MarkErrors {
-  double mark_error_px = 2;  ///< standard deviation of a stroke's end across the stroke, and of a disc, in u and in v
+  double mark_error_px = 2;  ///< standard deviation of a disc in u and in v, and of a stroke's end across the stroke
   /// The standard deviation of a stroke's end along the limb, as a share of the stroke's length. Strokes are more
   /// accurate across the limb than along it *(ours)*.
   double slide_share = 0.08;
@@ -25,7 +25,7 @@ struct MarkErrors {
 struct MarkedJoint {
   Role role;
   glm::dvec2 pixel{0};
-  glm::dmat2 information{0};  ///< inverse covariance, 1/px²
+  glm::dmat2 information{0};  ///< inverse covariance of the pixel, 1/px²
 };
 
 /// Returns the joints that the marks of one picture show: both ends of every stroke, and the centre of every disc. A

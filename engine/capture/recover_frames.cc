@@ -12,7 +12,7 @@ namespace {
 
 using enum Role;
 
-/// The start of one frame: its joints from the pictures, before inverse kinematics.
+/// The pose from which inverse kinematics starts in one frame, made from the joints in the pictures.
 struct Start {
   BodyPose fixed;                 ///< joints with the body's limb lengths
   std::optional<TreeState> seen;  ///< the same pose as angles, if it has been found

@@ -49,7 +49,8 @@ struct CoachOptions {
   /// The evidence at which a performance counts as right, in (0, 1]. The right value depends on the recogniser: to
   /// compare recognisers, choose values that give equal false-alarm rates.
   double right_from = 0.5;
-  /// Windows open and close this time after the coach's repetition, because learners follow with a lag.
+  /// A window is the time in which a performance is judged. It opens and closes this time after the coach's repetition
+  /// begins and ends, because learners follow with a lag.
   double reaction_s = 0.3;
   /// True if the player dances as in a mirror: the player's left side follows the coach's right side. The caller must
   /// then mirror the input (CoachSession does so); in the coach, this option only changes what it says.
@@ -58,7 +59,7 @@ struct CoachOptions {
   int puzzled_after = 3;
   /// The maximum number of corrections of one repetition; then the dance continues.
   int most_corrections = 3;
-  /// The share of a song's judged performances that must be right for praise at the end.
+  /// The share of right performances, among the judged performances of a song, that earns praise at the end.
   double praise_share = 0.8;
   /// If the body moved in less than this share of a window's frames, the player stood still.
   double still_share = 0.1;

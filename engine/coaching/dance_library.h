@@ -43,9 +43,10 @@ class DanceLibrary {
   int WholeOf(int clip) const;
   /// Returns the last repetition that has begun at a frame of the dance; −1 before the first.
   int RepetitionAt(double dance_frame) const;
-  /// Returns the dance frame that is the first frame of a clip of ClipLeaving or ClipReturning.
+  /// Returns the number, in the whole dance, of the first frame of `clip`, which must come from ClipLeaving or
+  /// ClipReturning.
   std::size_t DanceFrameOf(int clip) const;
-  /// Returns true if the dance is entered through this clip.
+  /// Returns true if transitions return to the dance through this clip.
   bool IsReturning(int clip) const { return clip >= ClipReturning(-1); }
   bool IsLoop(int clip) const;
 

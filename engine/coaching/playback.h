@@ -15,7 +15,7 @@ struct ShownPath {
   int clip = 0;                  ///< the wanted clip, as an index in the library
   std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that was left
   std::size_t entered = 0;       ///< index in `frames` from which the wanted clip plays
-  int clip_frame = 0;            ///< the wanted clip's frame at that index
+  int clip_frame = 0;            ///< the frame of the wanted clip that is shown at index `entered`
   FloorMove place;               ///< the wanted clip's floor move, in the coordinates of `frames`
   /// Record of the transition; null if the path does not begin with one.
   std::shared_ptr<const TransitionRecord> record;
@@ -65,7 +65,7 @@ struct PlayedClip {
   bool in_transition = false;
 };
 
-/// Returns the clip that a path plays and its frame. `playback.path` must not be null.
+/// Returns the clip that the path plays, and the frame of this clip that is shown. `playback.path` must not be null.
 PlayedClip PlayedOf(const Playback& playback, const DanceLibrary& library);
 /// Returns the shown frame of the dance; −1 if something else is shown.
 double DanceFrame(const Playback& playback, const DanceLibrary& library);

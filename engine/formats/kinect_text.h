@@ -14,7 +14,7 @@ namespace etude {
 
 constexpr std::size_t kKinectV2JointCount = 25;
 
-/// The position of each role; empty if it is missing.
+/// The position of each role's joint, metres; nullopt if the joint is missing.
 using RolePositions = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
 /// One frame of a Kinect v2: the positions of its 25 joints in the order of the SDK's JointType, metres. Axes are the

@@ -31,7 +31,7 @@ std::string_view ValueOf(std::string_view header, std::string_view key, char end
   return header.substr(0, header.find(end));
 }
 
-/// A number of IEEE 754's binary16.
+/// A number in IEEE 754's format binary16.
 struct Half {
   std::uint16_t bits;
   explicit operator double() const {

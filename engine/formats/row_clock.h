@@ -42,8 +42,8 @@ struct RowGrid {
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 
-/// Returns times in seconds from frame numbers, if the numbers are whole and ascend: their median step corresponds to 1
-/// / rate_hz. Otherwise returns an empty list.
+/// Computes times in seconds from frame numbers, if the numbers are whole and ascend; otherwise returns an empty list.
+/// The median step between two numbers becomes 1 / rate_hz.
 std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_hz);
 
 /// Markers in the rows of a file, before they are placed on frames.
@@ -59,7 +59,8 @@ struct MarkerRows {
 /// says what was changed. Fails like GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 
-/// Places the joints of a CSV on frames by their times; without times, by their frame numbers at kJudgedRateHz.
+/// Places the joints of a CSV on frames by their times. A CSV without times is placed by its frame numbers, at the rate
+/// kJudgedRateHz.
 Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file);
 
 /// Places a body's rows on frames by their times. Holes of up to a second are bridged linearly. If there are longer

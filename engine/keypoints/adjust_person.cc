@@ -98,8 +98,8 @@ class Adjuster {
     return start;
   }
 
-  /// Returns the mean square, per axis, of a joint's second differences over `lag` frames, without the largest 5 %.
-  /// Returns nullopt for fewer than ten differences.
+  /// Returns the mean square, per axis, of the second differences of a joint's position over `lag` frames, m², without
+  /// the largest 5 %. Returns nullopt for fewer than ten differences.
   std::optional<double> SquareOver(Role role, std::size_t lag) const {
     std::vector<double> squares;
     for (std::size_t k = lag; k + lag < joints_.size(); ++k) {

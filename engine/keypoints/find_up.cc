@@ -263,7 +263,8 @@ class Cues {
   void AddFeet(const glm::dvec3& up, Sum& sum) const {
     if (stays_.empty()) return;
     constexpr double kSameHeight = 0.008, kFlatFoot = 0.015, kShare = 0.5, kMaxCost = 2, kUnder = 3;
-    // For each kind: the mean position of its stays, and its height above the sole.
+    // For each kind of landmark of a foot: the mean position of its stays (periods of rest), and its height above the
+    // sole.
     std::vector<std::pair<glm::dvec3, double>> kinds;
     for (std::size_t kind = 0; kind < kFootKinds; ++kind) {
       std::vector<double> heights;

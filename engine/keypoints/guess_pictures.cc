@@ -68,7 +68,7 @@ class Guesser {
     return found;
   }
 
-  /// Returns the mean distance over all pairs of films if `guess` holds for all of them.
+  /// Returns the mean of Miss over all pairs of films if `guess` holds for every film.
   double MissOfAll(const Guess& guess) {
     double total = 0;
     for (std::size_t a = 0; a < films_.size(); ++a) {
@@ -133,7 +133,7 @@ class Guesser {
     return misses_[key] = misses.empty() ? kNothing : UpperMedian(std::move(misses));
   }
 
-  // Returns the median distance of film `c` to all other films under a hypothesis.
+  // Returns the median, over all other films, of Miss between the other film and film `c` under a hypothesis.
   double MissOf(std::size_t c, const Guess& guess) {
     std::vector<double> misses;
     for (std::size_t o = 0; o < films_.size(); ++o) {

@@ -40,7 +40,7 @@ std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, do
 /// height: the mean, over pairs of cameras, of the median distance. Returns 1 if the distance cannot be computed.
 double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
-/// A distance above this share of the height indicates a mistake, not only imprecision.
+/// An epipolar distance above this share of the person's height indicates a mistake, not only imprecise keypoints.
 constexpr double kMaxPlausibleMiss = 0.05;
 
 }  // namespace etude

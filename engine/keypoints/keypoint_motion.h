@@ -30,7 +30,7 @@ struct TriangulationReport {
 
 struct TriangulatedLandmark {
   std::size_t frame = 0, landmark = 0;
-  std::vector<std::size_t> cameras;  ///< indices of the cameras that see it with enough confidence
+  std::vector<std::size_t> cameras;  ///< indices of the cameras that see the landmark with enough confidence
   RobustPoint point;
 };
 

@@ -139,8 +139,9 @@ class PersonMatcher {
   }
 
  private:
-  /// Returns the error of two tracks in different cameras: the median over frames and keypoints, infinite if the tracks
-  /// have too few keypoints in common.
+  /// Returns the error of two tracks in different cameras, as a share of the person's height: the median, over frames
+  /// and keypoints, of how far the two rays of a keypoint miss each other. The error is infinite if the tracks have too
+  /// few keypoints in common.
   double ErrorOf(std::size_t a, std::size_t b) const {
     const Track &one = tracks_[a], &other = tracks_[b];
     if (one.camera == other.camera) return std::numeric_limits<double>::infinity();

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::ptrdiff_t kMinJoints = 8;
 constexpr double kUnseen = 0.01;  // weight of a joint that was completed, not seen
-constexpr int kRootSteps = 3;     // twenty steps reduce the distance of joints by only one percent more
+constexpr int kRootSteps = 3;     // twenty steps would bring the joints only one percent nearer to their targets
 
 std::optional<double> MedianDistance(std::span<const RoleVectors> frames, Role a, Role b) {
   std::vector<double> lengths;

@@ -40,7 +40,7 @@ class SubsequenceAligner {
   int count_ = 0;  // number of seen steps
   std::vector<double> costs_, distances_;
   std::vector<int> starts_;  // for each pattern step, the seen step at which the best path to it began
-  // Advance of the best path by seen step (a ring of `longest_`) and pattern step: 0, 1, 2 or kBegins.
+  // The advance of the best path into each seen step (a ring of `longest_`) and pattern step: 0, 1, 2 or kBegins.
   std::vector<std::uint8_t> advances_;
 };
 

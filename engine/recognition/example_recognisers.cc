@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// One move's examples, and the largest number of steps that a performance of it may last.
+/// The examples of one move, and the largest number of steps that a performance of the move may last.
 struct Examples {
   std::vector<std::vector<PoseVector>> patterns;
   int longest = 0;

@@ -68,7 +68,7 @@ ClockMeasures ClockComparison::Measure(double usual_s) const {
 
 namespace {
 
-/// Weighted sums over one limb's pairs along a path.
+/// Weighted sums, for one limb, over the pairs of seen and taught steps along a path.
 struct LimbSums {
   double weight = 0, gaps = 0, products = 0, seen_squares = 0, taught_squares = 0;
   glm::dvec3 seen{0}, taught{0};
@@ -116,7 +116,7 @@ LimbMeasures MeasureLimb(const LimbSums& sums) {
           .missing = 1.0 - (covariance + kStill) / (taught_variance + kStill)};
 }
 
-/// Parts of PoseParts::kLimbs: those of the body's middle, then pairs of left and right.
+/// Indices of parts in PoseParts::kLimbs: first the parts of the body's middle, then pairs of a left and a right part.
 constexpr std::array<std::size_t, 4> kMiddle = {0, 1, 2, 11};
 constexpr std::array<std::array<std::size_t, 2>, 4> kPairs = {{{3, 4}, {5, 6}, {7, 8}, {9, 10}}};
 

@@ -20,7 +20,7 @@ constexpr std::size_t kPosePartCount = 12;
 /// One pose, independent of body size, position and heading.
 struct PoseVector {
   std::array<glm::dvec3, kPosePartCount> parts{};
-  std::array<double, kPosePartCount> weights{};  ///< in [0, 1]
+  std::array<double, kPosePartCount> weights{};  ///< weight of each part, in [0, 1]
 };
 
 /// Returns the mean squared distance of the poses' parts, weighted by `seen.weights`, in the square of the parts' unit.

@@ -15,17 +15,18 @@ namespace etude::engine {
 
 /// The settings of a transition from one clip to another.
 struct TransitionOptions {
-  /// Name of the choice of the frames to leave and enter: one of TransitionChoices().
+  /// Name of the rule that selects the frames at which clips are left and entered: one of TransitionChoices().
   std::string choice = "played";
   std::string join = "planted-feet";  ///< name of the method that joins the two clips: one of TransitionJoins()
   double threshold = 0.4;             ///< maximum fuzzy distance of matching frames for the fuzzy choices, in (0, 6]
-  /// The settings of the choice and of the join, by key; missing ones keep their defaults.
+  /// The settings of the choice and of the join, by key; a setting that is missing keeps its default.
   std::map<std::string, double> choice_settings = {}, join_settings = {};
 };
 
-/// Returns the names of all choices: "fuzzy-bridge" (paper A's), "played", "motion-matching", …
+/// Returns the names of all choices (rules that select a transition's frames): "fuzzy-bridge" (paper A's), "played",
+/// "motion-matching", …
 ETUDE_API std::vector<std::string> TransitionChoices();
-/// Returns the names of all joins: "cut" (paper A's), "crossfade", "planted-feet", …
+/// Returns the names of all joins (methods that join two clips): "cut" (paper A's), "crossfade", "planted-feet", …
 ETUDE_API std::vector<std::string> TransitionJoins();
 /// Lists the settings of a choice or a join. Throws BadInput for an unknown name.
 ETUDE_API std::vector<NumberSetting> TransitionChoiceSettings(const std::string& choice);
@@ -42,8 +43,8 @@ struct Transition {
   std::string why;          ///< one sentence: why this transition was chosen, or why there is none
 };
 
-/// The proportions of one person: those of `pose`, scaled so that the hips of the standing body are `hip_height` metres
-/// high.
+/// The proportions of one person. The limb lengths are those of `pose`, scaled so that the hips of the standing body
+/// are `hip_height` metres high.
 struct BodyProportions {
   BodyPose pose;
   double hip_height = 0;

@@ -149,7 +149,7 @@ GltfCurve::Value GltfCurve::At(double time) const {
 
 GltfCurve::Value GltfCurve::Finished(Value value, std::size_t fallback_key) const {
   if (values_.width != 4) return value;
-  // A spline between opposite quaternions may pass through zero; then use the value of the key before it.
+  // A spline between opposite quaternions may pass through zero; then use the value of the last key before this time.
   const glm::dquat found = Quaternion(value.data());
   if (glm::dot(found, found) < kMinRotationLength * kMinRotationLength) {
     std::copy_n(Key(fallback_key), values_.width, value.begin());

@@ -119,7 +119,7 @@ struct Track {
   void Add(const glm::vec3& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
   void Add(const glm::vec4& value) { values.insert(values.end(), {value.x, value.y, value.z, value.w}); }
 
-  /// Returns true if all frames are equal, so that one key is enough.
+  /// Returns true if the value is the same in all frames, so that one key is enough.
   bool IsStill() const { return std::equal(values.begin() + 2 * width, values.end(), values.begin() + width); }
   bool IsAtRest() const { return std::equal(values.begin() + width, values.end(), values.begin()); }
 };
@@ -255,7 +255,7 @@ class GlbWriter {
     model_.materials.push_back(std::move(material));
   }
 
-  /// Adds a mesh. A rigid one is attached to its joint's node; any other gets its own node with a skin.
+  /// Adds a mesh. A rigid mesh is attached to the node of its joint; any other mesh gets a node of its own with a skin.
   void AddGroup(Group group) {
     // Write the primitives.
     const SkinnedMesh& first = group.front();
