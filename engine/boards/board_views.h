@@ -34,10 +34,12 @@ class BoardViews {
   BoardViews(const PrintedBoard& board, std::unique_ptr<PrintedBoardFinder> finder)
       : boards_{{.columns = board.columns, .rows = board.rows, .square = board.square}}, printed_(std::move(finder)) {}
 
-  /// Adds a picture of a camera. Fails if its size differs from that of the camera's earlier pictures.
+  /// Adds a picture of a camera. Fails if the picture's size differs from that of the camera's earlier pictures.
   /// @param camera number of the camera, from 0
-  /// @param moment name of the time at which it was taken: pictures of one moment show boards at the same positions
-  /// @param look index among the examined, evenly spaced pictures of its film, from 0; −1 if it is not from a film
+  /// @param moment name of the time at which the picture was taken: pictures of one moment show boards at the same
+  /// positions
+  /// @param look index among the examined, evenly spaced pictures of a film, from 0; −1 for a picture that is not from
+  /// a film
   /// @return the number of corners found
   Result<std::size_t> Add(std::size_t camera, const std::string& moment, const ColourImage& picture, int look = -1);
 

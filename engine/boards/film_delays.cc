@@ -45,8 +45,9 @@ std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey&
   return moved;
 }
 
-/// Returns all sightings if there are at most kMaxMoments moments, or if no moment is shared by several films.
-/// Otherwise returns the sightings of about kMaxMoments moments, in evenly spaced blocks of consecutive looks.
+/// Returns all sightings if they show at most kMaxMoments targets, or if no target is seen in several films. (A target
+/// is a board at one time.) Otherwise returns the sightings of about kMaxMoments targets, in evenly spaced blocks of
+/// consecutive looks.
 std::vector<BoardSighting> Subsampled(std::span<const BoardSighting> sightings) {
   constexpr std::size_t kMaxMoments = 60;
   std::map<std::size_t, std::size_t> cameras;  // number of cameras that see each target
@@ -70,7 +71,7 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
                                     std::span<const double> delay_s) {
   SightingMap map;
   for (const BoardSighting& s : sightings) map[{s.view.camera, s.board, s.look}] = &s;
-  // Index of each target, by board and look of the first film.
+  // The index of each target, by the target's board and by the look of the first film that is nearest in time.
   std::map<std::pair<std::size_t, int>, std::size_t> targets;
   std::size_t count = 0;
   const auto target_of = [&](std::size_t board, int look) {

@@ -22,7 +22,7 @@ using CornerGrid = std::map<GridIndex, std::size_t>;
 constexpr double kMaxSpacingPx = 150;  // maximum distance between the first two corners of a grid
 // Cosine of 14°: maximum angle between an edge and the direction to the next corner.
 constexpr double kMinAlignment = 0.97;
-constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of edges from a corner to the next
+constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of the edges between neighbouring corners
 // Maximum error of a corner predicted from two neighbouring corners, as a share of the distance between these two.
 constexpr double kMaxPredictionError = 0.25;
 // Maximum ratio between the step in a new direction and a known step from the same corner in another direction.
@@ -183,7 +183,8 @@ Halves TurnedBack(Halves v, int quarters) {
   return v;
 }
 
-// Reads the codes in the squares of a grid; each code votes for the placements of the grid that explain it.
+// Reads the codes in the squares of a grid. Each code votes for all placements of the grid that put this code where the
+// board has it.
 class Reader {
  public:
   Reader(const GreyImage& picture, const std::vector<Saddle>& saddles, std::span<const Board> boards)

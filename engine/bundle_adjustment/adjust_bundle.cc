@@ -28,7 +28,7 @@ class TurnManifold final : public ceres::Manifold {
   int AmbientSize() const override { return kTurnSize; }
   int TangentSize() const override { return kTurnSize - 1; }
 
-  /// Rotates by twice the tangent d: q ↦ (cos|d|, sin|d| d/|d|) q.
+  /// Rotates the quaternion q by twice the tangent d: q ↦ (cos|d|, sin|d| d/|d|) q.
   bool Plus(const double* q, const double* d, double* turned) const override {
     const double norm = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double scale = norm > 0 ? std::sin(norm) / norm : 1.0;

@@ -31,7 +31,7 @@ struct MeasurableBody {
   std::vector<LengthShare> joint_shares, point_shares;
 };
 
-/// Returns the body with other lengths, metres; there must be as many as in `body.lengths`.
+/// Returns the body with the given lengths, metres, in place of `body.lengths`. The number of lengths must be the same.
 MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> lengths);
 
 /// The positions of a body's points in one pose, and their Jacobian. Each column holds the derivative of a point's

@@ -62,8 +62,8 @@ std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dv
   return weights;
 }
 
-// Returns a value in [−1, 1] for a point on ray a that moves along `direction`. The value is positive if, in the
-// picture, the point moves towards ray b: with direction = α·a + β·b within the plane, it has the sign of β.
+// Returns a value in [−1, 1] that is positive if a point on ray a, moving along `direction`, moves towards ray b in the
+// picture: with direction = α·a + β·b within the plane, the value has the sign of β.
 double Sense(const StrokePlane& plane, const glm::dvec3& direction_W) {
   return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }

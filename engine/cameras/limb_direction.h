@@ -21,8 +21,9 @@ struct LimbSighting {
   PixelSegment stroke;
 };
 
-/// Returns the direction of the line of sight of `pixel`, in the world, away from the camera: the cross product of the
-/// normals of two planes through the pixel (paper B, equations 2.4 and 2.5). The direction is not normalised.
+/// Returns the direction in which the camera sees `pixel`, in the world, away from the camera. It is the cross product
+/// of the normals of two planes through the pixel and the camera's centre (paper B, equations 2.4 and 2.5), and is not
+/// normalised.
 glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel);
 
 /// The plane through a camera's centre and a stroke; it contains the limb.

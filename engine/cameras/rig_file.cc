@@ -171,8 +171,8 @@ Result<double> NumberAt(const Node& camera, std::string_view key) {
   return AsNumber(*number);
 }
 
-/// Reads one camera. A camera in a file of its own may lack its distortion, and R and T if the world is the camera's
-/// frame.
+/// Reads one camera. A camera in a file of its own may lack the distortion; it may also lack R and T, in which case the
+/// world is the camera's frame.
 Result<Camera> ReadCamera(const Node& node, bool is_alone) {
   OpenCvParameters p;
   const auto is_given = [&](const char* key) { return !is_alone || node.Find(key) != nullptr; };

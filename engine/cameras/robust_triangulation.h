@@ -49,7 +49,7 @@ std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSight
 std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
                                        std::span<const double> weights = {});
 
-/// Finds the agreeing sightings of a limb: those in which both ends of the stroke agree.
+/// Finds the agreeing sightings of a limb. A sighting agrees only if the start and the end of its stroke agree.
 std::vector<std::size_t> AgreeingViews(std::span<const LimbSighting> sightings, double tolerance_px);
 
 struct WeightedSighting {

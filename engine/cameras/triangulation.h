@@ -48,7 +48,7 @@ TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 /// Triangulates like `Triangulate`, but also divides every row by the point's depth in its camera *(ours)*, so that
 /// distances in pixels are minimised. A distant camera measures the point less accurately and gets less weight. This is
 /// iterated linear least squares (Hartley and Sturm 1997, section 4.3) with three iterations. For two cameras at equal
-/// distances the result is that of `Triangulate`.
+/// distances from the point, the result is the same as by `Triangulate`.
 TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings);
 
 /// The epipolar constraint of two cameras: bᵀ F a = 0 if a point, at any depth, is at pixel a in the first picture and

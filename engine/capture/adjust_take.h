@@ -18,8 +18,8 @@ namespace etude {
 /// Paper B's body in the form that bundle adjustment compares with marks.
 struct TakeBody {
   CaptureBody body;  ///< the body that `PaperBody` makes
-  /// The same body for `AdjustBundle`: every role that a mark can show is a point; its lengths are the members of
-  /// LimbLengths in their order, equal on both sides.
+  /// `body` in the form that `AdjustBundle` takes: every role that a mark can show is a point, and the lengths are the
+  /// members of LimbLengths in their order, equal on the left and right sides.
   MeasurableBody measurable;
   std::array<int, kRoleCount> points{};  ///< for each role: its index in `measurable.points`, −1 if no mark shows it
 };

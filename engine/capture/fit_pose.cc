@@ -28,7 +28,7 @@ double BestTwist(const glm::dvec3& axis, const std::vector<glm::dvec3>& from, co
   return std::hypot(cosine, sine) > kTinyM ? std::atan2(sine, cosine) : 0;
 }
 
-// Returns the angles of a joint that give the limb these axes, as far as its degrees of freedom allow.
+// Returns the angles of a joint that rotate the limb to the axes R_JL, as far as the joint's degrees of freedom allow.
 glm::dvec3 AnglesOf(const glm::dmat3& R_JL, int dof_count) {
   if (dof_count == 3) return AnglesXyz(R_JL);
   const glm::dvec3& z_J = R_JL[2];

@@ -45,7 +45,7 @@ std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& er
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     if (marks.effectors[i]) joints.push_back({EffectorMarks()[i].role, *marks.effectors[i], of_disc});
   }
-  // Divide the information among all marks of one joint, because one decision of the annotator places them all.
+  // Divide the information among all marks of one joint, because the annotator places all these marks by one decision.
   std::array<int, kRoleCount> count{};
   for (const MarkedJoint& joint : joints) ++count[Index(joint.role)];
   for (MarkedJoint& joint : joints) joint.information /= static_cast<double>(count[Index(joint.role)]);

@@ -28,7 +28,7 @@ struct MarkedJoint {
   glm::dmat2 information{0};  ///< inverse covariance of the pixel, 1/px²
 };
 
-/// Returns the joints that the marks of one picture show: both ends of every stroke, and the centre of every disc. A
+/// Returns the joints that the marks of one picture show: the two ends of every stroke, and the centre of every disc. A
 /// disc replaces the stroke end beneath it. All marks that end at one joint come from a single decision of the
 /// annotator, so together they have the information of one mark.
 std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors);

@@ -24,8 +24,8 @@ class DanceLibrary {
   const MotionLibrary& library() const { return library_; }
 
   // The following functions return clips of the library. A `repetition` of −1 stands for the song's beginning.
-  /// ClipOfAct returns the whole clip of an act, ClipOfSlow that of a slow demonstration; transitions leave these
-  /// clips.
+  // ClipOfAct returns the whole clip of an act, ClipOfSlow the whole clip of a slow demonstration; transitions leave
+  // these clips.
   int ClipOfAct(std::string_view act) const;
   int ClipOfSlow(int move) const;
   /// Returns the excerpt of the dance from this repetition's beginning until some time into the next repetition; for

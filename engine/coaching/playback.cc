@@ -70,7 +70,8 @@ std::shared_ptr<const ShownPath> DanceTransitions::FindHome(int from, int frame,
 std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, const FloorMove* home_from,
                                                           int to) const {
   const std::vector<BodyMotion>& motions = library_.library().motions;
-  // Drop the frames of the playing clip that lie more than one frame before the request; the join does not need them.
+  // Drop the frames of the playing clip that lie more than one frame before the request; the join needs no earlier
+  // frames.
   const int skipped = std::max(frame - 1, 0);
   std::vector<BodyMotion> clips(2);
   clips[0].rate_hz = motions[from].rate_hz;

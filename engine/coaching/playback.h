@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// The frames of a transition: those shown after the request, until only the wanted clip plays.
+/// The frames of a transition that are shown after the request, until only the wanted clip plays.
 struct ShownPath {
   int clip = 0;                  ///< the wanted clip, as an index in the library
   std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that was left
@@ -53,7 +53,7 @@ class DanceTransitions {
 /// The current state of playing: the dance itself, or a path (a transition and the clip it leads into).
 struct Playback {
   std::shared_ptr<const ShownPath> path;  ///< the path that is shown; null while the dance itself plays
-  double path_frame = 0;                  ///< index in the path's frames, and after them in its clip; may be fractional
+  double path_frame = 0;                  ///< index in the path's frames or, later, in the path's clip; fractional
   FloorMove place;                        ///< floor move of the path
   double dance_frame = 0;                 ///< index of the shown frame of the dance; used only if `path` is null
 };
@@ -78,7 +78,7 @@ bool IsOver(const Playback& playback, const DanceLibrary& library, double before
 bool IsSettled(const Playback& playback);
 
 /// Advances by one frame, or by `rate` frames of the dance while the dance plays. When a path back into the dance has
-/// ended, the dance continues from there.
+/// ended, the dance continues from the frame that the path has reached.
 void Advance(Playback& playback, const DanceLibrary& library, double rate);
 /// Starts a transition from the playing dance or clip to the clip `clip`, beginning with the next frame. The playback
 /// must be settled.

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// The verdict on the performance in a window.
+/// The verdict on the performance in a window, which is the time in which the player is judged.
 enum class WindowVerdict {
   kRight,
   kWrong,

@@ -31,8 +31,8 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
 /// Returns the index of a role's joint in the SDK's JointType.
 std::size_t KinectV2JointOf(Role role);
 
-/// Returns the twenty joints of the canonical body, which are those of Kinect v1. SpineShoulder becomes the shoulder
-/// centre; Neck, hand tips and thumbs are left out.
+/// Returns the positions of the canonical body's twenty joints, which are the joints of Kinect v1. SpineShoulder
+/// becomes the shoulder centre; Neck, hand tips and thumbs are left out.
 RolePositions PlacesOf(const KinectV2Frame& frame);
 
 }  // namespace etude

@@ -63,8 +63,9 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 /// kJudgedRateHz.
 Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file);
 
-/// Places a body's rows on frames by their times. Holes of up to a second are bridged linearly. If there are longer
-/// holes, only the longest stretch without such a hole is kept. `remark` says what was changed. Fails like GridOfRows.
+/// Places a body's rows on frames by their times. A hole (missing rows) of up to a second is bridged linearly. If there
+/// are longer holes, only the longest stretch of frames without such a hole is kept. `remark` says what was changed.
+/// Fails like GridOfRows.
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
                               std::string& remark);
 

@@ -90,7 +90,7 @@ double Largest(const Row& beta) {
 
 WeightFit FitWeights(std::span<const LabelledPair> pairs, const WeightFitOptions& options) {
   WeightFit fit;
-  // Count the pairs of each class. Logistic regression needs pairs of both classes.
+  // Count the pairs of each class. Logistic regression needs pairs of each class.
   fit.pairs = static_cast<int>(pairs.size());
   fit.close_pairs = static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [](auto& pair) { return pair.close; }));
   if (fit.close_pairs == 0 || fit.close_pairs == fit.pairs) return fit;

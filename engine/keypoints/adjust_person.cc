@@ -26,8 +26,9 @@ struct SeenAt {
   Keypoint keypoint;
 };
 
-/// Returns the pixel of the midpoint of two landmarks: the projection of their midpoint in space, shifted by the mean
-/// offset of both keypoints. (The midpoint of the two pixels is another point, because of perspective.)
+/// Returns the pixel of the midpoint of two landmarks: the projection of the landmarks' midpoint in space, shifted by
+/// the mean offset of the two keypoints from the projected landmarks. (The midpoint of the two pixels is another point,
+/// because of perspective.)
 Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places, Landmark a,
                   Landmark b) {
   const glm::dvec3 &p = *places[Index(a)], &q = *places[Index(b)];
@@ -189,8 +190,8 @@ class Adjuster {
     }
   }
 
-  // Adds a mark for each keypoint. If fewer than two cameras see a joint, further marks hold it near its start position
-  // (HoldUnseen).
+  // Adds a mark for each keypoint. If fewer than two cameras see a joint, further marks hold the joint near its start
+  // position (HoldUnseen).
   void AddMarks() {
     const double error = KeypointErrorPx(cameras_, seen_, options_.min_confidence, person_.outlier_px);
     std::vector<std::array<int, kRoleCount>> views(person_.states.size());
@@ -247,9 +248,9 @@ class Adjuster {
                       glm::dmat2(1 / (sigma_px * sigma_px))});
   }
 
-  /// Adds marks for a joint that fewer than two cameras see: they keep it near its position in the single-frame fit.
-  /// Their standard deviation is a tenth of the person's height in the picture, or, if `error_px` is given, twice
-  /// `error_px`.
+  /// Adds marks for a joint that fewer than two cameras see. The marks keep the joint near its position in the
+  /// single-frame fit. The marks' standard deviation is a tenth of the person's height in the picture, or, if
+  /// `error_px` is given, twice `error_px`.
   void HoldUnseen(std::size_t frame, Role role, const std::optional<double>& error_px) {
     constexpr double kShareOfHeight = 0.1, kComposed = 2;
     const BodyPose& pose = person_.motion.poses[frame];

@@ -36,8 +36,9 @@ struct PictureGuess {
 /// nearly as good, as is common with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
-/// Returns the distance of keypoints, mapped as declared, from the other cameras' epipolar lines, as a share of the
-/// height: the mean, over pairs of cameras, of the median distance. Returns 1 if the distance cannot be computed.
+/// Returns the epipolar distance of the keypoints, mapped as declared, as a share of the person's height: the mean,
+/// over pairs of cameras, of the median distance of one camera's keypoints from the other camera's epipolar lines.
+/// Returns 1 if the distance cannot be computed.
 double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// An epipolar distance above this share of the person's height indicates a mistake, not only imprecise keypoints.

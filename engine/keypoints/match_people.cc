@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-/// Returns the median distance of the keypoints of two detections in one camera, as a share of the person's height;
-/// infinity if both detections contain fewer than three of the same keypoints.
+/// Returns the median distance between two detections' keypoints of the same landmarks in one camera, as a share of the
+/// person's height; infinity if the detections have fewer than three landmarks in common.
 double StepBetween(const SeenPerson& a, const SeenPerson& b, double min_confidence) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {

@@ -31,7 +31,7 @@ bool IsTriangulated(Role role);
 /// *(Ours.)*
 class PoseErrorForecast {
  public:
-  /// Fails if the pose cannot be that of a body, because two joints coincide.
+  /// Fails if no body can have this pose, because two joints coincide.
   static Result<PoseErrorForecast> Of(const BodyPose& pose);
 
   /// Returns the errors of all joints if the pose is moved by `shift`, metres; nullopt if some joint cannot be

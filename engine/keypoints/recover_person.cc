@@ -126,8 +126,8 @@ std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::sp
 
 namespace {
 
-/// Gives each frame without a state the last state before it, and frames at the start the first state. Precondition: at
-/// least one frame has a state.
+/// Gives each frame without a state the last state before this frame; a frame before the first state gets the first
+/// state. Precondition: at least one frame has a state.
 std::vector<TreeState> HoldStates(std::span<const std::optional<TreeState>> states) {
   const auto first = std::ranges::find_if(states, [](const auto& state) { return state.has_value(); });
   assert(first != states.end());

@@ -40,8 +40,8 @@ struct FoundClock {
   FilmClock nearest;             ///< the clock of minimal loss, even if it was not accepted
 };
 
-/// Finds clocks that explain the keypoints much better than the given ones *(ours)*. The search covers offsets that
-/// differ by up to `max_frames` from the given ones, and drifts of up to three frames over half of the film. It
+/// Finds clocks that explain the keypoints much better than the given clocks *(ours)*. The search covers offsets that
+/// differ by up to `max_frames` from the given offsets, and drifts of up to three frames over half of the film. It
 /// minimises the mean Geman–McClure loss of epipolar distances, with a scale of 1 % of the height: first on a grid,
 /// then with ever smaller steps down to 1/500 of a frame. A clock is changed only if this halves the loss, because
 /// wrong keypoints alone are not evidence of a wrong clock.

@@ -29,7 +29,7 @@ ClockComparison::ShiftSum ClockComparison::SumOf(Part part, int shift) const {
 }
 
 ClockComparison::Fit ClockComparison::FitOf(Part part, double usual_s) const {
-  constexpr double kMinShare = 0.6;     // a shift needs at least this share of the part's steps in common
+  constexpr double kMinShare = 0.6;     // a shift counts only if this share of the part's steps overlaps seen steps
   constexpr double kPerSecond2 = 0.02;  // penalty on the squared distance from the usual shift, to break ties
   const double usual = std::clamp(usual_s * kStepsPerSecond, -1.0 * kMaxSteps, 1.0 * kMaxSteps);
   const double length = static_cast<double>(pattern_.size()) * (part == Part::kWhole ? 1 : 0.5);
@@ -206,8 +206,8 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
 
 namespace {
 
-/// Calls `relate(own, difference)` for every measure: `own` is its index, and `difference` the index of its difference
-/// from the person's usual value.
+/// Calls `relate(own, difference)` for every measure: `own` is the index of the measure, and `difference` the index at
+/// which the measure's difference from the person's usual value is stored.
 template <typename Relate>
 void ForEachOwn(const Relate& relate) {
   for (const MeasureSlice& slice : {kOwnMeasures, kClockSlice, kRigidSlice}) {
@@ -239,7 +239,7 @@ void RigidComparison::Update(const PoseVector& seen) {
 }
 
 std::array<double, kRigidMeasures> RigidComparison::Measure(double usual_s) const {
-  constexpr double kMinShare = 0.6;  // a fit needs at least this share of the example's steps in common
+  constexpr double kMinShare = 0.6;  // a fit counts only if this share of the example's steps overlaps seen steps
   // Small penalties break ties in favour of the usual lag and the taught pace.
   constexpr double kPerSecond2 = 0.01, kPerLog2 = 0.1;
   constexpr double kNone = std::numeric_limits<double>::infinity();

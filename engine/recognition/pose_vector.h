@@ -82,7 +82,8 @@ class StepFollower : public MoveFollower {
   std::optional<std::size_t> asked() const { return asked_; }
 
  private:
-  /// Is called when a window opens for `move`, or with nullopt when the window closes.
+  /// Is called when a window (the time in which a move is asked for) opens for `move`, or with nullopt when the window
+  /// closes.
   virtual void Open(std::optional<std::size_t> move) = 0;
   /// Takes the next step. Returns the evidence that the asked performance ends now (0 without an asked move), and
   /// writes the evidence of every move to `spotted`.

@@ -56,8 +56,8 @@ struct Evidence {
 class MoveFollower {
  public:
   virtual ~MoveFollower() = default;
-  /// Opens a window for the taught move with index `move`, beginning with the next frame; earlier frames do not count.
-  /// A call without a value closes the window.
+  /// Opens a window, that is, asks for the taught move with index `move` from the next frame on; earlier frames do not
+  /// count. A call without a value closes the window.
   virtual void Ask(std::optional<std::size_t> move) = 0;
   /// Takes the next frame and returns its evidence.
   virtual Evidence Update(const SeenFrame& frame) = 0;

@@ -34,8 +34,9 @@ ETUDE_API std::vector<NumberSetting> TransitionJoinSettings(const std::string& j
 
 /// A transition from one clip to another, as it is shown.
 struct Transition {
-  /// The playing clip from its first frame, the frames in between, and the wanted clip to its end, placed on the floor
-  /// where the first clip was left. The motion has no frames if the choice finds no transition.
+  /// The playing clip from its first frame, then the frames of the transition, then the wanted clip to its end, moved
+  /// to the place on the floor where the playing clip was left. The motion has no frames if the choice finds no
+  /// transition.
   BodyMotion motion;
   std::vector<int> points;  ///< indices of the frames of `motion` after which another clip plays, ascending
   double wait_s = 0;        ///< seconds from the request until the wanted clip plays

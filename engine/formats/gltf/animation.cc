@@ -234,7 +234,8 @@ bool LiesOnGrid(const std::vector<double>& times, double start, double rate_hz) 
 /// Returns the rate of the keys if all moving properties are linear with evenly spaced keys, because sampling at this
 /// rate loses no information; otherwise returns the default rate.
 double RateOf(const std::vector<Channel>& channels, double start) {
-  // Exporters give resting joints only two keys, at both ends. These keys say nothing about the rate.
+  // Exporters give resting joints only two keys, at the beginning and at the end. These keys say nothing about the
+  // rate.
   const bool any_moves = std::ranges::any_of(channels, [](const Channel& channel) { return channel.curve.Moves(); });
   const auto counts = [&](const Channel& channel) { return !any_moves || channel.curve.Moves(); };
   const GltfCurve* densest = nullptr;

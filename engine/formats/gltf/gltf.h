@@ -17,7 +17,8 @@ namespace etude {
 /// meshes), and one clip per animation on the same skeleton.
 struct GltfContent {
   Character character;
-  /// The animations; names as in the file, in one line; unnamed and duplicate ones are numbered.
+  /// The animations. Names are as in the file, in one line; unnamed animations and animations with the same name are
+  /// numbered.
   std::vector<Clip> clips;
   /// The joints that a VRM file (0.x, 1.0) or VRM animation declares as bones, by VRM's bone names, for example
   /// "leftUpperArm".

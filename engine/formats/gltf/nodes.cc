@@ -152,7 +152,8 @@ class NodeReader {
     nodes_.joint_of.assign(count_, kNoIndex);
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       if (!is_joint_[node]) continue;
-      // If the file lists a node's ancestors after the node, make them first, from the root down.
+      // If the file lists a node's ancestors after the node, make the joints of the ancestors first, from the root
+      // down.
       std::vector<int> chain;
       for (int above = node; above != kNoIndex && nodes_.joint_of[above] == kNoIndex; above = parents_[above]) {
         chain.push_back(above);

@@ -27,7 +27,8 @@ Influences Strongest(std::vector<std::pair<int, double>> all) {
   for (const auto& [binding, weight] : all) sum += weight;
   Influences influences;
   if (sum <= 0) return influences;
-  // If the sum is 1 within float rounding, the weights are not changed, so that writing and reading a file keeps them.
+  // If the sum is 1 within float rounding, the weights are not changed, so that writing and reading a file keeps the
+  // same weights.
   constexpr double kRounding = 1e-6;
   const double divisor = std::abs(sum - 1) < kRounding ? 1.0 : sum;
   influences.weights = {};

@@ -84,8 +84,8 @@ int AddGltfView(tinygltf::Model& model, const GltfBytes& bytes, std::size_t stri
   return static_cast<int>(model.bufferViews.size()) - 1;
 }
 
-/// Adds an accessor and returns its index. If `values` holds the accessor's numbers element by element, their minimum
-/// and maximum are stored, too; positions and key times need them.
+/// Adds an accessor and returns its index. If `values` holds the accessor's numbers element by element, the minimum and
+/// maximum of the numbers are stored, too; positions and key times need a minimum and a maximum.
 int AddGltfAccessor(tinygltf::Model& model, const GltfSlice& slice, std::span<const double> values = {}) {
   tinygltf::Accessor accessor;
   accessor.bufferView = slice.view;
