@@ -43,7 +43,7 @@ class BoardViews {
   /// @return the number of corners found
   Result<std::size_t> Add(std::size_t camera, const std::string& moment, const ColourImage& picture, int look = -1);
 
-  /// All boards in all pictures, in the order of `Add`.
+  /// The sightings of all boards in all pictures, in the order of `Add`.
   const std::vector<BoardSighting>& sightings() const { return sightings_; }
   std::vector<TargetView> views() const;
   /// The picture size of each camera.
@@ -61,8 +61,8 @@ class BoardViews {
 
 /// The pose of the first board, which defines the world of the cameras.
 enum class BoardPlacement {
-  kOnFloor,  ///< on the floor: X along its rows to the right, Z down its columns, Y up
-  kOnWall,   ///< upright: X to the right, Y up its columns, Z out of its front
+  kOnFloor,  ///< on the floor: X along the board's rows to the right, Z down the board's columns, Y up
+  kOnWall,   ///< upright: X to the right, Y up the board's columns, Z out of the board's front
 };
 
 /// Transforms the cameras to a world with Y up and its origin at the top left corner of the first board.

@@ -83,8 +83,8 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
   for (const BoardSighting& s : sightings) {
     const std::size_t camera = s.view.camera;
     const double period = period_s[camera];
-    // Find the nearest look of the first film in time, and the time from this sighting to that look, as a fraction of a
-    // look.
+    // Find the look of the first film that is nearest in time, and the time from this sighting to that look, as a
+    // fraction of the time between looks.
     const int look = static_cast<int>(std::lround((s.look * period - delay_s[camera]) / period_s[0]));
     const double share = (look * period_s[0] + delay_s[camera]) / period - s.look;
     constexpr double kHalf = 0.5 + 1e-9;
@@ -117,7 +117,8 @@ Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<
   const auto in_step = residual(steps.delay_s);
   steps.before_px = steps.after_px = in_step ? *in_step : kNever;
   const std::size_t rounds = sizes.size() > 2 ? 2 : 1;
-  // The grid covers ±max_delay_s in steps of half a look. With more than two films, the search runs twice.
+  // The grid covers ±max_delay_s in steps of half the time between looks. With more than two films, the search runs
+  // twice.
   const double step_s = 0.5 * period_s[0];
   const int wide = std::max(1, static_cast<int>(std::floor(max_delay_s / step_s)));
   constexpr int kHalvings = 5;

@@ -24,14 +24,15 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
 
 struct FilmDelays {
   std::vector<double> delay_s;  ///< delay of each film, as for `SynchronisedViews`; all 0 if films are synchronised
-  double before_px = 0;         ///< residual of all films without delays, pixels
-  double after_px = 0;          ///< residual with `delay_s`, pixels
+  double before_px = 0;         ///< residual of the calibration if all delays are 0, pixels
+  double after_px = 0;          ///< residual of the calibration with `delay_s`, pixels
 };
 
 /// Finds the delays of films of a moving board *(ours)*: the delays minimise the residual of a calibration of all
-/// cameras together. One film after the other is searched, first on a grid of half looks, then by halving the step down
-/// to a 64th of a look. A delay is accepted only if it lowers the residual by a tenth, because boards at rest do not
-/// determine time. At most about 60 moments are used, evenly spaced. Fails like `CalibrateFromPlanes`.
+/// cameras together. One film after the other is searched, first on a grid with steps of half the time between looks,
+/// then by halving the step down to a 64th of this time. A delay is accepted only if it lowers the residual by a tenth,
+/// because boards at rest do not determine time. At most about 60 moments are used, evenly spaced. Fails like
+/// `CalibrateFromPlanes`.
 /// @param max_delay_s maximum delay of a film, seconds, either way
 Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
                                 std::span<const double> period_s, double max_delay_s, const RefineOptions& options = {},

@@ -158,7 +158,7 @@ CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles
   return Grower(picture, saddles, taken).Grow(seed);
 }
 
-constexpr int kMinCodes = 3;         // minimum number of codes that must agree about a board
+constexpr int kMinCodes = 3;         // minimum number of codes that must agree about the grid's place on a board
 constexpr int kMaxMisread = 1;       // maximum number of misread modules in a code, and in its margin
 constexpr double kMinContrast = 20;  // minimum difference between black and white modules, grey levels
 

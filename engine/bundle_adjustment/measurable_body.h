@@ -41,7 +41,7 @@ MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> l
 struct PlacedPoints {
   std::vector<glm::dvec3> positions;  ///< p_WQ, metres
   int columns = 0;                    ///< number of columns: 6 + angles + lengths
-  /// The Jacobian; the entry of a point and a column is at [point · columns + column].
+  /// The Jacobian: the derivative of point `point` for column `column` is at [point · columns + column].
   std::vector<glm::dvec3> gains;
 
   const glm::dvec3* gains_of(int point) const { return gains.data() + static_cast<std::size_t>(point) * columns; }

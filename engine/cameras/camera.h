@@ -22,11 +22,11 @@ namespace [[gnu::visibility("default")]] etude {
 ///
 /// The intrinsics then map the result to a pixel. With all coefficients zero and no fisheye, the camera is a pinhole.
 struct Distortion {
-  double k1 = 0, k2 = 0;                  ///< radial; k1 < 0 is barrel distortion
-  double p1 = 0, p2 = 0;                  ///< tangential: the lens is not parallel to the sensor
-  double k3 = 0;                          ///< radial, sixth power
+  double k1 = 0, k2 = 0;                  ///< radial coefficients; k1 < 0 is barrel distortion
+  double p1 = 0, p2 = 0;                  ///< tangential coefficients: the lens is not parallel to the sensor
+  double k3 = 0;                          ///< radial coefficient of r⁶
   double k4 = 0, k5 = 0, k6 = 0;          ///< denominator of the rational model; k4 also belongs to the fisheye
-  double s1 = 0, s2 = 0, s3 = 0, s4 = 0;  ///< thin prism
+  double s1 = 0, s2 = 0, s3 = 0, s4 = 0;  ///< thin-prism coefficients
   double tau_x = 0, tau_y = 0;            ///< tilt of the sensor, radians
   bool is_fisheye = false;
 

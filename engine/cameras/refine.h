@@ -62,7 +62,7 @@ struct IntrinsicsDeviation {
 struct RefinedRig {
   std::vector<Camera> cameras;
   std::vector<CalibrationTargetPose> targets;
-  /// Root mean square distance between pixels and projected points, for each camera and for all.
+  /// Root mean square distance between pixels and projected points: `camera_rms_px` for each camera, `rms_px` over all.
   std::vector<double> camera_rms_px;
   double rms_px = 0;
   std::size_t points = 0;  ///< N, the number of point pairs

@@ -92,7 +92,7 @@ struct CoachInput {
 struct CoachState {
   std::int64_t frame = 0;
   CoachMode mode = CoachMode::kStandby;
-  std::int64_t mode_since = 0;  ///< first frame of this mode
+  std::int64_t mode_since = 0;  ///< first frame of the current mode
   Playback playback;
 
   // State of the player.
@@ -111,7 +111,7 @@ struct CoachState {
   std::optional<OpenWindow> open;
   bool decided = false;       ///< true if the open window was judged before its end
   int correcting = -1;        ///< the repetition that was corrected last
-  int corrections_here = 0;   ///< number of consecutive corrections of that repetition
+  int corrections_here = 0;   ///< number of consecutive corrections of the repetition `correcting`
   bool moment_waits = false;  ///< CoachInput::moment was set while the dance could not be interrupted
   std::string_view say;
   std::int64_t say_until = 0;  ///< frame at which `say` ends
@@ -146,9 +146,9 @@ class Coach {
   const Dance& dance() const { return transitions_.dance(); }
   const CoachOptions& options() const { return options_; }
 
-  /// Returns a state in standby, which lasts until somebody claps.
+  /// Returns the state of a coach in standby. Standby lasts until somebody claps.
   CoachState Begin() const;
-  /// Returns a state in the dance's first frame, as after a clap.
+  /// Returns the state of a coach at the dance's first frame, as after a clap.
   CoachState BeginDancing() const;
 
   /// Plans the most likely transitions in advance, so that no frame of a live session waits for a plan: from every

@@ -41,7 +41,7 @@ class DanceLibrary {
   /// Returns the clip that plays on after a transition has entered `clip`: if `clip` is only the beginning of an act or
   /// slow demonstration, the whole clip; else `clip` itself.
   int WholeOf(int clip) const;
-  /// Returns the last repetition that has begun at a frame of the dance; −1 before the first.
+  /// Returns the index of the last repetition that has begun when the dance is at `dance_frame`; −1 before the first.
   int RepetitionAt(double dance_frame) const;
   /// Returns the number, in the whole dance, of the first frame of `clip`, which must come from ClipLeaving or
   /// ClipReturning.

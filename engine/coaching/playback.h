@@ -10,7 +10,8 @@
 
 namespace etude {
 
-/// The frames of a transition that are shown after the request, until only the wanted clip plays.
+/// The frames of a transition that are shown after the request, until only the wanted clip plays. (A floor move rotates
+/// a clip about the vertical and shifts it on the floor.)
 struct ShownPath {
   int clip = 0;                  ///< the wanted clip, as an index in the library
   std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that was left
@@ -31,7 +32,7 @@ class DanceTransitions {
   const DanceLibrary& library() const { return library_; }
   const Dance& dance() const { return library_.dance(); }
 
-  /// Returns a path that shows only the clip, where it was authored.
+  /// Returns a path that shows only the clip `clip`, at the place on the floor where it was authored.
   std::shared_ptr<const ShownPath> Alone(int clip) const;
   /// Returns the path from a frame of a clip into another clip. If the method finds no transition, the path is a cut.
   std::shared_ptr<const ShownPath> Find(int from, int frame, int to) const;

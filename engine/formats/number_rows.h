@@ -18,7 +18,7 @@ struct NumberRows {
   std::vector<double> values;  ///< the numbers, row by row; NaN for a missing value
   std::vector<int> lines;      ///< line of each row in the text, from 1
   bool has_decimal_commas = false;
-  /// The columns that contain texts, each with its first text; all their values are NaN.
+  /// The columns that contain texts, each with its first text; all values of these columns are NaN.
   std::vector<std::pair<std::size_t, std::string>> texts = {};
 
   std::size_t RowCount() const { return columns == 0 ? 0 : values.size() / columns; }

@@ -166,7 +166,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   const bool is_brief = told_hz && span < kMinSpan_s;
   if (is_brief && std::abs(fitted / *told_hz - 1) > kBriefTolerance) return std::nullopt;
   // Try the stated rate, a whole rate, and the rate at which the last row coincides with a frame, in this order. Take
-  // the first at which nearly all rows coincide with frames.
+  // the first of these rates at which nearly all rows coincide with frames.
   RowGrid grid{.rate_hz = fitted, .frames = {}, .remark = {}};
   for (const double near : {fitted, FittedRate(steps, true)}) {
     const double whole = std::round(near), to_last = std::round(span * near) / span;

@@ -140,7 +140,8 @@ class Adjuster {
       points_[Index(role)] = static_cast<int>(measurable_.points.size());
       measurable_.points.push_back({person_.body.roles[Index(role)].joint, person_.body.roles[Index(role)].p_LQ});
     }
-    // Lengthen each bone in turn by a metre: the change of every offset is its derivative with respect to that length.
+    // Lengthen each bone in turn by a metre: the change of every offset is the offset's derivative with respect to the
+    // bone's length.
     for (const Bone& bone : AllBones()) {
       using enum Role;
       if (bone.child == kShoulderCentre || bone.child == kRightShoulder || bone.child == kRightHip) continue;
@@ -290,7 +291,7 @@ class Adjuster {
 
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px) {
-  std::vector<double> squares;  // one estimate of the variance per point; their median is unbiased
+  std::vector<double> squares;  // one estimate of the variance per point; the median estimate is unbiased
   for (const auto& [frame, landmark, by, point] :
        TriangulateLandmarks(cameras, seen, {.min_confidence = min_confidence, .robust = {outlier_px}})) {
     squares.push_back(KeypointVarianceOf(point));

@@ -93,8 +93,8 @@ class Guesser {
     return people_[key] = UndistortPeople(films_[c].camera, std::move(people));
   }
 
-  // Returns the median epipolar distance of two people as a share of the height; nullopt if they have too few keypoints
-  // in common.
+  // Returns the median epipolar distance between two detections, as a share of the person's height; nullopt if the
+  // detections have too few keypoints in common.
   std::optional<double> MisfitOf(const EpipolarGeometry& geometry, const SeenPerson& one,
                                  const SeenPerson& other) const {
     std::vector<double> distances;
@@ -108,8 +108,8 @@ class Guesser {
     return UpperMedian(std::move(distances)) / std::max(1.0, std::max(HeightPx(one), HeightPx(other)));
   }
 
-  /// Returns the median, over frames and people of film `a`, of the smallest distance to any person and labelling of
-  /// sides in film `b`.
+  /// For each frame and person of film `a`, takes the smallest epipolar distance to a person of film `b` with either
+  /// labelling of sides; returns the median of these distances.
   double Miss(std::size_t a, const Guess& guess_a, std::size_t b, const Guess& guess_b) {
     const auto key = std::tuple(a, guess_a, b, guess_b);
     if (const auto known = misses_.find(key); known != misses_.end()) return known->second;

@@ -43,7 +43,7 @@ class Follower {
         tracks[track].entries[frame] = person;
         taken[person] = extended[track] = true;
       }
-      // Every person whom no track has taken begins a new track.
+      // Every person who continues no track begins a new one.
       for (std::size_t person = 0; person < taken.size(); ++person) {
         if (!taken[person]) tracks.push_back({{{frame, person}}});
       }
@@ -54,8 +54,8 @@ class Follower {
  private:
   using Candidate = std::tuple<double, std::size_t, std::size_t>;  ///< step, track, person
 
-  /// Returns the possible extensions by ascending step. Extensions with a competing candidate that is nearly as near
-  /// are left out.
+  /// Returns the possible extensions of tracks, by ascending step. Extensions with a competing candidate that is nearly
+  /// as near are left out.
   std::vector<Candidate> Candidates(const std::vector<PersonTrack>& tracks, std::size_t frame) const {
     std::vector<Candidate> all;
     for (std::size_t t = 0; t < tracks.size(); ++t) {

@@ -48,9 +48,9 @@ struct FoundClock {
 std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                    std::span<const FilmClock> given, int max_frames, const FollowOptions& options);
 
-/// Returns `frames` frames of one camera's people at the first camera's times. Between frames each person's keypoints
-/// follow a cubic (`PixelBetween`), with the lower confidence of the two frames. At times without frames of the film,
-/// nobody is present.
+/// Returns `frames` frames of one camera's people at the first camera's times. Between two frames, each keypoint's
+/// pixel follows a cubic (`PixelBetween`), and its confidence is the lower one of the two frames. At times without
+/// frames of the film, nobody is present.
 SeenPeople PeopleInTime(const SeenPeople& people, const FilmClock& clock, std::size_t frames,
                         const FollowOptions& options = {});
 SeenPeople PeopleInTime(const SeenPeople& people, double offset, std::size_t frames, const FollowOptions& options = {});

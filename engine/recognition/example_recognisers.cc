@@ -168,7 +168,7 @@ class Stillness {
  private:
   PoseVector pose_;
   std::size_t count_ = 0;
-  std::vector<double> gaps_;  // the last squared distances to the pose, as a ring
+  std::vector<double> gaps_;  // ring of the last squared distances to the pose
 };
 
 class NearestFollower final : public StepFollower {
@@ -240,7 +240,7 @@ class NearestFollower final : public StepFollower {
   std::vector<double> right_, wrong_, held_still_;  // distances of this step, per move
   std::size_t longest_, since_open_ = 0;
   Stillness standing_;
-  std::vector<Stillness> held_;   // held pose of each example
+  std::vector<Stillness> held_;   // for each example, the comparison with its held mean pose
   std::vector<PoseVector> seen_;  // the last `longest_` steps
 };
 

@@ -123,7 +123,7 @@ DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const Boost
     for (const auto& members : row) {
       const Split split = splits[node] = BestSplit(sample, slopes, members, options, turn);
       tree.measures[node] = static_cast<int>(split.measure);
-      constexpr double kAll = 1e9;  // a limit above every value: without a useful split, all go left
+      constexpr double kAll = 1e9;  // a limit above every value: without a useful split, all performances go left
       tree.limits[node] = split.gain > 0 ? sample.cuts[split.measure][split.bin] : kAll;
       ++node;
       next.resize(next.size() + 2);

@@ -25,7 +25,7 @@ struct CoachOptions {
   std::string recogniser = "whole-body";  ///< name of the recogniser: "whole-body", "dtw" or "nearest"
   /// If true, Kinect's own smoothing filter is applied to the stream before recognition.
   bool smooths = false;
-  /// If true, players dance as in a mirror: with their right side when the coach uses the left.
+  /// If true, players dance as in a mirror, with the right side of the body when the coach uses the left side.
   bool mirrors = false;
   bool dances_at_once = false;  ///< true: the coach starts with the dance, without waiting for a clap
   /// A performance is right if its evidence is at least this, in (0, 1]; nullopt: the recogniser's own threshold.

@@ -15,10 +15,10 @@ using Motion = BodyMotion;
 
 /// The user's statements about a motion file.
 struct ReadingOptions {
-  bool keep_floor = false;  ///< true: the body keeps its height above the floor from the file
+  bool keep_floor = false;  ///< true: the body keeps the height above the floor that the file gives
   /// 'y' or 'z' overrules all other evidence; with 0, the file, its format and the body's posture decide.
   char up = 0;
-  /// Metres in one unit of the file; 0: the file's own unit, or one derived from the body's height.
+  /// Metres in one unit of the file; 0: the file's own unit, or a unit derived from the body's height.
   double metres_per_unit = 0;
   std::string marker_set = "";  ///< name of the marker set for marker files, such as "opencap"; "": the best one
 };

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMaxJoints = 1024;
 constexpr int kMaxLevels = 128;
 
-/// Tolerance, for rounding to floats, of a matrix whose axes must be perpendicular and whose last row must be 0, 0, 0,
+/// Tolerance for a matrix that was rounded to floats: its axes must be perpendicular, and its last row must be 0, 0, 0,
 /// 1.
 constexpr double kMatrixRounding = 1e-3;
 
@@ -125,7 +125,7 @@ class NodeReader {
       for (std::size_t k = 0; k < model_.animations[i].channels.size(); ++k) {
         const tinygltf::AnimationChannel& channel = model_.animations[i].channels[k];
         const int target = channel.target_node;
-        // Ignore a target without a node: tinygltf 2.7 leaves its channel out, 2.9 keeps it.
+        // Ignore a target without a node: tinygltf 2.7 leaves the target's channel out, 2.9 keeps the channel.
         if (target == kNoIndex && !channel.target_path.empty()) continue;
         const std::string where = fmt::format("animations[{}].channels[{}].target.node", i, k);
         RETURN_IF_ERROR(file_.CheckIndex(target, count_, where));

@@ -37,7 +37,7 @@ class GltfBytes {
   std::vector<unsigned char> bytes_;
 };
 
-/// The content of a buffer view, for its property `target`.
+/// The kind of content of a buffer view, which the view's property `target` states.
 enum class GltfTarget { kOther, kVertices, kIndices };
 
 /// The elements of an accessor: their location and type.
@@ -303,7 +303,7 @@ class GlbWriter {
       if (!has_skin) continue;
       for (const double weight : vertex.weights) bytes.Float(weight);
       for (std::size_t k = 0; k < 4; ++k) {
-        // Joints with weight 0 are written as 0, as the specification demands.
+        // The index of a joint with weight 0 is written as 0, as the specification demands.
         const auto binding = static_cast<std::uint32_t>(vertex.weights[k] != 0 ? vertex.bindings[k] : 0);
         if (short_joints) {
           bytes.Short(binding);
