@@ -11,8 +11,8 @@
 namespace etude {
 
 /// Computes the homography from a plane to its picture, (u·w, v·w, w)ᵀ = H (x, y, 1)ᵀ for points (x, y, 0), by the
-/// normalised direct linear transform. Its scale is arbitrary. Fails for fewer than four points, for points that lie
-/// (nearly) on one line, and for points that are not finite.
+/// normalised direct linear transform. The scale of H is arbitrary. Fails for fewer than four points, for points that
+/// lie (nearly) on one line, and for points that are not finite.
 Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs);
 
 /// Estimates the focal lengths of a camera from homographies of planes (Zhang 2000, section 3.1). The principal point

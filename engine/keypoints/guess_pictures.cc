@@ -163,7 +163,7 @@ class Guesser {
     }
   }
 
-  // Corrects the film with the largest gain. Returns false if no correction helps enough.
+  // Applies the correction of one film that leaves the smallest distance. Returns false if no correction helps enough.
   bool TurnWorst() {
     constexpr double kOff = 0.003, kBetter = 0.5, kNearly = 1.5, kPercent = 100;
     struct Change {
@@ -171,7 +171,7 @@ class Guesser {
       std::size_t camera = 0;
       Guess guess;
     };
-    // Find the two best hypotheses over all films.
+    // Over all films, find the two corrections that leave the smallest distances.
     std::optional<Change> best, second;
     for (std::size_t c = 0; c < films_.size(); ++c) {
       const double before = MissOf(c, guesses_[c]);

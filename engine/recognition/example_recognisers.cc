@@ -79,7 +79,7 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// If no known motion is nearer, an unknown motion at this distance, metres, is the alternative to a move. In 19 of 20
+/// An unknown motion at this distance, metres, is the alternative to a move if no known motion is nearer. In 19 of 20
 /// cases, another person's performance of a move is nearer to the move's examples than this (tests/sim/performer; the
 /// medians of two recorded sets are 10 and 16–28 cm).
 constexpr double kUnknownMotionDistance = 0.21;

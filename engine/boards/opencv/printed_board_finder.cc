@@ -221,9 +221,9 @@ class OpenCvFinder : public PrintedBoardFinder {
     ++inversion[rim > outside ? 1 : 0];
   }
 
-  /// Refines the corners of a chessboard by cornerSubPix, with a window of 0.4 of the distance to the nearest
-  /// neighbour. This is needed because findChessboardCornersSB leaves errors of 0.1 px, mostly a bias that all corners
-  /// share. A corner that would move by more than a pixel, for example in strong blur, keeps its position.
+  /// Refines the corners of a chessboard by cornerSubPix, with a window of 0.4 times the distance to the nearest
+  /// neighbouring corner. This is needed because findChessboardCornersSB leaves errors of 0.1 px, mostly a bias that
+  /// all corners share. A corner that would move by more than a pixel, for example in strong blur, keeps its position.
   static void RefineChess(const cv::Mat& gray, const cv::Size& inner, Quad& corners) {
     constexpr double kOfSide = 0.4, kMaxMovePx = 1;
     constexpr int kMinHalf = 2, kMaxHalf = 20;
