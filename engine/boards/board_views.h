@@ -34,7 +34,7 @@ class BoardViews {
   BoardViews(const PrintedBoard& board, std::unique_ptr<PrintedBoardFinder> finder)
       : boards_{{.columns = board.columns, .rows = board.rows, .square = board.square}}, printed_(std::move(finder)) {}
 
-  /// Adds a picture of a camera. Fails if the picture's size differs from that of the camera's earlier pictures.
+  /// Adds a picture of a camera. Fails if the picture's size differs from the size of the camera's earlier pictures.
   /// @param camera number of the camera, from 0
   /// @param moment name of the time at which the picture was taken: pictures of one moment show boards at the same
   /// positions

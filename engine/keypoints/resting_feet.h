@@ -15,7 +15,7 @@ constexpr std::size_t kFootKinds = 4;
 /// Returns how high a kind of landmark is above the sole of a flat foot *(ours)*, in the unit of `stature`.
 double AboveSole(std::size_t kind, double stature);
 
-/// A period of a fifth of a second or longer in which a landmark of a foot rested.
+/// A period in which a landmark of a foot rested for at least a fifth of a second.
 struct FootStay {
   glm::dvec3 place{0};
   std::size_t kind = 0;  ///< index of the landmark's kind, below kFootKinds

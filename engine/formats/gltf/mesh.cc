@@ -158,8 +158,7 @@ void Unweld(SkinnedMesh& mesh) {
   mesh.vertices = std::move(vertices);
 }
 
-/// Normalises the normals; a normal of length 0 becomes the area-weighted mean of the normals of the vertex's
-/// triangles.
+/// Normalises the normals; a normal of length 0 becomes the area-weighted mean normal of the vertex's triangles.
 void FinishNormals(SkinnedMesh& mesh) {
   std::vector<glm::dvec3> sums(mesh.vertices.size(), glm::dvec3(0));
   for (const auto& [a, b, c] : mesh.triangles) {
