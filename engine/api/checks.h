@@ -28,17 +28,18 @@ T OrThrow(Result<T> result) {
 const BodyMotion& Checked(const BodyMotion& motion);
 /// Checks every clip like `Checked`. Also refuses an empty list, clips without frames, and clips of different rates.
 void CheckClips(std::span<const BodyMotion> clips);
-/// Returns the standing height of the hips, computed from the limb lengths of `first`, metres. Refuses a body without
-/// legs.
+/// Returns the standing height of the hips, computed from the limb lengths of the pose `first`, metres. Refuses a body
+/// without legs.
 double StandingHipsOf(const BodyPose& first);
 
-/// An upper limit for thresholds. No fuzzy distance exceeds √(8 · 4) ≈ 5.7, because the weights of the features sum to
-/// eight and a feature has at most four terms.
+/// An upper limit for thresholds of the fuzzy distance. No fuzzy distance exceeds √(8 · 4) ≈ 5.7, because the weights
+/// of the features sum to eight and a feature has at most four terms.
 inline constexpr double kFarthestFuzzy = 6;
-/// Refuses a budget, the maximum wait in seconds, outside 0 to 3600.
+/// Refuses a budget outside 0 to 3600. A budget is the maximum wait for a transition, in seconds.
 void CheckBudget(double budget_s);
 
-/// Returns the choice and the join with these names. Refuses unknown names.
+/// Returns the choice (the rule that selects a transition's frames) and the join (the method that joins the two clips)
+/// with these names. Refuses unknown names.
 TransitionWay WayNamed(const std::string& choice, const std::string& join);
 
 /// Returns the recogniser with this name. Refuses recognisers that do not learn from examples.

@@ -28,7 +28,7 @@ Mask OnesOf(const Mask& mask) {
   return made;
 }
 
-/// Returns the width of one pixel of the mask, in pixels of the camera. Throws BadInput if it is not a whole number.
+/// Returns the width of a mask pixel in camera pixels. Throws BadInput if the width is not a whole number.
 int PixelOf(const NamedCamera& camera, const Mask& mask) {
   const Intrinsics& picture = camera.camera.intrinsics;
   const int pixel = mask.width > 0 ? picture.width / mask.width : 0;

@@ -12,7 +12,7 @@ namespace etude {
 template <typename T>
 class CyclicLookup {
  public:
-  /// Returns the item of this name, null if there is none.
+  /// Returns the item with the name `name`; null if there is none.
   T* Find(std::string_view name) {
     for (std::size_t tried = 0; tried < items_.size(); ++tried, ++next_) {
       if (next_ >= items_.size()) next_ = 0;

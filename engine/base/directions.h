@@ -5,8 +5,8 @@
 
 namespace etude {
 
-/// Returns the angle between two vectors of any length, in [0, π]; 0 if either is zero. atan2(|u×v|, u·v) keeps full
-/// precision near 0 and π, where acos loses half the digits.
+/// Returns the angle between two vectors of any length, in [0, π]; 0 if one of the vectors is zero. atan2(|u×v|, u·v)
+/// keeps full precision near 0 and π, where acos loses half the digits.
 inline double AngleBetween(const glm::dvec3& u, const glm::dvec3& v) {
   // Adding 0.0 turns −0 into 0. (−0 is a product of zero and a negative number; atan2 would return π for it.)
   return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v) + 0.0);

@@ -18,7 +18,7 @@ tl::unexpected<Error> FailOfMachine(fmt::format_string<Args...> format, Args&&..
   return tl::unexpected<Error>(std::move(error));
 }
 
-/// Returns the same error, attributed to this machine; its position becomes part of its message.
+/// Returns the error as one that this machine caused; the position of the error becomes part of the message.
 inline Error OfThisMachine(const Error& error) { return {{}, ToString(error), ErrorKind::kMachine}; }
 inline bool IsOfThisMachine(const Error& error) { return error.kind == ErrorKind::kMachine; }
 

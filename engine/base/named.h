@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// A row of a table of names for the values of an enum.
+/// One row of a table that names the values of an enum.
 template <typename Value>
 struct Named {
   std::string_view name;

@@ -25,7 +25,8 @@ inline std::string_view TakeLine(std::string_view& text) {
   return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
 }
 
-/// Takes a line like the function above, and increments `number`.
+/// Takes the first line off the text and returns it without its line break, as `TakeLine(text)` does, and increments
+/// `number`.
 inline std::string_view TakeLine(std::string_view& text, int& number) {
   ++number;
   return TakeLine(text);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// Returns the allowed range of the second byte of a character of several bytes that begins with `first`. The range is
+/// Returns the allowed range of the byte after `first`, the first byte of a character with several bytes. The range is
 /// narrower where an overlong form, a surrogate or a character beyond U+10FFFF would follow (RFC 3629, section 4).
 std::pair<std::uint8_t, std::uint8_t> SecondByteAfter(std::uint8_t first) {
   if (first == 0xe0) return {0xa0, 0xbf};
@@ -61,7 +61,8 @@ Result<void> CheckUtf8(std::string_view text, const std::string& file) {
 }
 
 bool IsHidden(char32_t code) {
-  // Unicode's categories Cc, Zl and Zp beyond ASCII, and the characters with its property Default_Ignorable_Code_Point.
+  // Unicode's categories Cc, Zl and Zp beyond ASCII, and the characters with Unicode's property
+  // Default_Ignorable_Code_Point.
   using Range = std::pair<char32_t, char32_t>;
   constexpr auto kHidden = std::to_array<Range>({{0x80, 0x9f},
                                                  {0xad, 0xad},

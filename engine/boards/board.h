@@ -20,8 +20,8 @@ constexpr int kMaxSquares = 16;
 /// A code is kCodeSide × kCodeSide modules, 1 for black, surrounded by a margin of one white module.
 constexpr int kCodeSide = 4;
 constexpr int kModules = kCodeSide + 2;
-/// The number of codes. Two codes differ in at least kCodeDistance modules, however each is rotated, and so do two
-/// rotations of one code.
+/// The number of codes. Two codes differ in at least kCodeDistance modules, however each code is rotated. A code
+/// differs in as many modules from each of its own rotations by quarter turns.
 constexpr int kCodeCount = 120;
 constexpr int kCodeDistance = 4;
 

@@ -19,13 +19,14 @@ namespace etude {
 
 /// One board in one picture of a camera.
 struct BoardSighting {
-  TargetView view;  ///< view of the board; its target is the board at the moment of this picture
+  TargetView view;  ///< view of the board; the view's target is the board at the time of this picture
   std::size_t board = 0;
   int look = -1;  ///< index of the picture among the examined pictures of a film; −1 if it is not from a film
 };
 
-/// Detects boards in the pictures of a rig's cameras and collects the sightings for `CalibrateFromPlanes`. A board at
-/// one moment is one target: it may move between moments, but all pictures of one moment show it at the same position.
+/// Detects boards in the pictures of a rig's cameras and collects the sightings for `CalibrateFromPlanes`. A moment is
+/// a time at which several cameras take pictures. A board at one moment is one target: it may move between moments, but
+/// all pictures of one moment show it at the same position.
 class BoardViews {
  public:
   explicit BoardViews(std::vector<Board> boards) : boards_(std::move(boards)) {}
@@ -33,14 +34,16 @@ class BoardViews {
   BoardViews(const PrintedBoard& board, std::unique_ptr<PrintedBoardFinder> finder)
       : boards_{{.columns = board.columns, .rows = board.rows, .square = board.square}}, printed_(std::move(finder)) {}
 
-  /// Adds a picture of a camera. Fails if its size differs from that of the camera's earlier pictures.
+  /// Adds a picture of a camera. Fails if the picture's size differs from the size of the camera's earlier pictures.
   /// @param camera number of the camera, from 0
-  /// @param moment name of the time at which it was taken: pictures of one moment show boards at the same positions
-  /// @param look index among the examined, evenly spaced pictures of its film, from 0; −1 if it is not from a film
+  /// @param moment name of the time at which the picture was taken: pictures of one moment show boards at the same
+  /// positions
+  /// @param look index among the examined, evenly spaced pictures of a film, from 0; −1 for a picture that is not from
+  /// a film
   /// @return the number of corners found
   Result<std::size_t> Add(std::size_t camera, const std::string& moment, const ColourImage& picture, int look = -1);
 
-  /// All boards in all pictures, in the order of `Add`.
+  /// The sightings of all boards in all pictures, in the order of `Add`.
   const std::vector<BoardSighting>& sightings() const { return sightings_; }
   std::vector<TargetView> views() const;
   /// The picture size of each camera.
@@ -58,8 +61,8 @@ class BoardViews {
 
 /// The pose of the first board, which defines the world of the cameras.
 enum class BoardPlacement {
-  kOnFloor,  ///< on the floor: X along its rows to the right, Z down its columns, Y up
-  kOnWall,   ///< upright: X to the right, Y up its columns, Z out of its front
+  kOnFloor,  ///< on the floor: X along the board's rows to the right, Z down the board's columns, Y up
+  kOnWall,   ///< upright: X to the right, Y up the board's columns, Z out of the board's front
 };
 
 /// Transforms the cameras to a world with Y up and its origin at the top left corner of the first board.

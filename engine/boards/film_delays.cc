@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Identifies a sighting: camera, board, look.
+/// Identifies a sighting by camera, board and look (a look is one of the examined, evenly spaced pictures of a film).
 using SightingKey = std::tuple<std::size_t, std::size_t, int>;
 using SightingMap = std::map<SightingKey, const BoardSighting*>;
 
@@ -23,8 +23,8 @@ const glm::dvec2* PixelOf(const SightingMap& map, const SightingKey& key, const 
   return nullptr;
 }
 
-/// Returns the corners of a sighting, interpolated at the time `share` looks later (−0.5 to 0.5). Corners that no
-/// neighbouring look shows are left out.
+/// Returns the corners of a sighting, interpolated at the time of its look plus `share` times the interval between
+/// looks (−0.5 to 0.5). Corners that no neighbouring look shows are left out.
 std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey& key, const BoardSighting& sighting,
                                       double share) {
   constexpr double kNow = 1e-6;
@@ -45,8 +45,9 @@ std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey&
   return moved;
 }
 
-/// Returns all sightings if there are at most kMaxMoments moments, or if no moment is shared by several films.
-/// Otherwise returns the sightings of about kMaxMoments moments, in evenly spaced blocks of consecutive looks.
+/// Returns all sightings if they show at most kMaxMoments targets, or if no target is seen in several films. (A target
+/// is a board at one time.) Otherwise returns the sightings of about kMaxMoments targets, in evenly spaced blocks of
+/// consecutive looks.
 std::vector<BoardSighting> Subsampled(std::span<const BoardSighting> sightings) {
   constexpr std::size_t kMaxMoments = 60;
   std::map<std::size_t, std::size_t> cameras;  // number of cameras that see each target
@@ -70,7 +71,7 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
                                     std::span<const double> delay_s) {
   SightingMap map;
   for (const BoardSighting& s : sightings) map[{s.view.camera, s.board, s.look}] = &s;
-  // Index of each target, by board and look of the first film.
+  // The index of each target, by the target's board and by the look of the first film that is nearest in time.
   std::map<std::pair<std::size_t, int>, std::size_t> targets;
   std::size_t count = 0;
   const auto target_of = [&](std::size_t board, int look) {
@@ -82,8 +83,8 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
   for (const BoardSighting& s : sightings) {
     const std::size_t camera = s.view.camera;
     const double period = period_s[camera];
-    // Find the nearest look of the first film in time, and the time from this sighting to that look, as a fraction of a
-    // look.
+    // Find the look of the first film that is nearest in time, and the time from this sighting to that look, as a
+    // fraction of the time between looks.
     const int look = static_cast<int>(std::lround((s.look * period - delay_s[camera]) / period_s[0]));
     const double share = (look * period_s[0] + delay_s[camera]) / period - s.look;
     constexpr double kHalf = 0.5 + 1e-9;
@@ -116,7 +117,8 @@ Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<
   const auto in_step = residual(steps.delay_s);
   steps.before_px = steps.after_px = in_step ? *in_step : kNever;
   const std::size_t rounds = sizes.size() > 2 ? 2 : 1;
-  // The grid covers ±max_delay_s in steps of half a look. With more than two films, the search runs twice.
+  // The grid covers ±max_delay_s in steps of half the time between looks. With more than two films, the search runs
+  // twice.
   const double step_s = 0.5 * period_s[0];
   const int wide = std::max(1, static_cast<int>(std::floor(max_delay_s / step_s)));
   constexpr int kHalvings = 5;

@@ -13,9 +13,9 @@ namespace etude {
 
 /// Returns the views of boards in films that are not synchronised. A *look* is one of the examined, evenly spaced
 /// pictures of a film. Look k of the first film was taken when the time of film c was k · period_s[0] + delay_s[c].
-/// Between looks, a corner's position is interpolated by a parabola through its positions in the nearest look and both
-/// neighbours, or by a line through two looks. A board without a neighbouring look becomes a target of its own, which
-/// constrains only its camera.
+/// Between looks, a corner's position is interpolated by a parabola through the positions in the nearest look and both
+/// its neighbours, or by a line through the positions in two looks. A board without a neighbouring look becomes a
+/// target of its own, which constrains only its camera.
 /// @param sightings the sightings, all from films (`look` ≥ 0)
 /// @param period_s time between the looks of each film, seconds
 /// @param delay_s delay of each film, seconds; 0 for the first
@@ -24,14 +24,15 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
 
 struct FilmDelays {
   std::vector<double> delay_s;  ///< delay of each film, as for `SynchronisedViews`; all 0 if films are synchronised
-  double before_px = 0;         ///< residual of all films without delays, pixels
-  double after_px = 0;          ///< residual with `delay_s`, pixels
+  double before_px = 0;         ///< residual of the calibration if all delays are 0, pixels
+  double after_px = 0;          ///< residual of the calibration with `delay_s`, pixels
 };
 
-/// Finds the delays of films of a moving board *(ours)*: they minimise the residual of a joint calibration of all
-/// cameras. One film after the other is searched, first on a grid of half looks, then by halving the step down to a
-/// 64th of a look. A delay is accepted only if it lowers the residual by a tenth, because boards at rest do not
-/// determine time. At most about 60 moments are used, evenly spaced. Fails like `CalibrateFromPlanes`.
+/// Finds the delays of films of a moving board *(ours)*: the delays minimise the residual of a calibration of all
+/// cameras together. One film after the other is searched, first on a grid with steps of half the time between looks,
+/// then by halving the step down to a 64th of this time. A delay is accepted only if it lowers the residual by a tenth,
+/// because boards at rest do not determine time. At most about 60 moments are used, evenly spaced. Fails like
+/// `CalibrateFromPlanes`.
 /// @param max_delay_s maximum delay of a film, seconds, either way
 Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
                                 std::span<const double> period_s, double max_delay_s, const RefineOptions& options = {},

@@ -22,8 +22,8 @@ using CornerGrid = std::map<GridIndex, std::size_t>;
 constexpr double kMaxSpacingPx = 150;  // maximum distance between the first two corners of a grid
 // Cosine of 14°: maximum angle between an edge and the direction to the next corner.
 constexpr double kMinAlignment = 0.97;
-constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of edges from a corner to the next
-// Maximum error of a corner predicted from two other corners, as a share of the last step.
+constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of the edges between neighbouring corners
+// Maximum error of a corner predicted from two neighbouring corners, as a share of the distance between these two.
 constexpr double kMaxPredictionError = 0.25;
 // Maximum ratio between the step in a new direction and a known step from the same corner in another direction.
 constexpr double kMaxStepRatio = 2.2;
@@ -90,7 +90,8 @@ class Grower {
     return found == grid_.end() ? std::nullopt : std::optional(saddles_[found->second].pixel);
   }
 
-  // Inserts at `to` the unused saddle nearest to `from` that has the expected axes and satisfies `may_be`.
+  // Inserts a saddle into the grid at `to`: of the unused saddles with the expected axes for which `may_be` returns
+  // true, the one nearest to the pixel `from`.
   template <typename MayBe>
   void InsertNearest(const GridIndex& to, const Axes& expected, const glm::dvec2& from, MayBe may_be) {
     std::optional<std::size_t> best;
@@ -115,7 +116,7 @@ class Grower {
     if (grid_.contains(to)) return;
     const glm::dvec2 pixel = *PixelAt(i, j);
     const Axes axes = axes_.at(place);
-    // If there is a corner in the opposite direction, extrapolate from both.
+    // If there is a corner in the opposite direction, extrapolate from that corner and this one.
     if (const auto behind = PixelAt(i - di, j - dj)) {
       const glm::dvec2 predicted = 2.0 * pixel - *behind;
       const double near = kMaxPredictionError * glm::distance(pixel, *behind);
@@ -157,11 +158,12 @@ CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles
   return Grower(picture, saddles, taken).Grow(seed);
 }
 
-constexpr int kMinCodes = 3;         // minimum number of codes that must agree about a board
+constexpr int kMinCodes = 3;         // minimum number of codes that must agree about the grid's place on a board
 constexpr int kMaxMisread = 1;       // maximum number of misread modules in a code, and in its margin
 constexpr double kMinContrast = 20;  // minimum difference between black and white modules, grey levels
 
-// The position of a point of a grid or board in half squares, so that the centres of squares are whole numbers.
+// The position of a point of a grid or board, in units of half a square, so that the centres of squares are whole
+// numbers.
 struct Halves {
   int x, y;
   auto operator<=>(const Halves&) const = default;
@@ -175,13 +177,14 @@ struct Fit {
   auto operator<=>(const Fit&) const = default;
 };
 
-// Rotates a vector of the grid to the board.
+// Rotates a vector from the axes of the grid to the axes of the board.
 Halves TurnedBack(Halves v, int quarters) {
   for (int i = 0; i < quarters; ++i) v = {v.y, -v.x};
   return v;
 }
 
-// Reads the codes in the squares of a grid; each code votes for the placements of the grid that explain it.
+// Reads the codes in the squares of a grid. Each code votes for all placements of the grid that put this code where the
+// board has it.
 class Reader {
  public:
   Reader(const GreyImage& picture, const std::vector<Saddle>& saddles, std::span<const Board> boards)

@@ -61,8 +61,8 @@ struct OpenCvBoards {
 /// --boards`).
 Result<std::unique_ptr<PrintedBoardFinder>> MakePrintedBoardFinder(const PrintedBoard& board);
 
-/// Calibrates one camera by OpenCV's `calibrateCamera`, for comparison with `CalibrateFromPlanes`: both take the same
-/// views and minimise the same sum. Fails like `MakePrintedBoardFinder`, for `LensModel::kAsInCamera`, and if OpenCV
+/// Calibrates one camera by OpenCV's `calibrateCamera`, for comparison with `CalibrateFromPlanes`, which takes the same
+/// views and minimises the same sum. Fails like `MakePrintedBoardFinder`, for `LensModel::kAsInCamera`, and if OpenCV
 /// fails.
 Result<OpenCvCalibration> CalibrateByOpenCv(std::span<const TargetView> views, const PictureSize& size, LensModel lens);
 

@@ -15,7 +15,7 @@ constexpr double kMinStrength = 60;
 constexpr int kRefineReachPx = 5;
 constexpr int kRefineSteps = 8;
 constexpr double kConvergedPx = 0.01;
-constexpr double kMaxMovePx = 2;  // maximum distance of the refined saddle from the found one
+constexpr double kMaxMovePx = 2;  // maximum distance between a saddle before and after refinement
 
 // Smooths along one axis with the binomial weights 1 4 6 4 1.
 GreyImage SmoothAlong(const GreyImage& picture, int dx, int dy) {

@@ -20,14 +20,15 @@
 namespace etude {
 namespace {
 
-/// Ceres's QuaternionManifold with its own `Plus`: Ceres's versions round differently (2.2 uses hypot instead of sqrt),
-/// and an adjustment of only a few steps magnifies the difference.
+/// The manifold of Ceres's QuaternionManifold, but with a `Plus` written here, because Ceres's `Plus` rounds
+/// differently from version to version (2.2 uses hypot instead of sqrt), and an adjustment of only a few steps
+/// magnifies the difference.
 class TurnManifold final : public ceres::Manifold {
  public:
   int AmbientSize() const override { return kTurnSize; }
   int TangentSize() const override { return kTurnSize - 1; }
 
-  /// Rotates by twice the tangent d: q ↦ (cos|d|, sin|d| d/|d|) q.
+  /// Rotates the quaternion q by twice the tangent d: q ↦ (cos|d|, sin|d| d/|d|) q.
   bool Plus(const double* q, const double* d, double* turned) const override {
     const double norm = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double scale = norm > 0 ? std::sin(norm) / norm : 1.0;
@@ -89,7 +90,8 @@ glm::dvec3 Homogeneous(const ProjectionMatrix& matrix, const glm::dvec3& p) {
   return uvw;
 }
 
-/// Returns two rows W with WᵀW = Λ, the upper Cholesky factor; it also exists for Λ of rank 1.
+/// Returns the two rows of the upper Cholesky factor W of an information matrix Λ, WᵀW = Λ. W also exists if Λ has rank
+/// 1.
 std::array<glm::dvec2, 2> RootOf(const glm::dmat2& information) {
   const double a = std::sqrt(std::max(0.0, information[0][0]));
   const double b = a > 0 ? information[1][0] / a : 0;
@@ -164,7 +166,7 @@ class PointAcceleration final : public ceres::CostFunction {
     for (int row = 0; row < num_residuals(); ++row) residuals[row] = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       for (int f = 0; f < 3; ++f) {
-        // Each of the three frames contributes its term of the second difference.
+        // Each of the three frames contributes one term of the second difference.
         const double share = kSecondDifference[f] / deviations_[i];
         const glm::dvec3& p = frames_[f]->placed.positions[points_[i]];
         for (int k = 0; k < 3; ++k) residuals[3 * i + k] += share * p[k];
@@ -250,7 +252,7 @@ std::unique_ptr<ceres::LossFunction> MakeLoss(const BundleOptions& options) {
   return nullptr;
 }
 
-/// The cost as a Ceres problem, which owns its terms.
+/// The cost of the adjustment as a Ceres problem. The Ceres problem owns the cost's terms.
 class BundleProblem {
  public:
   BundleProblem(const BundleInputs& inputs, const BundleOptions& options, Variables& variables)

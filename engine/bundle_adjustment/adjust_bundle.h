@@ -23,7 +23,7 @@ struct BundleMark {
 
 struct BundleInputs {
   const MeasurableBody& body;
-  /// Start poses, one per frame; consecutive frames at a constant rate if there is a smoothness prior.
+  /// Start poses, one per frame. With a smoothness prior, the frames must be consecutive and at a constant rate.
   std::span<const TreeState> start;
   std::span<const BundleMark> marks;
 };
@@ -35,20 +35,20 @@ enum class RobustLoss {
   kCauchy,  ///< logarithmic beyond `loss_scale`: gross errors have hardly any influence
 };
 
-/// The smoothness prior: second differences over three frames are small.
+/// The smoothness prior: second differences of points and of angles over three frames are small.
 struct BundleSmoothness {
   double rate_hz = 30;
   /// The standard deviation of the acceleration of `points` along each axis, m/s².
   double acceleration = 8;
   std::vector<int> points;
-  std::vector<double> accelerations;  ///< one value for each of `points`; empty: `acceleration` for all
+  std::vector<double> accelerations;  ///< standard deviation for each of `points`, m/s²; empty: `acceleration` applies
   /// The standard deviation of the acceleration of every angle, rad/s² *(ours)*; infinity turns this term off.
   double angle_acceleration = 40;
 };
 
 struct BundleOptions {
   RobustLoss loss = RobustLoss::kCauchy;
-  /// The error beyond which the loss flattens, in standard deviations of a mark.
+  /// The reprojection error beyond which the loss flattens, in standard deviations of the mark's pixel.
   double loss_scale = 2;
   /// The smoothness prior; empty if frames are not consecutive.
   std::optional<BundleSmoothness> smoothness;
@@ -59,7 +59,7 @@ struct BundleOptions {
   /// Maximum number of iterations. A take converges in about ten; later iterations only move along directions that no
   /// mark determines.
   int max_iterations = 25;
-  /// The search ends if a step lowers the cost by less than this share.
+  /// The search ends if a step lowers the cost by less than this fraction of the cost.
   double min_decrease = 1e-4;
 };
 

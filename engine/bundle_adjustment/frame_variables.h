@@ -12,7 +12,8 @@ namespace etude {
 // Sizes of the root's parameter blocks; the rotation is a quaternion w, x, y, z.
 inline constexpr int kPositionSize = 3, kTurnSize = 4;
 
-/// The parameter blocks of one frame, to be changed by Ceres, and the points of the body in that pose.
+/// The parameter blocks of one frame, which Ceres changes, and the body's points in the pose that these blocks
+/// describe.
 struct FrameVariables {
   std::array<double, kPositionSize> position{};
   std::array<double, kTurnSize> turn{};
@@ -62,8 +63,8 @@ class PointGains {
   }
 
  private:
-  // TurnManifold rotates by twice its tangent, and Ceres multiplies this row by the derivative of q, whose columns are
-  // orthonormal. The row is therefore 2 · gain times the transpose of the derivative of q.
+  // TurnManifold rotates by twice its tangent d, and Ceres multiplies this row by ∂q/∂d, whose columns are orthonormal.
+  // The row is therefore 2 · gain · (∂q/∂d)ᵀ.
   void AddTurn(double* cell, double gx, double gy, double gz) const {
     const auto& [w, x, y, z] = frame_.turn;
     cell[0] += 2 * (-x * gx - y * gy - z * gz);

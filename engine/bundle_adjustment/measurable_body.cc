@@ -17,7 +17,8 @@ void AddAngleGains(const KinematicTree& tree, const TreeFrames& frames, const Bo
   }
 }
 
-// Returns true if moving the joint moves the point: if the joint is on the path from the root to the point's limb.
+// Returns true if moving the joint moves the point, that is, if the joint is on the path from the root to the point's
+// limb.
 bool Carries(const KinematicTree& tree, int joint, const BodyPoint& point) {
   int j = point.joint;
   while (j > joint) j = tree.joints[j].parent;

@@ -10,7 +10,7 @@ namespace etude {
 
 /// A visible point Q that is fixed to a limb L of a tree.
 struct BodyPoint {
-  int joint = 0;       ///< the joint of that limb
+  int joint = 0;       ///< index of the limb's joint in the tree
   glm::dvec3 p_LQ{0};  ///< position of the point in the limb's frame, metres
 };
 
@@ -31,16 +31,17 @@ struct MeasurableBody {
   std::vector<LengthShare> joint_shares, point_shares;
 };
 
-/// Returns the body with other lengths, metres; there must be as many as in `body.lengths`.
+/// Returns the body with the given lengths, metres, in place of `body.lengths`. The number of lengths must be the same.
 MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> lengths);
 
 /// The positions of a body's points in one pose, and their Jacobian. Each column holds the derivative of a point's
-/// world position with respect to one parameter: the root's translation along x, y, z (metres), the rotations of the
-/// whole body about the root around the world's x, y, z (radians), each angle (radians), and each length (metres).
+/// world position with respect to one parameter: the root's translation along the world's x, y, z (metres), the
+/// rotation of the whole body about the line through the root in each of these directions (radians), each angle
+/// (radians), and each length (metres).
 struct PlacedPoints {
   std::vector<glm::dvec3> positions;  ///< p_WQ, metres
   int columns = 0;                    ///< number of columns: 6 + angles + lengths
-  /// The Jacobian; the entry of a point and a column is at [point · columns + column].
+  /// The Jacobian: the derivative of point `point` for column `column` is at [point · columns + column].
   std::vector<glm::dvec3> gains;
 
   const glm::dvec3* gains_of(int point) const { return gains.data() + static_cast<std::size_t>(point) * columns; }

@@ -15,17 +15,18 @@ namespace [[gnu::visibility("default")]] etude {
 ///     y' = y g + p1 (r² + 2 y²) + 2 p2 x y + s3 r² + s4 r⁴
 ///
 /// If the sensor is tilted about its axes by tau_x, then tau_y, the ray is shown where it meets the tilted sensor. A
-/// fisheye (Kannala and Brandt 2006) instead shows a ray at the angle θ from the axis at this distance from the centre:
+/// fisheye (Kannala and Brandt 2006) instead shows a ray with the angle θ to the axis at a point that has this distance
+/// from the centre:
 ///
 ///     θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)
 ///
 /// The intrinsics then map the result to a pixel. With all coefficients zero and no fisheye, the camera is a pinhole.
 struct Distortion {
-  double k1 = 0, k2 = 0;                  ///< radial; k1 < 0 is barrel distortion
-  double p1 = 0, p2 = 0;                  ///< tangential: the lens is not parallel to the sensor
-  double k3 = 0;                          ///< radial, sixth power
+  double k1 = 0, k2 = 0;                  ///< radial coefficients; k1 < 0 is barrel distortion
+  double p1 = 0, p2 = 0;                  ///< tangential coefficients: the lens is not parallel to the sensor
+  double k3 = 0;                          ///< radial coefficient of r⁶
   double k4 = 0, k5 = 0, k6 = 0;          ///< denominator of the rational model; k4 also belongs to the fisheye
-  double s1 = 0, s2 = 0, s3 = 0, s4 = 0;  ///< thin prism
+  double s1 = 0, s2 = 0, s3 = 0, s4 = 0;  ///< thin-prism coefficients
   double tau_x = 0, tau_y = 0;            ///< tilt of the sensor, radians
   bool is_fisheye = false;
 
@@ -37,8 +38,8 @@ struct Distortion {
 glm::dvec2 Distort(const Distortion& distortion, const glm::dvec2& ray);
 
 /// Inverts `Distort` by Newton's method to 1e-12. If several rays map to `distorted`, returns the (x, y) nearest to the
-/// axis. Returns nullopt if no ray does: beyond the radius at which the model folds back (it describes no lens there),
-/// and, for a fisheye, outside the half-space in front of the camera.
+/// axis. Returns nullopt if no ray does: beyond the radius at which the model folds back (beyond this radius the model
+/// describes no lens), and, for a fisheye, outside the half-space in front of the camera.
 std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dvec2& distorted);
 
 /// The intrinsics of a camera in pixels. Image axes: u right, v down, origin at the top left corner; the centre of
@@ -93,8 +94,8 @@ std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dve
 /// plane, and where the distortion model folds back, far outside the picture.
 std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ);
 
-/// `DistortPixel` maps a pixel of the pinhole to the pixel of the lens; `UndistortPixel` is its inverse. Both return
-/// nullopt where there is no such pixel.
+/// `DistortPixel` maps a pixel of the pinhole to the pixel of the lens, and `UndistortPixel` is its inverse. Each
+/// returns nullopt for a pixel that has no counterpart.
 std::optional<glm::dvec2> DistortPixel(const Camera& camera, const glm::dvec2& pixel);
 std::optional<glm::dvec2> UndistortPixel(const Camera& camera, const glm::dvec2& pixel);
 

@@ -43,11 +43,11 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   p.principal_v = glm::dot(a2, a3);
   p.skew = std::atan2(glm::length(glm::cross(n1, n2)), -glm::dot(n1, n2));
   const double sine = std::sin(p.skew);
-  p.focal_length = glm::length(n2) * sine;  // f in units of δv = 1
+  p.focal_length = glm::length(n2) * sine;  // f in pixel heights, because δv = 1
   p.delta_u = p.focal_length / (glm::length(n1) * sine);
   const glm::dvec3 r1 = n2 / glm::length(n2), r2 = glm::cross(a3, r1);
   SetAngles(glm::transpose(glm::dmat3(r1, r2, a3)), p);
-  // Solve K t = last column for t.
+  // Solve K t = (last column of the normalised H) for t.
   const double fx = p.focal_length / p.delta_u, fy = p.focal_length / sine;
   p.t.z = matrix.h[2][3] / scale;
   p.t.y = (matrix.h[1][3] / scale - p.principal_v * p.t.z) / fy;

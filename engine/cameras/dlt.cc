@@ -15,8 +15,8 @@ constexpr Named<Calibration> kCalibrations[] = {
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-// A cloud of points counts as flat if its smallest extent is below this share of its largest extent. Some entries of H
-// depend on the smallest extent, and measurement errors would be larger than it.
+// A cloud of points counts as flat if its smallest extent is below this share of its largest extent. Measurement errors
+// would then exceed the smallest extent, on which some entries of H depend.
 constexpr double kFlat = 1e-4;
 // Below this ratio of singular values (of the normalised system), another H fits the pairs equally well.
 constexpr double kUndetermined = 1e-9;
@@ -42,8 +42,8 @@ std::optional<std::string> ReasonToRefuse(std::span<const PointPair> pairs) {
   return std::nullopt;
 }
 
-// A shift and scale p' = scale · (p − mean), after which the mean of the points is the origin and their mean distance
-// from it is √N (Hartley 1997).
+// A shift and scale, p' = scale · (p − mean), that moves the mean of the points to the origin and makes the points'
+// mean distance from the origin √N (Hartley 1997).
 template <int N>
 struct Normalisation {
   Eigen::Matrix<double, N, 1> mean = Eigen::Matrix<double, N, 1>::Zero();

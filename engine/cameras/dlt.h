@@ -13,7 +13,7 @@ namespace etude {
 
 enum class Calibration {
   kDlt,            ///< "dlt": least squares on H's entries, |H| = 1 (paper B, section 2.2)
-  kDltNormalised,  ///< "dlt-normalised": the same after Hartley's shift and scale of both point sets
+  kDltNormalised,  ///< "dlt-normalised": "dlt" after Hartley's shift and scale of pixels and world points
   /// "refined": starting from "dlt-normalised", minimises the squared reprojection error over the camera and its lens.
   /// `RefineCamera` (refine.h) computes this result, which includes the lens; `Calibrate` returns only the start matrix
   /// for this method.

@@ -13,7 +13,7 @@ namespace {
 // Rays that differ by less than this, radians, span no plane; it is about 0.01 pixel at a focal length of 600 pixels.
 constexpr double kSamePixel = 1e-5;
 
-// Returns the planes of the strokes that have a length.
+// Returns the planes of all strokes that are long enough to span a plane.
 std::vector<StrokePlane> PlanesOf(std::span<const LimbSighting> sightings) {
   std::vector<StrokePlane> planes;
   for (const LimbSighting& sighting : sightings) {
@@ -62,8 +62,8 @@ std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dv
   return weights;
 }
 
-// Returns a value in [−1, 1] for a point on ray a that moves along `direction`. The value is positive if, in the
-// picture, the point moves towards ray b: with direction = α·a + β·b within the plane, it has the sign of β.
+// Returns a value in [−1, 1] that is positive if a point on ray a, moving along `direction`, moves towards ray b in the
+// picture: with direction = α·a + β·b within the plane, the value has the sign of β.
 double Sense(const StrokePlane& plane, const glm::dvec3& direction_W) {
   return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }

@@ -21,8 +21,9 @@ struct LimbSighting {
   PixelSegment stroke;
 };
 
-/// Returns the direction of the line of sight of `pixel`, in the world, away from the camera: the cross product of the
-/// normals of two planes through the pixel (paper B, equations 2.4 and 2.5). The direction is not normalised.
+/// Returns the direction in which the camera sees `pixel`, in the world, away from the camera. It is the cross product
+/// of the normals of two planes through the pixel and the camera's centre (paper B, equations 2.4 and 2.5), and is not
+/// normalised.
 glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel);
 
 /// The plane through a camera's centre and a stroke; it contains the limb.
@@ -56,9 +57,10 @@ struct LimbDirection {
 /// unit normal N ~ ray(a) × ray(b) that contains the limb. The intersection of two planes is N₁ × N₂ (paper B, section
 /// 2.3). *Ours*: for more planes, the direction is the unit vector d that minimises Σ (Nᵢ·d)²/εᵢ². Here εᵢ ~ |rayᵢ × d|
 /// / (length of the stroke) is the error of Nᵢ·d caused by an error of one pixel at the stroke's ends; a near camera,
-/// which shows the limb as a long stroke, therefore has more weight. εᵢ is computed with the d of equal weights.
-/// Strokes without length are left out. The direction points from a to b in the pictures (ours; the paper does not
-/// say). If pictures disagree about the sense of d, those in which the limb is less foreshortened have more weight.
+/// which shows the limb as a long stroke, therefore has more weight. εᵢ is computed with the d that results from equal
+/// weights. Strokes without length are left out. The direction points from a to b in the pictures (ours; the paper does
+/// not say). If pictures disagree about the sense of d, the pictures in which the limb is less
+/// foreshortened have more weight.
 /// @param min_plane_angle the result is ill-conditioned if no two planes differ by at least this angle, radians
 LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double min_plane_angle = Radians(3));
 

@@ -35,7 +35,8 @@ glm::dmat3 MatrixOfRodrigues(const glm::dvec3& vector);
 /// Reads a rotation from 3 numbers (Rodrigues' vector) or 9 (row by row). Fails, naming `what`, for other counts.
 Result<glm::dmat3> RotationOf(std::span<const double> numbers, std::string_view what);
 
-/// Formats a number so that readers parse it as a real number, not as an integer: `point` is added to "600".
+/// Formats a number so that readers parse it as a real number, not as an integer: `point` is appended to a text such as
+/// "600".
 std::string RealText(double value, std::string_view point);
 
 /// Writes a camera in the format of OpenCV's cv::FileStorage (YAML 1.0): `image_width`, `image_height`, `camera_matrix`

@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// Returns the map that shifts points to their mean and scales them to a mean distance of √2 (Hartley 1997).
+/// Returns the map that shifts the mean of the points to the origin and scales the points to a mean distance of √2 from
+/// the origin (Hartley 1997).
 Matrix3d Normaliser(const Eigen::MatrixX2d& points) {
   const Eigen::RowVector2d mean = points.colwise().mean();
   const double distance = (points.rowwise() - mean).rowwise().norm().mean();
@@ -58,7 +59,7 @@ CalibrationTargetPose Inverse(const CalibrationTargetPose& pose) {
   return {R, -(R * pose.p_WT)};
 }
 
-/// A view with its homography.
+/// A view of a flat board, and the homography from the board to the picture.
 struct PlaneView {
   const TargetView* view;
   glm::dmat3 homography;
@@ -70,9 +71,9 @@ class Places {
  public:
   Places(std::size_t cameras, std::size_t targets) : cameras_(cameras), targets_(targets) {}
 
-  /// Adds the pose of one camera or board. It uses the view with the most corners among those with exactly one known
-  /// pose, either the camera's or the board's. Returns false if there is no such view. The pose of the first board must
-  /// be set before.
+  /// Adds the pose of one camera or board. A view qualifies if the pose of either its camera or its board is known, but
+  /// not of both; the function uses the qualifying view with the most corners. Returns false if no view qualifies. The
+  /// pose of the first board must be set before.
   bool Join(std::span<const PlaneView> views) {
     const PlaneView* best = nullptr;
     for (const PlaneView& view : views) {
@@ -96,7 +97,7 @@ class Places {
 }  // namespace
 
 Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
-  // Collect the points, and refuse those that determine no homography.
+  // Collect the points. Refuse points that determine no homography.
   if (pairs.size() < 4) return Fail({}, "{} corners; at least 4 are needed", pairs.size());
   const auto count = static_cast<Eigen::Index>(pairs.size());
   Eigen::MatrixX2d plane(count, 2), picture(count, 2);
@@ -147,7 +148,7 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
     A.row(row) << h[0].x * h[0].x - h[1].x * h[1].x, h[0].y * h[0].y - h[1].y * h[1].y;
     rhs[row++] = h[1].z * h[1].z - h[0].z * h[0].z;
   }
-  // Solve for both unknowns if the planes determine both; otherwise assume square pixels.
+  // Solve for a and b if the planes determine both; otherwise assume square pixels, a = b.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   constexpr double kTellsApart = 0.02;
   Eigen::Vector2d ab = svd.solve(rhs);
@@ -213,7 +214,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   places.targets_.front() = CalibrationTargetPose{};
   while (places.Join(usable)) {
   }
-  // Start the joint adjustment at these poses.
+  // The adjustment of all cameras and boards together starts at these poses.
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {

@@ -11,8 +11,8 @@
 namespace etude {
 
 /// Computes the homography from a plane to its picture, (u·w, v·w, w)ᵀ = H (x, y, 1)ᵀ for points (x, y, 0), by the
-/// normalised direct linear transform. Its scale is arbitrary. Fails for fewer than four points, for points that lie
-/// (nearly) on one line, and for points that are not finite.
+/// normalised direct linear transform. The scale of H is arbitrary. Fails for fewer than four points, for points that
+/// lie (nearly) on one line, and for points that are not finite.
 Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs);
 
 /// Estimates the focal lengths of a camera from homographies of planes (Zhang 2000, section 3.1). The principal point
@@ -40,9 +40,9 @@ std::size_t NumberTargets(std::span<TargetView> views);
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
                                        const RefineOptions& options = {});
 
-/// Finds the poses of flat boards that minimise the reprojection error of known cameras. The cameras, with their
-/// lenses, are not changed; they may be given in any world frame. Views are selected as in `CalibrateFromPlanes`. Fails
-/// if no camera shows a board.
+/// Finds the poses of flat boards by minimising the reprojection error in pictures of known cameras. The cameras, with
+/// their lenses, are not changed; they may be given in any world frame. Views are selected as in `CalibrateFromPlanes`.
+/// Fails if no camera shows a board.
 Result<RefinedRig> LocateBoards(std::span<const Camera> cameras, std::span<const TargetView> views);
 
 }  // namespace etude

@@ -15,11 +15,11 @@ struct PixelErrors {
   std::size_t camera = 0;
   glm::dmat3x2 by_position{0};  ///< derivative of the pixel with respect to the position, px/m
   glm::dmat2 noise{0};          ///< covariance of the pixel, px²
-  /// Shift of the pixel by one standard deviation of each calibration parameter, px.
+  /// Shift of the pixel, px, that one standard deviation of each calibration parameter causes.
   std::array<glm::dvec2, kCalibrationParameters> by_calibration{};
 };
 
-/// Returns the pixel, with lens distortion, if it lies within the picture.
+/// Returns the pixel that shows Q, with lens distortion; nullopt if the pixel is outside the picture.
 std::optional<glm::dvec2> PixelInPicture(const Camera& camera, const glm::dvec3& p_WQ) {
   const auto pixel = Project(camera, p_WQ);
   const Intrinsics& in = camera.intrinsics;
@@ -58,7 +58,7 @@ std::optional<PixelErrors> PixelErrorsOf(const Camera& camera, std::size_t index
   const glm::dmat3x2 by_point(glm::dvec2(in.fx, 0) / p_CQ.z, glm::dvec2(in.skew, in.fy) / p_CQ.z,
                               glm::dvec2(-in.fx * x - in.skew * y, -in.fy * y) / p_CQ.z);
   pixel.by_position = by_point * camera.R_CW;
-  // Compute the pixel's shift by one standard deviation of each calibration parameter.
+  // Compute the shift of the pixel that one standard deviation of each calibration parameter causes.
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 unit(0);
     unit[axis] = 1;

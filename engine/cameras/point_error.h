@@ -20,7 +20,7 @@ struct CalibrationDeviation {
 
 /// The errors of the pixels from which a point is triangulated.
 struct SightingErrors {
-  double noise_px = 5;  ///< standard deviation along each axis of the picture
+  double noise_px = 5;  ///< standard deviation of a pixel's error along each axis of the picture
   double dropout = 0;   ///< probability, below 1, that a camera gives no pixel for a point in its picture
   CalibrationDeviation calibration = {};
 };
@@ -39,8 +39,9 @@ struct PointError {
   double lost = 1;
   glm::dmat3 covariance{0};  ///< covariance of the position, m²
   glm::dmat3 noise{0};       ///< the part of `covariance` due to the pixels' noise
-  /// For each camera, the mean displacement of the position by one standard deviation of each calibration parameter,
-  /// metres. A calibration error displaces all points of a take, so the errors of different points are correlated.
+  /// For each camera, the mean displacement of the position, metres, that one standard deviation of each calibration
+  /// parameter causes. A calibration error displaces all points of a take, so the errors of different points are
+  /// correlated.
   std::vector<std::array<glm::dvec3, kCalibrationParameters>> displacements = {};
 
   /// The root mean square distance from the true position, metres.

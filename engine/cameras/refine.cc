@@ -168,7 +168,7 @@ class Bundle {
   }
 
  private:
-  /// The free parameter of a column of the Jacobian.
+  /// The free parameter to which a column of the Jacobian belongs.
   struct Column {
     std::size_t camera = 0;  ///< index of the camera, or number of cameras + index of the target
     int intrinsic = -1;      ///< index of an Intrinsic; −1 if the parameter belongs to a pose

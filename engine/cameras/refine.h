@@ -62,7 +62,7 @@ struct IntrinsicsDeviation {
 struct RefinedRig {
   std::vector<Camera> cameras;
   std::vector<CalibrationTargetPose> targets;
-  /// Root mean square distance between pixels and projected points, for each camera and for all.
+  /// Root mean square distance between pixels and projected points: `camera_rms_px` for each camera, `rms_px` over all.
   std::vector<double> camera_rms_px;
   double rms_px = 0;
   std::size_t points = 0;  ///< N, the number of point pairs
@@ -74,8 +74,8 @@ struct RefinedRig {
 
 /// Finds the cameras and target poses that minimise the sum of squared reprojection errors, with distortion (method
 /// "refined"; Levenberg–Marquardt by Ceres). `guess` must be near the solution: from `Calibrate`, `Decompose` or
-/// planes.h. Fails if a camera has no view, if there are fewer equations than unknowns, if the start does not show a
-/// point, and if the views leave a parameter undetermined (the message names it).
+/// planes.h. Fails if a camera has no view, if there are fewer equations than unknowns, if a camera of `guess` cannot
+/// show one of the points, and if the views leave a parameter undetermined (the message names it).
 Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> views,
                              const RefineOptions& options = {});
 

@@ -171,8 +171,8 @@ Result<double> NumberAt(const Node& camera, std::string_view key) {
   return AsNumber(*number);
 }
 
-/// Reads one camera. A camera in a file of its own may lack its distortion, and R and T if the world is the camera's
-/// frame.
+/// Reads one camera. A camera in a file of its own may lack the distortion; it may also lack R and T, in which case the
+/// world is the camera's frame.
 Result<Camera> ReadCamera(const Node& node, bool is_alone) {
   OpenCvParameters p;
   const auto is_given = [&](const char* key) { return !is_alone || node.Find(key) != nullptr; };
@@ -299,7 +299,7 @@ Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
 }
 
 Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file) {
-  // Larger than for one file, because COLMAP's files also list points.
+  // The maximum size of a pair of files, larger than the limit for one file, because COLMAP's files also list points.
   constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;
   if (inside.size() + outside.size() > kMaxPairBytes) {
     return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kMaxPairBytes);

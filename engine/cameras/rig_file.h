@@ -23,7 +23,7 @@ Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text);
 
 /// Writes a rig as one YAML file that OpenCV's cv::FileStorage can read, too: `cameras` lists the names, and each name
 /// is a key with the content of WriteOpenCvCamera: `fs["left"]["camera_matrix"]`. The world is ours: metres, Y up;
-/// pixels are OpenCV's, with the centre of the first one at (0, 0). In names, characters that FileStorage does not
+/// pixels are OpenCV's, with the centre of the first pixel at (0, 0). In names, characters that FileStorage does not
 /// allow become '_', and "camera_" is put before a leading digit.
 std::string WriteRig(std::span<const NamedCamera> cameras);
 

@@ -34,10 +34,10 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
 
 namespace {
 
-/// Rotates a world with Z up, or a world that is a camera's frame, into ours.
+/// Rotates into our world from a world with Z up, or from a world that is a camera's frame.
 const glm::dmat3 kOursOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);
 
-/// Makes the camera in our world; its picture size is 0 x 0 if the file has none.
+/// Makes the camera in our world; the picture size is 0 × 0 if the file states none.
 Result<NamedCamera> CameraIn(const std::string& name, OpenCvParameters p, const glm::dmat3& R_WF, const Place& place) {
   p.R = p.R * glm::transpose(R_WF);
   const bool is_sizeless = p.width == 0 && p.height == 0;

@@ -55,7 +55,7 @@ using DistanceOfView = std::vector<double>;
 struct Consensus {
   std::vector<std::size_t> views;
   double weight = 0;
-  double squares = std::numeric_limits<double>::infinity();  // mean squared distance of these views
+  double squares = std::numeric_limits<double>::infinity();  // mean squared distance over `views`
 
   bool IsBetterThan(const Consensus& other) const {
     return weight != other.weight ? weight > other.weight : squares < other.squares;
@@ -143,7 +143,7 @@ double DistancePx(const Sighting& sighting, const glm::dvec3& p_WQ) {
   return pixel ? glm::distance(*pixel, sighting.pixel) : std::numeric_limits<double>::infinity();
 }
 
-/// Returns true for each sighting that has positive weight and agrees with the other sightings.
+/// Returns one flag per sighting: true if the sighting has a positive weight and agrees with the other sightings.
 std::vector<bool> AgreeingOf(std::span<const WeightedSighting> sightings, double outlier_px) {
   std::vector<Sighting> sure;
   std::vector<double> weights;

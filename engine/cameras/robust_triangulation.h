@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// A sighting of a point with its accuracy.
+/// A sighting of a point, and the accuracy of its pixel.
 struct InformedSighting {
   Sighting sighting;
   glm::dmat2 information{1};  ///< inverse covariance of the pixel, 1/px²
@@ -29,7 +29,7 @@ std::optional<PointEquations> PointEquationsAt(std::span<const InformedSighting>
 
 struct LikeliestPoint {
   glm::dvec3 position{0};     ///< p_WQ, metres
-  glm::dmat3 information{0};  ///< inverse covariance, 1/m²
+  glm::dmat3 information{0};  ///< inverse covariance of the position, 1/m²
 };
 
 /// Finds the position that minimises Σ rᵀ Λ r, by five Gauss–Newton steps from paper B's linear solution
@@ -49,7 +49,7 @@ std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSight
 std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
                                        std::span<const double> weights = {});
 
-/// Finds the agreeing sightings of a limb: those in which both ends of the stroke agree.
+/// Finds the agreeing sightings of a limb. A sighting agrees only if the start and the end of its stroke agree.
 std::vector<std::size_t> AgreeingViews(std::span<const LimbSighting> sightings, double tolerance_px);
 
 struct WeightedSighting {

@@ -48,11 +48,11 @@ TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 /// Triangulates like `Triangulate`, but also divides every row by the point's depth in its camera *(ours)*, so that
 /// distances in pixels are minimised. A distant camera measures the point less accurately and gets less weight. This is
 /// iterated linear least squares (Hartley and Sturm 1997, section 4.3) with three iterations. For two cameras at equal
-/// distances the result is that of `Triangulate`.
+/// distances from the point, the result is the same as by `Triangulate`.
 TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings);
 
-/// The epipolar constraint of two cameras: bᵀ F a = 0 for the pixels a in the first and b in the second picture of one
-/// point at any depth.
+/// The epipolar constraint of two cameras: bᵀ F a = 0 if a point, at any depth, is at pixel a in the first picture and
+/// at pixel b in the second.
 class EpipolarGeometry {
  public:
   /// Returns the geometry of two cameras; nullopt if a matrix has no centre (a camera at infinity).
@@ -71,7 +71,7 @@ class EpipolarGeometry {
 class PairGeometry {
  public:
   explicit PairGeometry(std::span<const ProjectionMatrix> cameras);
-  /// Returns nullopt if both indices are equal, or if EpipolarGeometry::Of returns nullopt.
+  /// Returns nullopt if the two indices are equal, or if EpipolarGeometry::Of returns nullopt.
   const std::optional<EpipolarGeometry>& operator()(std::size_t first, std::size_t second) const {
     return of_[first * cameras_ + second];
   }

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-// All offsets are linear in the lengths, so their derivatives with respect to one length are the offsets of a body with
-// that length 1 and all others 0.
+// All offsets are linear in the lengths, so the derivatives of all offsets with respect to one length are the offsets
+// of a body with this length 1 and all other lengths 0.
 void AddLengths(const LimbLengths& lengths, TakeBody& made) {
   const auto list = ListOf(lengths);
   made.measurable.lengths.assign(list.begin(), list.end());
@@ -64,8 +64,9 @@ TakeBody MakeTakeBody(const LimbLengths& lengths) {
 
 namespace {
 
-/// Returns one state per frame. A frame whose joints give no state takes the state of the frame before it; frames
-/// before the first state take that state. Returns an empty list if no frame gives a state.
+/// Returns one start pose per frame, as the root's pose and joint angles. A frame whose joints give no pose takes the
+/// pose of the frame before it; the frames before the first pose take the first pose. Returns an empty list if no frame
+/// gives a pose.
 std::vector<TreeState> StartOf(const CaptureBody& body, std::span<const OptionalJoints> joints) {
   const BodyPose standing = ToBodyPose(body, StandingState(body.tree));
   std::vector<TreeState> states;
@@ -131,7 +132,7 @@ namespace {
 
 using enum Role;
 
-/// A length of LimbLengths and the two joints between which it is measured, on both sides of the body.
+/// A length of LimbLengths, and, for each side of the body, the two joints between which the length is measured.
 struct LengthBetween {
   double LimbLengths::*length;
   Role a, b;
@@ -194,7 +195,7 @@ LimbLengths MedianLengths(std::span<const OptionalJoints> frames) {
   return lengths;
 }
 
-// Chooses `wanted` frames, evenly spaced among those that show the most joints.
+// Chooses `wanted` frames, evenly spaced among the frames that show the most joints.
 std::vector<std::size_t> ChooseFrames(std::span<const OptionalJoints> joints, std::size_t wanted) {
   std::vector<std::size_t> shown;
   for (const OptionalJoints& frame : joints) {

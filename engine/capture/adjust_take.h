@@ -18,8 +18,8 @@ namespace etude {
 /// Paper B's body in the form that bundle adjustment compares with marks.
 struct TakeBody {
   CaptureBody body;  ///< the body that `PaperBody` makes
-  /// The same body for `AdjustBundle`: every role that a mark can show is a point; its lengths are the members of
-  /// LimbLengths in their order, equal on both sides.
+  /// `body` in the form that `AdjustBundle` takes: every role that a mark can show is a point, and the lengths are the
+  /// members of LimbLengths in their order, equal on the left and right sides.
   MeasurableBody measurable;
   std::array<int, kRoleCount> points{};  ///< for each role: its index in `measurable.points`, −1 if no mark shows it
 };
@@ -31,7 +31,7 @@ LimbLengths LimbLengthsOf(std::span<const double> lengths);
 std::array<double, 10> ListOf(const LimbLengths& lengths);
 
 struct AdjustTakeInputs {
-  MeasureInputs pictures;  ///< cameras and marks; `known` is ignored
+  MeasureInputs pictures;  ///< cameras and marks; the member `known` is ignored
   LimbLengths lengths;     ///< lengths of the person, metres; the start of the search if lengths are adjusted
   /// The joint positions of each frame at which the search starts (`BridgeJoints`).
   std::span<const OptionalJoints> start;
@@ -50,7 +50,7 @@ struct AdjustedTake {
 
 /// Adjusts a whole take at once (`AdjustBundle`): fits paper B's body in all frames to the marks of all pictures. The
 /// search starts at the angles that point the limbs along the joints of `start` (`FindStartState`); a frame without
-/// such angles starts at those of a neighbouring frame. `is_solved` is false if no frame shows a body.
+/// such angles starts at the angles of a neighbouring frame. `is_solved` is false if no frame shows a body.
 AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions& options = {});
 
 /// Returns the smoothness prior for a motion at this frame rate; it applies to hips, shoulders, wrists, ankles and all

@@ -55,7 +55,8 @@ std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> plan
   return sum / length;
 }
 
-// Minimises the sum of squares given at `BridgeGaps` over vectors d of any length, and returns d normalised.
+// Finds the vector d, of any length, that minimises the sum of squares in the comment on `BridgeGaps`, and returns d
+// normalised.
 glm::dvec3 FuseDirection(std::span<const StrokePlane> planes, const Bridged& bridged, const BridgeOptions& options) {
   const double turn = options.turn_per_frame * bridged.distance;
   glm::dmat3 squares(1 / (turn * turn));

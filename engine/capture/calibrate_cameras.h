@@ -13,9 +13,9 @@
 namespace etude {
 
 struct CalibrationOptions {
-  /// The method, by default paper B's. Use `kDltNormalised` if there are few or noisy point pairs or if they are far
-  /// from the world's origin: it scales the equations, so that pairs with larger numbers do not get more weight. For
-  /// `kRefined`, call `RefineCameras` instead.
+  /// The calibration method, by default paper B's. Use `kDltNormalised` if there are few or noisy point pairs, or if
+  /// the points are far from the world's origin: this method scales the equations, so that pairs with larger numbers do
+  /// not get more weight. For `kRefined`, call `RefineCameras` instead.
   Calibration method = Calibration::kDlt;
 };
 

@@ -28,7 +28,7 @@ double BestTwist(const glm::dvec3& axis, const std::vector<glm::dvec3>& from, co
   return std::hypot(cosine, sine) > kTinyM ? std::atan2(sine, cosine) : 0;
 }
 
-// Returns the angles of a joint that give the limb these axes, as far as its degrees of freedom allow.
+// Returns the angles of a joint that rotate the limb to the axes R_JL, as far as the joint's degrees of freedom allow.
 glm::dvec3 AnglesOf(const glm::dmat3& R_JL, int dof_count) {
   if (dof_count == 3) return AnglesXyz(R_JL);
   const glm::dvec3& z_J = R_JL[2];
@@ -44,7 +44,7 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
     // The hip centre is the midpoint of the hips, so it needs no effector.
     if (role == Role::kHipCentre && body.hips_turn) continue;
     TreePoint point = body.roles[Index(role)];
-    // The joint at which a limb begins is a fixed point of the limb before it.
+    // The joint at which a limb begins is a fixed point of the parent limb.
     while (point.joint > 0 && glm::length(point.p_LQ) < kTinyM) {
       const TreeJoint& joint = tree.joints[point.joint];
       point = {joint.parent, joint.p_PJ};
@@ -135,13 +135,14 @@ glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& t
   return SmallestRotation(glm::normalize(R_WL * p_LT), UnitOr(wanted, along)) * R_WL;
 }
 
-// Returns R_WL of a limb whose joint is at p_WL, pointed at its targets.
+// Returns the orientation R_WL that points a limb, whose joint is at p_WL, at the limb's targets.
 glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::dmat3& R_WJ, const PoseTargets& wanted,
                                    int mirrored, std::vector<int>& bent) const {
   std::vector<Aim> aims;
   AddAims(limb, glm::dvec3(0), glm::dmat3(1), limb, wanted, aims);
   if (aims.empty()) return R_WJ;
-  // Point the limb at the farthest known role on it, or else at the farthest one beyond it.
+  // Point the limb at its farthest known role; if the limb has none, at the farthest known role on the chains beyond
+  // it.
   const auto main = std::ranges::max_element(
       aims, {}, [](const Aim& aim) { return std::pair(aim.is_on_limb, glm::length(aim.p_LQ)); });
   const glm::dvec3 from = UnitOr(R_WJ * main->p_LQ, R_WJ * kAlong);

@@ -44,7 +44,7 @@ class PoseFitter {
   /// pose with this joint bent to the other side. The lowest minimum found is returned. Returns nullopt if a target
   /// with a weight above 0 is not finite, or if the left foot has weight 0.
   std::optional<PoseFit> Fit(const PoseTargets& wanted, const std::optional<PoseFit>& last = {}) const;
-  /// Finds the local minimum near `state`; the root does not move.
+  /// Finds the local minimum of the residual (see `Fit`) near `state`; the root does not move.
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:

@@ -15,9 +15,10 @@
 
 namespace etude {
 
-/// Removes marks that disagree with those of other cameras *(ours)*. If three or more pictures of a frame show a disc
-/// or stroke, it is removed from the views that `AgreeingViews` rejects. Use this function if a camera may have moved
-/// or marks may be on the wrong limb; if all marks are equally accurate, the function costs a little accuracy.
+/// Removes marks that disagree with the marks of other cameras *(ours)*. If three or more pictures of a frame show a
+/// disc or stroke, the disc or stroke is removed from the views that `AgreeingViews` rejects. Use this function if a
+/// camera may have moved or marks may be on the wrong limb; if all marks are equally accurate, the function costs a
+/// little accuracy.
 /// @param marks `marks[camera][frame]`
 /// @param tolerance_px maximum distance, in pixels, of a mark from the point that the other pictures determine. Marks
 /// with errors of 2 pixels (more at joints under clothes) agree within 12 pixels.
@@ -33,7 +34,7 @@ struct FrameMeasurement {
   RoleVectors directions;  ///< unit vectors in the world: direction of each limb, by the role of its lower joint
   /// For each limb without a direction: the planes through the limb, one per picture that shows it.
   std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
-  /// The sight line of each end that only one picture shows.
+  /// The sight line of each end effector that only one picture shows.
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
@@ -55,10 +56,10 @@ struct MeasureInputs {
 };
 
 struct MeasureOptions {
-  /// Minimum angle between two viewing planes of a limb, radians, at which its strokes alone give its direction. The
-  /// error of the strokes is multiplied by 1/sin of that angle, about seven at 8°. Below this angle, the planes are
-  /// kept and combined with neighbouring frames (`BridgeGaps`). Raise it if marks are inaccurate; lower it if marks are
-  /// accurate or the cameras are close together.
+  /// Minimum angle between two viewing planes of a limb, radians, at which the limb's strokes alone give its direction.
+  /// The error of the direction is the error of the strokes times 1/sin(angle), about seven times at 8°. Below this
+  /// minimum, the planes are kept and combined with neighbouring frames (`BridgeGaps`). Raise it if marks are
+  /// inaccurate; lower it if marks are accurate or the cameras are close together.
   double min_plane_angle = Radians(8);
   /// Strokes shorter than this, in pixels, give no direction: for a limb that is seen almost end on, mark errors hide
   /// the direction. The default is three times the usual mark error, which is 2 pixels in pictures of 640 × 480; scale
@@ -68,9 +69,9 @@ struct MeasureOptions {
 
 /// Triangulates the end effectors and computes the limb directions of every frame (paper B, sections 2.3 and 2.4). A
 /// position or direction needs two or more pictures; partial information from a single picture is kept in `planes` and
-/// `sight_lines`. With two cameras the formulas are the paper's. With more, both are least squares in which views are
-/// weighted by their accuracy (`TriangulateByPixels`, `ComputeLimbDirection`). No view is rejected here; call
-/// `AgreeingMarks` first for that.
+/// `sight_lines`. With two cameras the formulas are the paper's. With more cameras, positions and directions are
+/// least-squares solutions in which views are weighted by their accuracy (`TriangulateByPixels`,
+/// `ComputeLimbDirection`). No view is rejected here; call `AgreeingMarks` first for that.
 std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const MeasureOptions& options = {});
 
 }  // namespace etude

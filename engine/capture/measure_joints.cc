@@ -45,7 +45,7 @@ std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& er
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     if (marks.effectors[i]) joints.push_back({EffectorMarks()[i].role, *marks.effectors[i], of_disc});
   }
-  // Divide the information among all marks of one joint, because one decision of the annotator places them all.
+  // Divide the information among all marks of one joint, because the annotator places all these marks by one decision.
   std::array<int, kRoleCount> count{};
   for (const MarkedJoint& joint : joints) ++count[Index(joint.role)];
   for (MarkedJoint& joint : joints) joint.information /= static_cast<double>(count[Index(joint.role)]);
@@ -56,7 +56,8 @@ namespace {
 
 using enum Role;
 
-// The sightings of each role in one frame: one per picture that shows the role, fused from all its marks there.
+// The sightings of each role in one frame. A role has one sighting per picture that shows the role, fused from all
+// marks of the role in that picture.
 using FrameSightings = std::array<std::vector<InformedSighting>, kRoleCount>;
 
 FrameSightings SightingsOf(const MeasureInputs& inputs, std::size_t frame, const MarkErrors& errors) {
@@ -107,8 +108,8 @@ std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const 
   const glm::dvec3 position = NearestOn(*line, near_W);
   const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
-  // Standard deviation of the depth of a joint that only one picture shows, metres *(ours)*. It is large because
-  // interpolation between neighbouring frames is inaccurate.
+  // Standard deviation, along the sight line, of a joint that only one picture shows, metres *(ours)*. It is large
+  // because interpolation between neighbouring frames is inaccurate.
   constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
   return PointMeasurement{position, sum->information + depth};
@@ -126,7 +127,7 @@ SmoothedTrack SmoothLikeliest(std::span<const PointMeasurement> track, double ra
   return SmoothTrack(track, motion);
 }
 
-// Returns the median over frames of a triangulated joint's variance along one axis, m².
+// Returns the median, over frames, of the variance of a joint's triangulated position along one axis, m².
 std::optional<double> UsualVariance(std::span<const JointMeasurements> measured, std::size_t role) {
   std::vector<double> variances;
   for (const JointMeasurements& frame : measured) {
@@ -214,12 +215,13 @@ std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyP
   middle(kSpine, kHipCentre, kShoulderCentre, kSpineShare);
   if (std::ranges::none_of(filled, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
 
-  // Attach missing joints to their neighbours as in `like`, rotated by the difference of headings.
+  // Attach each missing joint to its neighbour at the offset of `like`, rotated by the difference between the headings
+  // of the frame's body and of `like`.
   const auto across = AcrossOf(joints);
   const glm::dvec3 like_across = like[kLeftHip] - like[kRightHip];
   const FloorMove turn{.yaw = across ? YawOf(*across) - YawOf(like_across) : 0};
   const auto limb = [&](const Bone& bone) { return turn.Apply(like[bone.child] - like[bone.parent]); };
-  // Each round attaches joints that are one limb farther away.
+  // Each round attaches the joints that are one limb farther from the known joints.
   for (std::size_t round = 0; round < kRoleCount; ++round) {
     for (const Bone& bone : AllBones()) {
       auto &parent = filled[Index(bone.parent)], &child = filled[Index(bone.child)];

@@ -15,7 +15,7 @@ namespace etude {
 
 /// The error model of marks that a method may use.
 struct MarkErrors {
-  double mark_error_px = 2;  ///< standard deviation of a stroke's end across the stroke, and of a disc, in u and in v
+  double mark_error_px = 2;  ///< standard deviation of a disc in u and in v, and of a stroke's end across the stroke
   /// The standard deviation of a stroke's end along the limb, as a share of the stroke's length. Strokes are more
   /// accurate across the limb than along it *(ours)*.
   double slide_share = 0.08;
@@ -25,10 +25,10 @@ struct MarkErrors {
 struct MarkedJoint {
   Role role;
   glm::dvec2 pixel{0};
-  glm::dmat2 information{0};  ///< inverse covariance, 1/px²
+  glm::dmat2 information{0};  ///< inverse covariance of the pixel, 1/px²
 };
 
-/// Returns the joints that the marks of one picture show: both ends of every stroke, and the centre of every disc. A
+/// Returns the joints that the marks of one picture show: the two ends of every stroke, and the centre of every disc. A
 /// disc replaces the stroke end beneath it. All marks that end at one joint come from a single decision of the
 /// annotator, so together they have the information of one mark.
 std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors);
@@ -43,8 +43,8 @@ struct JointMeasurements {
 /// Triangulates every joint from all marks that end there: the position minimises Σ rᵀ Λ r over the pictures, with r
 /// the reprojection error and Λ its information (`MarkedJointsOf`), by Gauss–Newton steps from paper B's linear
 /// solution. The joint's information is the information of this sum at the solution. A joint that only one picture
-/// shows lies at the point of its sight line nearest to its position in neighbouring frames, with a depth error of 15
-/// cm *(ours)*. `inputs.known` is ignored.
+/// shows is placed at the point of the sight line that is nearest to the joint's position in neighbouring frames, with
+/// a depth error of 15 cm *(ours)*. `inputs.known` is ignored.
 std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const MarkErrors& errors = {});
 
 /// Joint positions of one frame; nullopt for a joint whose position is unknown.

@@ -12,7 +12,7 @@ namespace {
 
 using enum Role;
 
-/// The start of one frame: its joints from the pictures, before inverse kinematics.
+/// The pose from which inverse kinematics starts in one frame, made from the joints in the pictures.
 struct Start {
   BodyPose fixed;                 ///< joints with the body's limb lengths
   std::optional<TreeState> seen;  ///< the same pose as angles, if it has been found
@@ -24,8 +24,8 @@ std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& 
   return Start{*fixed, FindStartState(body.tree, *fixed, body.tree.limits)};
 }
 
-// Computes target positions of the joints, by following the observed limb directions inwards from every end (paper B,
-// figure 3.2(a)), and of the midpoint of the hips.
+// Computes target positions of the joints and of the midpoint of the hips, by following the observed limb directions
+// inwards from every end effector (paper B, figure 3.2(a)).
 PoseTargets TargetsFromEnds(const CaptureBody& body, const LimbObservation& seen) {
   constexpr double kUnseen = 0.01;  // weight of completed positions
   constexpr double kBent = 0.1;     // weight of positions beyond a joint whose bend is not observed

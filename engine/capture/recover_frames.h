@@ -22,8 +22,9 @@ struct RecoverInputs {
   CaptureBody body;  ///< the body of the person, from PaperBody or FittedBody
   /// One observation per frame; nullopt for frames in which too little was seen.
   std::span<const std::optional<LimbObservation>> seen;
-  /// One flag per frame: true if the frame itself was marked; empty if all were. In a marked frame the solver starts at
-  /// the angles that the pictures show, in any other frame at the angles of the last frame.
+  /// One flag per frame: true if the frame itself was marked; empty if all frames were. In a marked frame the solver
+  /// starts at the angles that the pictures show, in any other frame at the angles of the last
+  /// recovered frame.
   std::vector<bool> marked = {};
   /// The true start angles or true poses, one per frame, if known; otherwise empty. They replace the result of the
   /// start stage or of the solver, so that the error of that stage can be measured.
@@ -49,11 +50,11 @@ struct RecoveredFrame {
 
 /// Recovers a skeleton in every frame from its observation (paper B, chapter 3): fix the limb lengths, then move every
 /// end effector back to its observed position with the solver. For paper B's body, lengths are fixed as in section 3.2
-/// (`FixLimbLengths`) and start angles found as in 3.3 (`FindStartState`). For another body, `PoseFitter` does both: it
-/// fits the body to all joints that the end effectors and the limbs' directions determine. Values that an observation
-/// lacks are taken from the last frame, or at the beginning from a standing body (`CompleteObservation`); they are not
-/// used as targets. A frame stays empty if it has no observation, if its skeleton cannot be computed, or if no end
-/// effector was seen in it or in an earlier frame.
+/// (`FixLimbLengths`) and start angles found as in 3.3 (`FindStartState`). For another body, `PoseFitter` replaces
+/// these two stages: it fits the body to all joints that the end effectors and the limbs' directions determine. Values
+/// that an observation lacks are taken from the last frame, or at the beginning from a standing body
+/// (`CompleteObservation`); these values are not used as targets. A frame stays empty if it has no observation, if its
+/// skeleton cannot be computed, or if no end effector was seen in this frame or an earlier one.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
 /// The true start or true pose of one frame, if known, as in RecoverInputs.
@@ -85,8 +86,8 @@ class FrameRecovery {
   std::optional<RecoveredFrame> last_;
 };
 
-/// Fills empty frames with the last skeleton before them, and frames before the first skeleton with the first one. At
-/// least one frame must not be empty.
+/// Gives each empty frame the last skeleton before this frame; a frame before the first skeleton gets the first
+/// skeleton. At least one frame must not be empty.
 std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames);
 
 /// Converts the motion to a clip that WriteBvh can write: metres, Y up. `body` must be the body with which `frames`

@@ -12,7 +12,7 @@ namespace {
 
 /// The minimum of the parabola that is fitted to the misfits around a whole frame.
 struct ParabolaMinimum {
-  double shift = 0;  ///< position of the minimum relative to that frame, frames
+  double shift = 0;  ///< position of the minimum relative to the whole frame, in frames
   double gain = 0;
 };
 

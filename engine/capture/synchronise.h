@@ -14,8 +14,8 @@ namespace etude {
 struct SyncOptions {
   /// The maximum offset that is searched, in frames either way. Raise it for cameras that were started by hand.
   int max_frames = 16;
-  /// The maximum error of a pair of sightings, pixels. Larger errors are capped, so that a mark on the wrong limb does
-  /// not determine a clock.
+  /// The maximum error of a pair of sightings, pixels. Larger errors are capped, so that a single mark on the wrong
+  /// limb does not determine the offset.
   double max_px = 20;
 };
 
@@ -40,15 +40,16 @@ OptionalPixel PixelBetween(const OptionalPixel& a, const OptionalPixel& b, const
 
 /// Estimates the delay of each camera's pictures in frames *(ours)*: frame k of a camera was taken at the first
 /// camera's time k + offset. Each camera is compared with the first one. The offset minimises the mean squared epipolar
-/// distance (`EpipolarGeometry`, `FindOffset`) of all ends and strokes that are marked in both; the camera's marks are
-/// interpolated between its frames (`MarksAt`). The offset is 0 if nothing determines it (nobody moves, or there are
-/// too few marks).
+/// distance (`EpipolarGeometry`, `FindOffset`) of all ends and strokes that are marked in the pictures of the two
+/// cameras; the marks of the compared camera are interpolated between its frames (`MarksAt`). The offset is 0 if
+/// nothing determines it (nobody moves, or there are too few marks).
 std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras,
                                     std::span<const std::vector<Marks>> marks, const SyncOptions& options = {});
 
-/// Returns the marks of a camera at a time between its frames. A mark follows a Catmull-Rom spline through the two
-/// frames on either side. If one of the outer two frames lacks the mark, it is interpolated linearly; if one of the
-/// inner two does, it is missing. If only every n-th frame is marked, pass those frames alone.
+/// Returns the marks of a camera at a time between frames. A mark follows a Catmull-Rom spline through the two frames
+/// before this time and the two frames after it. If one of the outer two frames lacks the mark, the mark is
+/// interpolated linearly; if one of the inner two frames lacks it, it is missing. If only every n-th frame is marked,
+/// pass the marked frames alone.
 Marks MarksAt(std::span<const Marks> track, double frame);
 
 /// Returns the marks of all cameras at the frame times of the first camera.

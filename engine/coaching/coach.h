@@ -49,7 +49,8 @@ struct CoachOptions {
   /// The evidence at which a performance counts as right, in (0, 1]. The right value depends on the recogniser: to
   /// compare recognisers, choose values that give equal false-alarm rates.
   double right_from = 0.5;
-  /// Windows open and close this time after the coach's repetition, because learners follow with a lag.
+  /// A window is the time in which a performance is judged. It opens and closes this time after the coach's repetition
+  /// begins and ends, because learners follow with a lag.
   double reaction_s = 0.3;
   /// True if the player dances as in a mirror: the player's left side follows the coach's right side. The caller must
   /// then mirror the input (CoachSession does so); in the coach, this option only changes what it says.
@@ -58,7 +59,7 @@ struct CoachOptions {
   int puzzled_after = 3;
   /// The maximum number of corrections of one repetition; then the dance continues.
   int most_corrections = 3;
-  /// The share of a song's judged performances that must be right for praise at the end.
+  /// The share of right performances, among the judged performances of a song, that earns praise at the end.
   double praise_share = 0.8;
   /// If the body moved in less than this share of a window's frames, the player stood still.
   double still_share = 0.1;
@@ -91,7 +92,7 @@ struct CoachInput {
 struct CoachState {
   std::int64_t frame = 0;
   CoachMode mode = CoachMode::kStandby;
-  std::int64_t mode_since = 0;  ///< first frame of this mode
+  std::int64_t mode_since = 0;  ///< first frame of the current mode
   Playback playback;
 
   // State of the player.
@@ -110,7 +111,7 @@ struct CoachState {
   std::optional<OpenWindow> open;
   bool decided = false;       ///< true if the open window was judged before its end
   int correcting = -1;        ///< the repetition that was corrected last
-  int corrections_here = 0;   ///< number of consecutive corrections of that repetition
+  int corrections_here = 0;   ///< number of consecutive corrections of the repetition `correcting`
   bool moment_waits = false;  ///< CoachInput::moment was set while the dance could not be interrupted
   std::string_view say;
   std::int64_t say_until = 0;  ///< frame at which `say` ends
@@ -145,9 +146,9 @@ class Coach {
   const Dance& dance() const { return transitions_.dance(); }
   const CoachOptions& options() const { return options_; }
 
-  /// Returns a state in standby, which lasts until somebody claps.
+  /// Returns the state of a coach in standby. Standby lasts until somebody claps.
   CoachState Begin() const;
-  /// Returns a state in the dance's first frame, as after a clap.
+  /// Returns the state of a coach at the dance's first frame, as after a clap.
   CoachState BeginDancing() const;
 
   /// Plans the most likely transitions in advance, so that no frame of a live session waits for a plan: from every

@@ -13,7 +13,7 @@ namespace [[gnu::visibility("default")]] etude {
 
 struct TransitionRecord;
 
-/// An event or decision of the coach.
+/// An event or decision of the coach. A window is the time in which the player's performance is judged.
 enum class CoachEvent {
   kWoken,       ///< a clap was detected
   kSongBegins,  ///< the dance begins

@@ -62,7 +62,7 @@ Result<DanceLibrary> DanceLibrary::Make(Dance dance) {
     clips.Add("dance from " + std::to_string(first), Excerpt(dance.motion, first, end));
     made.dance_frames_.push_back(first);
   }
-  // Add the beginnings of the acts and demonstrations, at which transitions enter them.
+  // Add the beginnings of the acts and demonstrations. Transitions enter the acts and demonstrations there.
   const std::size_t wholes = dance.acts.size() + dance.moves.size();
   for (std::size_t whole = 0; whole < wholes; ++whole) {
     clips.Add(clips.names[whole],

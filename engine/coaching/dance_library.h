@@ -24,8 +24,8 @@ class DanceLibrary {
   const MotionLibrary& library() const { return library_; }
 
   // The following functions return clips of the library. A `repetition` of −1 stands for the song's beginning.
-  /// ClipOfAct returns the whole clip of an act, ClipOfSlow that of a slow demonstration; transitions leave these
-  /// clips.
+  // ClipOfAct returns the whole clip of an act, ClipOfSlow the whole clip of a slow demonstration; transitions leave
+  // these clips.
   int ClipOfAct(std::string_view act) const;
   int ClipOfSlow(int move) const;
   /// Returns the excerpt of the dance from this repetition's beginning until some time into the next repetition; for
@@ -41,11 +41,12 @@ class DanceLibrary {
   /// Returns the clip that plays on after a transition has entered `clip`: if `clip` is only the beginning of an act or
   /// slow demonstration, the whole clip; else `clip` itself.
   int WholeOf(int clip) const;
-  /// Returns the last repetition that has begun at a frame of the dance; −1 before the first.
+  /// Returns the index of the last repetition that has begun when the dance is at `dance_frame`; −1 before the first.
   int RepetitionAt(double dance_frame) const;
-  /// Returns the dance frame that is the first frame of a clip of ClipLeaving or ClipReturning.
+  /// Returns the number, in the whole dance, of the first frame of `clip`, which must come from ClipLeaving or
+  /// ClipReturning.
   std::size_t DanceFrameOf(int clip) const;
-  /// Returns true if the dance is entered through this clip.
+  /// Returns true if transitions return to the dance through this clip.
   bool IsReturning(int clip) const { return clip >= ClipReturning(-1); }
   bool IsLoop(int clip) const;
 

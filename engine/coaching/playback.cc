@@ -70,13 +70,15 @@ std::shared_ptr<const ShownPath> DanceTransitions::FindHome(int from, int frame,
 std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, const FloorMove* home_from,
                                                           int to) const {
   const std::vector<BodyMotion>& motions = library_.library().motions;
-  // Drop the frames of the playing clip that lie more than one frame before the request; the join does not need them.
+  // Drop the frames of the playing clip that lie more than one frame before the request; the join needs no earlier
+  // frames.
   const int skipped = std::max(frame - 1, 0);
   std::vector<BodyMotion> clips(2);
   clips[0].rate_hz = motions[from].rate_hz;
   clips[0].poses.assign(motions[from].poses.begin() + skipped, motions[from].poses.end());
   clips[1] = motions[to];
-  // If the wanted clip keeps its authored place on the floor, move the playing clip to where it is shown now.
+  // If the wanted clip keeps its authored place on the floor, move the playing clip to the place where the playing clip
+  // is shown now.
   if (home_from != nullptr) {
     for (BodyPose& pose : clips[0].poses) pose = home_from->Apply(pose);
   }
@@ -136,8 +138,8 @@ BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::si
   return ClipPlace(playback).Apply(clip[index]);
 }
 
-/// The point at which a clip is left: the clip, its last whole frame, the fraction of a frame that has been shown after
-/// it, and the place of the clip on the floor.
+/// The point at which a clip is left: the clip, the last whole frame that was shown, the fraction of a frame that was
+/// shown after this frame, and the place of the clip on the floor.
 struct Leaving {
   int clip = 0;
   int frame = 0;

@@ -10,12 +10,13 @@
 
 namespace etude {
 
-/// The frames of a transition: those shown after the request, until only the wanted clip plays.
+/// The frames of a transition that are shown after the request, until only the wanted clip plays. (A floor move rotates
+/// a clip about the vertical and shifts it on the floor.)
 struct ShownPath {
   int clip = 0;                  ///< the wanted clip, as an index in the library
   std::vector<BodyPose> frames;  ///< shown poses, in the coordinates of the clip that was left
   std::size_t entered = 0;       ///< index in `frames` from which the wanted clip plays
-  int clip_frame = 0;            ///< the wanted clip's frame at that index
+  int clip_frame = 0;            ///< the frame of the wanted clip that is shown at index `entered`
   FloorMove place;               ///< the wanted clip's floor move, in the coordinates of `frames`
   /// Record of the transition; null if the path does not begin with one.
   std::shared_ptr<const TransitionRecord> record;
@@ -31,7 +32,7 @@ class DanceTransitions {
   const DanceLibrary& library() const { return library_; }
   const Dance& dance() const { return library_.dance(); }
 
-  /// Returns a path that shows only the clip, where it was authored.
+  /// Returns a path that shows only the clip `clip`, at the place on the floor where it was authored.
   std::shared_ptr<const ShownPath> Alone(int clip) const;
   /// Returns the path from a frame of a clip into another clip. If the method finds no transition, the path is a cut.
   std::shared_ptr<const ShownPath> Find(int from, int frame, int to) const;
@@ -53,7 +54,7 @@ class DanceTransitions {
 /// The current state of playing: the dance itself, or a path (a transition and the clip it leads into).
 struct Playback {
   std::shared_ptr<const ShownPath> path;  ///< the path that is shown; null while the dance itself plays
-  double path_frame = 0;                  ///< index in the path's frames, and after them in its clip; may be fractional
+  double path_frame = 0;                  ///< index in the path's frames or, later, in the path's clip; fractional
   FloorMove place;                        ///< floor move of the path
   double dance_frame = 0;                 ///< index of the shown frame of the dance; used only if `path` is null
 };
@@ -65,7 +66,7 @@ struct PlayedClip {
   bool in_transition = false;
 };
 
-/// Returns the clip that a path plays and its frame. `playback.path` must not be null.
+/// Returns the clip that the path plays, and the frame of this clip that is shown. `playback.path` must not be null.
 PlayedClip PlayedOf(const Playback& playback, const DanceLibrary& library);
 /// Returns the shown frame of the dance; −1 if something else is shown.
 double DanceFrame(const Playback& playback, const DanceLibrary& library);
@@ -78,7 +79,7 @@ bool IsOver(const Playback& playback, const DanceLibrary& library, double before
 bool IsSettled(const Playback& playback);
 
 /// Advances by one frame, or by `rate` frames of the dance while the dance plays. When a path back into the dance has
-/// ended, the dance continues from there.
+/// ended, the dance continues from the frame that the path has reached.
 void Advance(Playback& playback, const DanceLibrary& library, double rate);
 /// Starts a transition from the playing dance or clip to the clip `clip`, beginning with the next frame. The playback
 /// must be settled.

@@ -9,14 +9,14 @@
 
 namespace etude {
 
-/// The verdict on the performance in a window.
+/// The verdict on the performance in a window, which is the time in which the player is judged.
 enum class WindowVerdict {
   kRight,
   kWrong,
   kUnknown,  ///< the player was not seen, or the oracle's truth is missing
 };
 
-/// The coach's memory of one move, or of all moves.
+/// The coach's memory of the player's performances of one move, or of all moves.
 struct MoveMemory {
   int judged = 0;           ///< number of windows with a verdict of right or wrong
   int mistakes = 0;         ///< number of windows with the verdict wrong

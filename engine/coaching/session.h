@@ -17,8 +17,8 @@ struct SessionInput {
   bool moment = false;
 };
 
-/// A coach with a sensor: it runs the recogniser and Coach::Step frame by frame. The benchmark and live sessions both
-/// use this class.
+/// A coach with a sensor: it runs the recogniser and Coach::Step frame by frame. The benchmark uses this class, and so
+/// do live sessions.
 class CoachSession {
  public:
   struct Parts {

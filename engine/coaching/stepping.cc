@@ -212,7 +212,7 @@ void Stepping::Interrupt(int repetition, std::string why) {
   state_.correcting = repetition;
   ++state_.moves[MoveOf(repetition)].corrections;
   ++state_.song.corrections;
-  // Shake the head at the first correction of a repetition; wave for attention at the following ones; after many
+  // Shake the head at the first correction of a repetition; wave for attention at later corrections; after many
   // consecutive mistakes, act puzzled.
   const std::string_view act = is_puzzled ? "puzzled" : state_.corrections_here > 1 ? "wave" : "head_shake";
   if (is_puzzled) why += fmt::format("; {} in a row: puzzled", state_.song.mistakes_in_row);

@@ -18,8 +18,8 @@ struct Range {
 };
 
 /// Reads the keys of one mapping by name and type. It keeps the first complaint and continues with defaults, so that
-/// reading code is a plain list of keys. At the end, `Finish` returns that complaint, or one about a key that was not
-/// read (with the nearest known key).
+/// reading code is a plain list of keys. At the end, `Finish` returns this complaint, or a complaint about a key that
+/// was not read (with the nearest known key).
 ///
 ///     Fields fields(node, "an ik scenario");
 ///     options.trials = fields.Integer("trials", 100, {1, 100000});

@@ -55,7 +55,8 @@ Result<void> CheckControls(std::string_view text, const Place& place) {
   return {};
 }
 
-// Refuses a carriage return without a line feed. yaml-cpp 0.8 ends a line there; older versions treat it as text.
+// Refuses a carriage return without a line feed. yaml-cpp 0.8 ends a line at such a carriage return; older versions
+// treat it as text.
 Result<void> CheckLineEnds(std::string_view text, const std::string& file) {
   int line = 1;
   std::size_t start = 0;  // start of the current line

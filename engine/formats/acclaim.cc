@@ -47,7 +47,7 @@ std::optional<AcclaimSkeleton::Channel> ChannelNamed(std::string_view name) {
 
 struct AcclaimBone {
   std::string name;
-  glm::dvec3 end{0};  ///< vector from the bone's beginning, in the rest pose
+  glm::dvec3 end{0};  ///< vector from the bone's beginning to its end, in the rest pose
   glm::dquat axes{1, 0, 0, 0};
   std::vector<AcclaimSkeleton::Channel> channels = {};
   glm::dvec3 begin{0};  ///< position of the root; 0 for all other bones

@@ -22,7 +22,7 @@ struct AcclaimSkeleton {
   Skeleton skeleton;  ///< "root" comes first; lengths are in the file's unit
   /// For each joint: its channels, in the order of their values in a motion file.
   std::vector<std::vector<Channel>> channels;
-  std::vector<glm::dquat> axes;  ///< per joint: the axes of its rotations
+  std::vector<glm::dquat> axes;  ///< per joint: rotation from the axes of the joint's channels to the joint's frame
   bool in_degrees = true;
   std::string remark = "";  ///< message about angles that are impossible in the stated unit; "" if there are none
 };

@@ -294,8 +294,8 @@ std::string NameWithoutFolderAndExtension(std::string_view file) {
 }
 
 /// Returns true if the position channels of joints below the root are relative to the OFFSETs. Absolute positions stay
-/// around the OFFSET, relative ones around 0. The criterion: in the median frame, most joints with position channels
-/// and an OFFSET are nearer to 0 than a fifth of the OFFSET's length.
+/// around the OFFSET, relative positions around 0. The criterion: in the median frame, most joints with position
+/// channels and an OFFSET are nearer to 0 than a fifth of the OFFSET's length.
 bool AreRelativeToOffsets(const Skeleton& skeleton, const std::vector<BvhChannel>& channels,
                           const std::vector<LocalPose>& frames) {
   constexpr double kNear = 0.2;

@@ -91,7 +91,8 @@ class Writer {
   void WriteJoint(int index, int depth) {
     const etude::Joint& joint = Joint(index);
     const std::string indent(depth, '\t');
-    // Some readers replace OFFSET by positions, others add both: if OFFSET is 0, all readers get the same result.
+    // Some readers replace OFFSET by the positions, others add OFFSET to the positions: if OFFSET is 0, all readers get
+    // the same result.
     const bool has_positions = index == root_ || Moves(index);
     const bool is_end = joint.is_end_site && children_[index].empty() && !has_positions;
     if (is_end) {

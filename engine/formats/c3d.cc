@@ -36,7 +36,7 @@ std::vector<std::string> PointNames(const C3dParameters& parameters, std::size_t
   return names;
 }
 
-/// Returns the joint widths that Vicon's programs write, metres, by parameter name without its group.
+/// Returns the joint widths that Vicon's programs write, in metres, keyed by the parameter's name without the group.
 std::map<std::string, double> BodySizes(const C3dParameters& parameters) {
   constexpr double kMin_mm = 5, kMax_mm = 400;
   std::map<std::string, double> sizes;

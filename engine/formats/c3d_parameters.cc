@@ -13,8 +13,8 @@ int C3dBytes::Integer(std::size_t at) const { return static_cast<std::int16_t>(W
 double C3dBytes::Float(std::size_t at) const {
   std::uint32_t bits = Word(at + 2) << 16 | Word(at);
   if (machine_ != C3dMachine::kIntel) bits = Word(at) << 16 | Word(at + 2);
-  // Compared with an IEEE float, a DEC float has an exponent bias larger by one and a mantissa in [½, 1). Read as an
-  // IEEE float, its bits therefore give 4 times its value.
+  // A DEC float has an exponent bias larger by one than an IEEE float, and a mantissa in [½, 1). The bits of a DEC
+  // float, read as an IEEE float, therefore give 4 times its value.
   return machine_ == C3dMachine::kDec ? std::bit_cast<float>(bits) / 4 : std::bit_cast<float>(bits);
 }
 

@@ -40,8 +40,8 @@ class C3dParameters {
   C3dParameters(const C3dBytes& bytes, std::size_t at);
 
   std::optional<double> Number(const std::string& name, std::size_t index = 0) const;
-  /// Returns at most the first `most` texts of a list, without those that begin beyond the file's end. A single text
-  /// counts as a list of one.
+  /// Returns at most the first `most` texts of a list, without the texts that begin beyond the file's end. A single
+  /// text counts as a list of one.
   std::vector<std::string> Texts(const std::string& name, std::size_t most = 1) const;
 
  private:

@@ -55,7 +55,7 @@ Result<void> CheckColumns(std::size_t headings, std::size_t columns, const std::
 /// columns.
 Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& file,
                                     std::vector<std::string>& left_out) {
-  // Check the number of headings, and list the known ones.
+  // Check the number of headings, and list the headings that are known.
   const std::vector<std::string> headings = HeadingsOf(table.heading);
   RETURN_IF_ERROR(CheckColumns(table.heading.empty() ? 0 : headings.size(), table.columns, file));
   std::vector<std::string> known = {"frame", "time_s"};

@@ -31,7 +31,7 @@ struct JointCsvColumns {
 /// The contents of a joint CSV file. It may lack joints, and a joint may be missing in some frames.
 struct JointCsv {
   JointCsvColumns columns;
-  std::optional<double> rate_hz;  ///< rate from the median of the positive time steps; nullopt if there is none
+  std::optional<double> rate_hz;  ///< rate from the median of the positive time steps; nullopt if no step is positive
   TimeScale scale;                ///< unit and origin of the column `time_s`
   std::vector<double> times_s;    ///< time of each frame, in seconds, converted by `scale`; NaN if unknown
   std::vector<double> numbers;    ///< value of each frame in the column `frame`; empty if the file lacks this column

@@ -14,8 +14,8 @@ struct SomaJoint {
 };
 using SomaSkeleton = std::vector<SomaJoint>;
 
-/// Adds joints in a chain: the first one is the child of `parent`, each other one the child of the joint before it.
-/// Returns the last one.
+/// Adds joints in a chain: the first one is the child of `parent`, and every other joint is the child of the joint
+/// before it. Returns the last one.
 int AddChain(SomaSkeleton& joints, int parent, const std::string& prefix,
              std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {

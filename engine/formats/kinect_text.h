@@ -14,7 +14,7 @@ namespace etude {
 
 constexpr std::size_t kKinectV2JointCount = 25;
 
-/// The position of each role; empty if it is missing.
+/// The position of each role's joint, metres; nullopt if the joint is missing.
 using RolePositions = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
 /// One frame of a Kinect v2: the positions of its 25 joints in the order of the SDK's JointType, metres. Axes are the
@@ -31,8 +31,8 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
 /// Returns the index of a role's joint in the SDK's JointType.
 std::size_t KinectV2JointOf(Role role);
 
-/// Returns the twenty joints of the canonical body, which are those of Kinect v1. SpineShoulder becomes the shoulder
-/// centre; Neck, hand tips and thumbs are left out.
+/// Returns the positions of the canonical body's twenty joints, which are the joints of Kinect v1. SpineShoulder
+/// becomes the shoulder centre; Neck, hand tips and thumbs are left out.
 RolePositions PlacesOf(const KinectV2Frame& frame);
 
 }  // namespace etude

@@ -15,7 +15,7 @@ namespace etude {
 /// The version of the Brain Imaging Data Structure that the files follow.
 inline constexpr std::string_view kBidsVersion = "1.10.0";
 
-/// The files of one motion: names relative to the data set's folder, and contents.
+/// The files of one motion: for each file, its name relative to the data set's folder, and its content.
 using BidsFiles = std::vector<std::pair<std::string, std::string>>;
 
 /// Writes a motion as a Motion-BIDS data set (Jeung et al. 2024) of one person, sub-01. Its files are `_motion.tsv`

@@ -31,7 +31,7 @@ std::string_view ValueOf(std::string_view header, std::string_view key, char end
   return header.substr(0, header.find(end));
 }
 
-/// A number of IEEE 754's binary16.
+/// A number in IEEE 754's format binary16.
 struct Half {
   std::uint16_t bits;
   explicit operator double() const {
@@ -294,7 +294,8 @@ std::string WriteNpz(const std::map<std::string, NumberArray>& numbers,
   for (const auto& [name, array] : texts) members[name + ".npy"] = NpyOfTexts(array);
 
   const Source whole(Needed(zip_source_buffer_create(nullptr, 0, 0, nullptr)), &zip_source_free);
-  // Keep a second reference: closing the archive frees one, and the written bytes are read through the other.
+  // Keep a second reference to the source: closing the archive frees the first one, and the written bytes are read
+  // through the second.
   zip_source_keep(whole.get());
   Archive archive(Needed(zip_open_from_source(whole.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr)), &zip_discard);
   for (const auto& [name, bytes] : members) {

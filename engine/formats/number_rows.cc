@@ -19,8 +19,8 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 bool IsRowBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool IsComma(char c) { return c == ',' || c == ';'; }
 
-/// Returns the separator of the cells below a heading: ';' or a tab if the heading contains it but no comma. Returns 0
-/// for any other heading: any separator is then allowed.
+/// Returns the separator of the cells below a heading without commas: ';' if the heading contains one, else a tab if
+/// the heading contains one. Returns 0 for any other heading: any separator is then allowed.
 char SeparatorOf(std::string_view heading) {
   if (heading.find(',') != std::string_view::npos) return 0;
   if (heading.find(';') != std::string_view::npos) return ';';
@@ -45,7 +45,7 @@ std::vector<std::string_view> WordsOf(std::string_view line, char separator) {
 }
 
 /// Removes the empty word after a separator that ends a line ("1,2,3,"), unless the line has no more words than
-/// `columns`: then its last value is missing.
+/// `columns`: then the line's last value is missing.
 void DropEmptyEnd(std::vector<std::string_view>& words, std::size_t columns) {
   if (words.size() > std::max<std::size_t>(columns, 1) && words.back().empty()) words.pop_back();
 }

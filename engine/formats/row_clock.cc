@@ -15,13 +15,13 @@ namespace {
 
 constexpr double kMaxStep_s = 600, kMaxBridged_s = 1, kMinSpan_s = 0.5;
 constexpr double kBriefTolerance = 0.05;
-// The distance, in frames, within which a row coincides with a frame is the rounding of the times, but at least kEven
-// (kExact for a whole rate) and at most kMaxEven.
+// A row coincides with a frame if their times differ by less than a tolerance. The tolerance, in frames, is the
+// rounding of the times, but at least kEven (kExact for a whole rate) and at most kMaxEven.
 constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;
 constexpr double kMaxAddedValues = 1e7;
 
-/// Returns the last decimal to which all times were printed: the largest power of ten, at most 0.1, of which they are
-/// multiples. Returns 0 if they have more than six decimals.
+/// Returns the last decimal to which all times were printed: the largest power of ten, at most 0.1, of which all times
+/// are multiples. Returns 0 if a time has more than six decimals.
 double PrintedStep(std::span<const double> times) {
   constexpr double kRounding = 1e-6;
   for (double scale = 10; scale < 2e6; scale *= 10) {
@@ -166,7 +166,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   const bool is_brief = told_hz && span < kMinSpan_s;
   if (is_brief && std::abs(fitted / *told_hz - 1) > kBriefTolerance) return std::nullopt;
   // Try the stated rate, a whole rate, and the rate at which the last row coincides with a frame, in this order. Take
-  // the first at which nearly all rows coincide with frames.
+  // the first of these rates at which nearly all rows coincide with frames.
   RowGrid grid{.rate_hz = fitted, .frames = {}, .remark = {}};
   for (const double near : {fitted, FittedRate(steps, true)}) {
     const double whole = std::round(near), to_last = std::round(span * near) / span;
@@ -240,8 +240,8 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   if (rows.has_clock) markers.start_s = scale.first * scale.seconds + rows.times_s[grid->frames.front().row];
   AddRemark(markers.remark, grid->remark);
   if (grid->is_even) return std::move(markers);
-  // Interpolate each marker that both rows show. Some programs write zeros for a gap, so zeros are only interpolated
-  // with zeros.
+  // Interpolate each marker between the two rows of a frame if both rows show it. Some programs write zeros for a gap,
+  // so zeros are only interpolated with zeros.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
   frames.reserve(grid->frames.size());
   for (const GridFrame& at : grid->frames) {

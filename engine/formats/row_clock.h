@@ -31,19 +31,19 @@ struct RowGrid {
 
 /// Places rows on an even grid of frames by their times, which may be rounded to some decimals. The rate fits the steps
 /// between neighbouring rows; a whole rate, or `told_hz` (from the file's header, if any), is preferred if the rounding
-/// of the times allows it. Rows are evenly spaced if times are printed so coarsely that neighbours share one. Rows that
-/// span less than half a second get the rate `told_hz`, or count as having no clock if their steps differ from it by
-/// more than 5 %. A frame takes the row whose time is within a tenth of a frame of the frame's time (or within the
-/// rounding of times). Without such a row, the frame is interpolated between two rows, or it is a hole if a row is
-/// missing. Of rows with equal times only the last is used. Returns nullopt if there is no clock: there are fewer than
-/// two rows, no row has a time, or all times are equal. Fails, naming the row's line (`lines` may be empty), for a
-/// missing time, decreasing times, steps over ten minutes, and holes of more than ten million values in total, `width`
-/// values per frame.
+/// of the times allows it. Rows are evenly spaced if times are printed so coarsely that neighbouring rows share a time.
+/// Rows that span less than half a second get the rate `told_hz`, or count as having no clock if their rate differs
+/// from `told_hz` by more than 5 %. A frame takes the row whose time is within a tenth of a frame of the frame's time
+/// (or within the rounding of times). Without such a row, the frame is interpolated between two rows, or it is a hole
+/// if a row is missing. Of rows with equal times only the last is used. Returns nullopt if there is no clock: there are
+/// fewer than two rows, no row has a time, or all times are equal. Fails, naming the row's line (`lines` may be empty),
+/// for a missing time, decreasing times, steps over ten minutes, and holes of more than ten million values in total,
+/// `width` values per frame.
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 
-/// Returns times in seconds from frame numbers, if the numbers are whole and ascend: their median step corresponds to 1
-/// / rate_hz. Otherwise returns an empty list.
+/// Computes times in seconds from frame numbers, if the numbers are whole and ascend; otherwise returns an empty list.
+/// The median step between two numbers becomes 1 / rate_hz.
 std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_hz);
 
 /// Markers in the rows of a file, before they are placed on frames.
@@ -59,11 +59,13 @@ struct MarkerRows {
 /// says what was changed. Fails like GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 
-/// Places the joints of a CSV on frames by their times; without times, by their frame numbers at kJudgedRateHz.
+/// Places the joints of a CSV on frames by their times. A CSV without times is placed by its frame numbers, at the rate
+/// kJudgedRateHz.
 Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file);
 
-/// Places a body's rows on frames by their times. Holes of up to a second are bridged linearly. If there are longer
-/// holes, only the longest stretch without such a hole is kept. `remark` says what was changed. Fails like GridOfRows.
+/// Places a body's rows on frames by their times. A hole (missing rows) of up to a second is bridged linearly. If there
+/// are longer holes, only the longest stretch of frames without such a hole is kept. `remark` says what was changed.
+/// Fails like GridOfRows.
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
                               std::string& remark);
 

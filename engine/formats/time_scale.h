@@ -26,7 +26,7 @@ struct ToldRate {
 
 /// Finds the origin and unit of a file's times (NaN: missing). The unit is the milli-, micro- or nanosecond instead of
 /// the second if it agrees with the stated rate or, without a stated rate, if rows would otherwise be more than a
-/// second apart. If times begin beyond 11 days, such as those since 1970, the first time becomes 0 s.
+/// second apart. If times begin beyond 11 days, such as times since 1970, the first time becomes 0 s.
 TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told);
 
 }  // namespace etude

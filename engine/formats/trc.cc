@@ -56,7 +56,7 @@ std::vector<std::string_view> Cells(std::string_view line) {
   return cells;
 }
 
-/// Reads a number, also one with a decimal comma.
+/// Reads a number with a decimal point or a decimal comma.
 std::optional<double> NumberIn(std::string_view cell) {
   if (const std::size_t comma = cell.find(','); comma != std::string_view::npos) {
     std::string pointed(cell);

@@ -10,7 +10,7 @@ using enum Defuzzification;
 constexpr std::array<Defuzzification, 4> kMethods = {kMaximum, kCentroid, kHeight, kArea};
 constexpr std::array<std::string_view, 4> kNames = {"maximum", "centroid", "height", "area"};
 
-/// The sums for a weighted mean.
+/// The sums from which a weighted mean is computed.
 struct Moment {
   double weight = 0, sum = 0;
 
@@ -28,7 +28,7 @@ Cut Within(const Universe& universe, const Cut& cut) {
   return {std::max(cut.low, universe.low), std::min(cut.high, universe.high)};
 }
 
-/// Returns the input at which the term's own grade is largest (the middle of its top).
+/// Returns the input at which the term's grade, before clipping, is largest (the middle of its top).
 double PeakOf(const Shape& shape, const Universe& universe) {
   const Cut top = Within(universe, CutOf(shape, 1));
   return 0.5 * (top.low + top.high);

@@ -13,9 +13,9 @@ namespace etude {
 /// formulas are used.
 enum class Defuzzification {
   kMaximum,   ///< the mean of the inputs with maximum membership
-  kCentroid,  ///< the centre of gravity of the area under the union of the terms; overlaps count once
-  kHeight,    ///< the mean of the terms' peaks, weighted by their grades
-  kArea,      ///< the mean of the clipped terms' centres of gravity, weighted by their areas; overlaps count twice
+  kCentroid,  ///< the centroid of the area under the terms' union; overlaps count once
+  kHeight,    ///< the mean of the terms' peaks, weighted by the terms' grades
+  kArea,      ///< the mean of the clipped terms' centres of gravity, weighted by area; overlaps count twice
 };
 
 std::span<const Defuzzification, 4> AllDefuzzifications();

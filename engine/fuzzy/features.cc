@@ -93,8 +93,8 @@ double StandingHipHeight(const BodyPose& pose) {
   const double thigh = 0.5 * (length(kLeftHip, kLeftKnee) + length(kRightHip, kRightKnee));
   const double shank = 0.5 * (length(kLeftKnee, kLeftAnkle) + length(kRightKnee, kRightAnkle));
   // The ankle's height above the sole is 0.039 of the stature, and the shank's length is 0.246 of it (Drillis and
-  // Contini 1966). The foot bone cannot be used, because in some files it ends at the base of the toe, in others at its
-  // tip.
+  // Contini 1966). The foot bone cannot be used, because in some files it ends at the base of the toe, and in others at
+  // the tip of the toe.
   constexpr double kAnkleHeightPerShank = 0.039 / 0.246;
   return thigh + shank * (1.0 + kAnkleHeightPerShank);
 }

@@ -33,7 +33,8 @@ struct PoseFeatures {
 /// centre above the floor when standing, in metres, > 0. A limb of zero length gives the angle 0.
 PoseFeatures ComputeFeatures(const BodyPose& pose, double standing_hip_height);
 
-/// Returns the hip height of the standing body, computed from its limb lengths: both legs straight, feet flat.
+/// Returns the hip height of the body when standing with straight legs and flat feet, metres, computed from the limb
+/// lengths of `pose`.
 double StandingHipHeight(const BodyPose& pose);
 
 }  // namespace etude

@@ -68,8 +68,8 @@ struct Memberships {
   std::array<Shape, kTermCount> shapes{};  ///< the shape of each term, in the order of `AllTerms`
 };
 
-/// Returns equations 2–16, as in scenarios/fuzzy/paper.yaml. As printed in the paper, the grades of elbows, trunk and
-/// knees do not sum to 1.
+/// Returns the membership functions of equations 2–16, as in scenarios/fuzzy/paper.yaml. As printed in the paper, the
+/// grades of elbows, trunk and knees do not sum to 1.
 const Memberships& PaperMemberships();
 
 /// The membership grades of a pose in the 24 terms, in the order of `AllTerms`.

@@ -31,7 +31,7 @@ double Dot(const Row& row, const Row& beta) {
 /// Computes the logistic function without overflow for any finite input.
 double Sigmoid(double x) { return x >= 0 ? 1.0 / (1.0 + std::exp(-x)) : std::exp(x) / (1.0 + std::exp(x)); }
 
-/// Returns the negative log likelihood plus the penalty of the ridge.
+/// Returns the negative log likelihood plus the ridge penalty.
 double Loss(std::span<const LabelledPair> pairs, const Row& beta, double ridge) {
   double loss = 0;
   for (std::size_t k = 0; k < kFeatureCount; ++k) loss += 0.5 * ridge * beta[k] * beta[k];
@@ -66,7 +66,7 @@ Vector NewtonStep(std::span<const LabelledPair> pairs, const Row& beta, double r
   // The bias needs no penalty, but a tiny penalty keeps the matrix positive definite if all probabilities are 0 or 1.
   lower.back().back() += 1e-9;
 
-  // Solve for the step.
+  // Solve for the Newton step.
   Matrix hessian;
   for (int i = 0; i < kUnknowns; ++i) {
     for (int j = 0; j <= i; ++j) hessian(i, j) = hessian(j, i) = lower[i][j];
@@ -90,7 +90,7 @@ double Largest(const Row& beta) {
 
 WeightFit FitWeights(std::span<const LabelledPair> pairs, const WeightFitOptions& options) {
   WeightFit fit;
-  // Count the pairs of each class. Logistic regression needs pairs of both classes.
+  // Count the pairs of each class. Logistic regression needs pairs of each class.
   fit.pairs = static_cast<int>(pairs.size());
   fit.close_pairs = static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [](auto& pair) { return pair.close; }));
   if (fit.close_pairs == 0 || fit.close_pairs == fit.pairs) return fit;

@@ -9,7 +9,7 @@ namespace etude {
 /// One training example: two frames of different clips, and whether their poses are practically the same.
 struct LabelledPair {
   PerFeature squared_gaps{};  ///< Δ_k² of the two frames
-  bool close = false;         ///< true if the largest distance of a joint is below the chosen pose gap
+  bool close = false;         ///< true if every joint's positions in the two frames are closer than the pose gap
 };
 
 struct WeightFitOptions {
@@ -17,7 +17,7 @@ struct WeightFitOptions {
   /// threshold separates the two classes perfectly.
   double ridge = 1e-2;
   int max_iterations = 40;
-  /// Newton's method has converged if no coefficient changes by more than this, relative to the largest.
+  /// Newton's method has converged if no coefficient changes by more than this share of the largest coefficient.
   double tolerance = 1e-8;
 };
 

@@ -26,8 +26,9 @@ struct SeenAt {
   Keypoint keypoint;
 };
 
-/// Returns the pixel of the midpoint of two landmarks: the projection of their midpoint in space, shifted by the mean
-/// offset of both keypoints. (The midpoint of the two pixels is another point, because of perspective.)
+/// Returns the pixel of the midpoint of two landmarks: the projection of the landmarks' midpoint in space, shifted by
+/// the mean offset of the two keypoints from the projected landmarks. (The midpoint of the two pixels is another point,
+/// because of perspective.)
 Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places, Landmark a,
                   Landmark b) {
   const glm::dvec3 &p = *places[Index(a)], &q = *places[Index(b)];
@@ -98,8 +99,8 @@ class Adjuster {
     return start;
   }
 
-  /// Returns the mean square, per axis, of a joint's second differences over `lag` frames, without the largest 5 %.
-  /// Returns nullopt for fewer than ten differences.
+  /// Returns the mean square, per axis, of the second differences of a joint's position over `lag` frames, m², without
+  /// the largest 5 %. Returns nullopt for fewer than ten differences.
   std::optional<double> SquareOver(Role role, std::size_t lag) const {
     std::vector<double> squares;
     for (std::size_t k = lag; k + lag < joints_.size(); ++k) {
@@ -139,7 +140,8 @@ class Adjuster {
       points_[Index(role)] = static_cast<int>(measurable_.points.size());
       measurable_.points.push_back({person_.body.roles[Index(role)].joint, person_.body.roles[Index(role)].p_LQ});
     }
-    // Lengthen each bone in turn by a metre: the change of every offset is its derivative with respect to that length.
+    // Lengthen each bone in turn by a metre: the change of every offset is the offset's derivative with respect to the
+    // bone's length.
     for (const Bone& bone : AllBones()) {
       using enum Role;
       if (bone.child == kShoulderCentre || bone.child == kRightShoulder || bone.child == kRightHip) continue;
@@ -189,8 +191,8 @@ class Adjuster {
     }
   }
 
-  // Adds a mark for each keypoint. If fewer than two cameras see a joint, further marks hold it near its start position
-  // (HoldUnseen).
+  // Adds a mark for each keypoint. If fewer than two cameras see a joint, further marks hold the joint near its start
+  // position (HoldUnseen).
   void AddMarks() {
     const double error = KeypointErrorPx(cameras_, seen_, options_.min_confidence, person_.outlier_px);
     std::vector<std::array<int, kRoleCount>> views(person_.states.size());
@@ -247,9 +249,9 @@ class Adjuster {
                       glm::dmat2(1 / (sigma_px * sigma_px))});
   }
 
-  /// Adds marks for a joint that fewer than two cameras see: they keep it near its position in the single-frame fit.
-  /// Their standard deviation is a tenth of the person's height in the picture, or, if `error_px` is given, twice
-  /// `error_px`.
+  /// Adds marks for a joint that fewer than two cameras see. The marks keep the joint near its position in the
+  /// single-frame fit. The marks' standard deviation is a tenth of the person's height in the picture, or, if
+  /// `error_px` is given, twice `error_px`.
   void HoldUnseen(std::size_t frame, Role role, const std::optional<double>& error_px) {
     constexpr double kShareOfHeight = 0.1, kComposed = 2;
     const BodyPose& pose = person_.motion.poses[frame];
@@ -289,7 +291,7 @@ class Adjuster {
 
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px) {
-  std::vector<double> squares;  // one estimate of the variance per point; their median is unbiased
+  std::vector<double> squares;  // one estimate of the variance per point; the median estimate is unbiased
   for (const auto& [frame, landmark, by, point] :
        TriangulateLandmarks(cameras, seen, {.min_confidence = min_confidence, .robust = {outlier_px}})) {
     squares.push_back(KeypointVarianceOf(point));

@@ -20,8 +20,9 @@ MarkerAgreement Summed(std::string name, std::vector<double> distances_mm) {
   return {.name = std::move(name), .median_mm = at(0.5), .p95_mm = at(0.95), .frames = distances_mm.size()};
 }
 
-/// Returns the distances between a marker of the reference and the marker of the same name in `motion`, millimetres, in
-/// all frames that contain both. Returns an empty list if `motion` has no marker of this name.
+/// Returns the distances, in millimetres, between a marker of the reference and the marker of the same name in
+/// `motion`, in all frames in which both markers are seen. Returns an empty list if `motion` has no marker of this
+/// name.
 std::vector<double> Distances(const MarkerMotion& motion, const MarkerMotion& reference, std::size_t marker) {
   std::vector<double> distances;
   const auto found = std::ranges::find(motion.names, reference.names[marker]);
@@ -48,7 +49,7 @@ std::optional<glm::dvec3> MarkerAt(const MarkerMotion& markers, double frame, st
   return next ? std::optional(glm::mix(*here, *next, share)) : std::nullopt;
 }
 
-/// Returns the indices, in both motions, of the markers that both contain.
+/// For each marker that `a` and `b` both contain, returns the marker's index in `a` and its index in `b`.
 std::vector<std::pair<std::size_t, std::size_t>> SharedMarkers(const MarkerMotion& a, const MarkerMotion& b) {
   std::vector<std::pair<std::size_t, std::size_t>> shared;
   for (std::size_t i = 0; i < a.names.size(); ++i) {

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// Turns the positions of landmarks into markers of their names; landmarks that are never seen are left out.
+/// Turns the positions of landmarks into markers with the landmarks' names; landmarks that are never seen are left out.
 MarkerMotion ToMarkers(std::span<const LandmarkPositions> frames, double rate_hz);
 
 /// Turns markers into positions of landmarks; markers of other names are ignored.

@@ -26,8 +26,8 @@ enum Cue { kCameras, kFeetAtRest, kStraight, kFlight, kCueCount };
 constexpr std::array<const char*, kCueCount> kCueNames = {"the cameras' horizons", "resting feet",
                                                           "a person who stands straight", "gravity in jumps"};
 
-/// The directions, in the world, of a picture that was rotated by quarter turns: along its rows, towards its upper
-/// edge, and ahead.
+/// Three directions in the world that belong to a picture, after the picture was rotated by quarter turns: along the
+/// rows, towards the upper edge, and ahead.
 struct Picture {
   glm::dvec3 right, above, ahead;
 };
@@ -172,7 +172,8 @@ std::optional<glm::dvec3> Flight(std::span<const LandmarkPositions> points, doub
     }
     slope /= t4;
     curve /= norm;
-    // The frames show a flight if the parabola fits and its acceleration is close to that of gravity.
+    // The frames show a flight if the parabola fits and the centre of mass accelerates about as gravity would
+    // accelerate it.
     double worst = 0;
     for (std::size_t i = 0; i < window; ++i) {
       const double t = static_cast<double>(i) - middle;
@@ -263,7 +264,7 @@ class Cues {
   void AddFeet(const glm::dvec3& up, Sum& sum) const {
     if (stays_.empty()) return;
     constexpr double kSameHeight = 0.008, kFlatFoot = 0.015, kShare = 0.5, kMaxCost = 2, kUnder = 3;
-    // For each kind: the mean position of its stays, and its height above the sole.
+    // For each kind of foot landmark: the mean position of its stays (periods of rest), and its height above the sole.
     std::vector<std::pair<glm::dvec3, double>> kinds;
     for (std::size_t kind = 0; kind < kFootKinds; ++kind) {
       std::vector<double> heights;

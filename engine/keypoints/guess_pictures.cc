@@ -68,7 +68,7 @@ class Guesser {
     return found;
   }
 
-  /// Returns the mean distance over all pairs of films if `guess` holds for all of them.
+  /// Returns the mean of Miss over all pairs of films if `guess` holds for every film.
   double MissOfAll(const Guess& guess) {
     double total = 0;
     for (std::size_t a = 0; a < films_.size(); ++a) {
@@ -93,8 +93,8 @@ class Guesser {
     return people_[key] = UndistortPeople(films_[c].camera, std::move(people));
   }
 
-  // Returns the median epipolar distance of two people as a share of the height; nullopt if they have too few keypoints
-  // in common.
+  // Returns the median epipolar distance between two detections, as a share of the person's height; nullopt if the
+  // detections have too few keypoints in common.
   std::optional<double> MisfitOf(const EpipolarGeometry& geometry, const SeenPerson& one,
                                  const SeenPerson& other) const {
     std::vector<double> distances;
@@ -108,8 +108,8 @@ class Guesser {
     return UpperMedian(std::move(distances)) / std::max(1.0, std::max(HeightPx(one), HeightPx(other)));
   }
 
-  /// Returns the median, over frames and people of film `a`, of the smallest distance to any person and labelling of
-  /// sides in film `b`.
+  /// For each frame and person of film `a`, takes the smallest epipolar distance to a person of film `b` with either
+  /// labelling of sides; returns the median of these distances.
   double Miss(std::size_t a, const Guess& guess_a, std::size_t b, const Guess& guess_b) {
     const auto key = std::tuple(a, guess_a, b, guess_b);
     if (const auto known = misses_.find(key); known != misses_.end()) return known->second;
@@ -133,7 +133,7 @@ class Guesser {
     return misses_[key] = misses.empty() ? kNothing : UpperMedian(std::move(misses));
   }
 
-  // Returns the median distance of film `c` to all other films under a hypothesis.
+  // Returns the median, over all other films, of Miss between the other film and film `c` under a hypothesis.
   double MissOf(std::size_t c, const Guess& guess) {
     std::vector<double> misses;
     for (std::size_t o = 0; o < films_.size(); ++o) {
@@ -163,7 +163,7 @@ class Guesser {
     }
   }
 
-  // Corrects the film with the largest gain. Returns false if no correction helps enough.
+  // Applies the correction of one film that leaves the smallest distance. Returns false if no correction helps enough.
   bool TurnWorst() {
     constexpr double kOff = 0.003, kBetter = 0.5, kNearly = 1.5, kPercent = 100;
     struct Change {
@@ -171,7 +171,7 @@ class Guesser {
       std::size_t camera = 0;
       Guess guess;
     };
-    // Find the two best hypotheses over all films.
+    // Over all films, find the two corrections that leave the smallest distances.
     std::optional<Change> best, second;
     for (std::size_t c = 0; c < films_.size(); ++c) {
       const double before = MissOf(c, guesses_[c]);

@@ -27,20 +27,21 @@ struct PictureGuess {
 };
 
 /// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or
-/// mirrored. Cameras are corrected one after the other, the camera with the largest gain first. A correction is tried
-/// only if the keypoints are more than 0.3 % of the height off the other cameras' epipolar lines. It must reduce this
-/// distance to less than half and to less than 5 % of the height (median over frames, for the best-fitting people and
-/// labelling of sides). A wrong correction cannot halve random errors. If pictures were fitted, the estimator may have
-/// run on the original pictures; the keypoints of all films are then pixels of these pictures. The interpretation with
-/// the smaller distance is taken, unless a file states the film's size. `told` also names a second correction if it is
-/// nearly as good, as is common with two cameras.
+/// mirrored. Cameras are corrected one after the other, each time the camera whose correction leaves the smallest
+/// distance from the other cameras' epipolar lines. A correction is tried only if the keypoints are more than 0.3 % of
+/// the height off these lines. It must reduce this distance to less than half and to less than 5 % of the height
+/// (median over frames, for the best-fitting people and labelling of sides). A wrong correction cannot halve random
+/// errors. If pictures were fitted, the estimator may have run on the original pictures; the keypoints of all films are
+/// then pixels of these pictures. The interpretation with the smaller distance is taken, unless a file states the
+/// film's size. `told` also names a second correction if it is nearly as good, as is common with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
-/// Returns the distance of keypoints, mapped as declared, from the other cameras' epipolar lines, as a share of the
-/// height: the mean, over pairs of cameras, of the median distance. Returns 1 if the distance cannot be computed.
+/// Returns the epipolar distance of the keypoints, mapped as declared, as a share of the person's height: the mean,
+/// over pairs of cameras, of the median distance of one camera's keypoints from the other camera's epipolar lines.
+/// Returns 1 if the distance cannot be computed.
 double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
-/// A distance above this share of the height indicates a mistake, not only imprecision.
+/// An epipolar distance above this share of the person's height indicates a mistake, not only imprecise keypoints.
 constexpr double kMaxPlausibleMiss = 0.05;
 
 }  // namespace etude

@@ -75,7 +75,7 @@ class SessionGuesser {
     SessionGuess found;
     const double said = MissOfPictures(films_, least_confidence_);
     constexpr double kOff = 0.001, kBetter = 0.5, kPercent = 100;
-    // Test all hypotheses, and keep the best one of those that at least halve the distance.
+    // Test all hypotheses. Of the hypotheses that at least halve the distance, keep the best.
     if (said > kOff) {
       least_ = kBetter * std::min(said, MissAsGuessed());
       TryPoses();

@@ -30,7 +30,7 @@ struct TriangulationReport {
 
 struct TriangulatedLandmark {
   std::size_t frame = 0, landmark = 0;
-  std::vector<std::size_t> cameras;  ///< indices of the cameras that see it with enough confidence
+  std::vector<std::size_t> cameras;  ///< indices of the cameras that see the landmark with enough confidence
   RobustPoint point;
 };
 
@@ -52,11 +52,11 @@ void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap);
 /// nothing.
 void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cutoff_hz);
 
-/// Returns those of the twenty joints that the landmarks determine. Hips, knees, ankles, shoulders, elbows and wrists
+/// Returns the positions of all joints that the landmarks determine. Hips, knees, ankles, shoulders, elbows and wrists
 /// are landmarks; the shoulder centre is midway between the shoulders, the hip centre between the hips; the head is at
 /// its top, else midway between the ears, else at the nose; a foot ends at its big toe. *(Ours)*: without a finger tip,
-/// the hand extends the forearm by 0.72 of its length; without a face, the head extends the trunk by half of its
-/// length; without a toe, the foot ends 0.18 m from its ankle, ahead and a little down.
+/// the hand extends the forearm by 0.72 of the forearm's length; without a face, the head extends the trunk by half of
+/// the trunk's length; without a toe, the foot ends 0.18 m from its ankle, ahead and a little down.
 RoleVectors JointsOf(const LandmarkPositions& landmarks);
 
 }  // namespace etude

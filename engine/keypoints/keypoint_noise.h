@@ -24,8 +24,9 @@ struct KeypointNoise {
 };
 
 /// Estimates the variance of keypoints along each axis, px², from the residuals of one point. If n cameras agree on a
-/// point, its sum of squared reprojection errors is distributed as σ²χ² with 2n − 3 degrees of freedom. The result is
-/// this sum divided by the median of that χ² (Wilson and Hilferty 1931), so its median over points is σ².
+/// point, the point's sum of squared reprojection errors is distributed as σ²χ² with 2n − 3 degrees of freedom. The
+/// result is this sum divided by the median of that χ² (Wilson and Hilferty 1931), so the median of the results for
+/// many points is σ².
 double KeypointVarianceOf(const RobustPoint& point);
 
 /// Measures the random error of keypoints by how well the cameras agree: σ² is the median of KeypointVarianceOf over

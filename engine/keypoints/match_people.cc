@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-/// Returns the median distance of the keypoints of two detections in one camera, as a share of the person's height;
-/// infinity if both detections contain fewer than three of the same keypoints.
+/// Returns the median distance between two detections' keypoints of the same landmarks in one camera, as a share of the
+/// person's height; infinity if the detections have fewer than three landmarks in common.
 double StepBetween(const SeenPerson& a, const SeenPerson& b, double min_confidence) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
@@ -43,7 +43,7 @@ class Follower {
         tracks[track].entries[frame] = person;
         taken[person] = extended[track] = true;
       }
-      // Every person whom no track has taken begins a new track.
+      // Every person who continues no track begins a new one.
       for (std::size_t person = 0; person < taken.size(); ++person) {
         if (!taken[person]) tracks.push_back({{{frame, person}}});
       }
@@ -54,8 +54,8 @@ class Follower {
  private:
   using Candidate = std::tuple<double, std::size_t, std::size_t>;  ///< step, track, person
 
-  /// Returns the possible extensions by ascending step. Extensions with a competing candidate that is nearly as near
-  /// are left out.
+  /// Returns the possible extensions of tracks, by ascending step. Extensions with a competing candidate that is nearly
+  /// as near are left out.
   std::vector<Candidate> Candidates(const std::vector<PersonTrack>& tracks, std::size_t frame) const {
     std::vector<Candidate> all;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -139,8 +139,9 @@ class PersonMatcher {
   }
 
  private:
-  /// Returns the error of two tracks in different cameras: the median over frames and keypoints, infinite if the tracks
-  /// have too few keypoints in common.
+  /// Returns the error of two tracks in different cameras, as a share of the person's height: the median, over frames
+  /// and keypoints, of how far the two rays of a keypoint miss each other. The error is infinite if the tracks have too
+  /// few keypoints in common.
   double ErrorOf(std::size_t a, std::size_t b) const {
     const Track &one = tracks_[a], &other = tracks_[b];
     if (one.camera == other.camera) return std::numeric_limits<double>::infinity();

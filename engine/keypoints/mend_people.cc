@@ -197,7 +197,7 @@ class Mender {
 
   double Loss(double px) const { return px * px / (px * px + scale_px_ * scale_px_); }
 
-  /// Returns two costs in one frame: of keeping a group's labels, and of swapping them.
+  /// Returns two costs in one frame: of keeping a group's labels, and of swapping left and right.
   std::array<double, 2> CostsOf(std::size_t group, std::size_t c, std::size_t frame) const {
     std::array<double, 2> costs{};
     const auto& one = person_.seen[c][frame];
@@ -358,7 +358,7 @@ class Mender {
     }
   }
 
-  // Reports the swapped frames of each camera: those with arms and legs swapped, only arms, only legs.
+  // Reports each camera's frames with arms and legs swapped, with only arms swapped, and with only legs swapped.
   void ReportSwaps() {
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       Mend both{Mend::Kind::kSwappedSides, c, {}}, arms{Mend::Kind::kSwappedArms, c, {}},

@@ -26,11 +26,12 @@ bool IsTriangulated(Role role);
 
 /// Computes, to first order, the expected errors of the joints of one pose that `TriangulatePerson` and `FitPerson`
 /// recover. Seventeen joints are triangulated; hip centre, shoulder centre and spine lie between them. The fitted body
-/// is the projection of all positions to those that its angles and its root can reach: J(JᵀJ)⁺Jᵀ with the derivatives J
-/// of the joints. Its bone lengths are medians of many frames and count as exact. *(Ours.)*
+/// is the projection of all joint positions onto the positions that the body's angles and root can reach: J(JᵀJ)⁺Jᵀ
+/// with the derivatives J of the joints. The body's bone lengths are medians of many frames and count as exact.
+/// *(Ours.)*
 class PoseErrorForecast {
  public:
-  /// Fails if the pose cannot be that of a body, because two joints coincide.
+  /// Fails if no body can have this pose, because two joints coincide.
   static Result<PoseErrorForecast> Of(const BodyPose& pose);
 
   /// Returns the errors of all joints if the pose is moved by `shift`, metres; nullopt if some joint cannot be

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::ptrdiff_t kMinJoints = 8;
 constexpr double kUnseen = 0.01;  // weight of a joint that was completed, not seen
-constexpr int kRootSteps = 3;     // twenty steps reduce the distance of joints by only one percent more
+constexpr int kRootSteps = 3;     // twenty steps would bring the joints only one percent nearer to their targets
 
 std::optional<double> MedianDistance(std::span<const RoleVectors> frames, Role a, Role b) {
   std::vector<double> lengths;
@@ -126,8 +126,8 @@ std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::sp
 
 namespace {
 
-/// Gives each frame without a state the last state before it, and frames at the start the first state. Precondition: at
-/// least one frame has a state.
+/// Gives each frame without a state the last state before this frame; a frame before the first state gets the first
+/// state. Precondition: at least one frame has a state.
 std::vector<TreeState> HoldStates(std::span<const std::optional<TreeState>> states) {
   const auto first = std::ranges::find_if(states, [](const auto& state) { return state.has_value(); });
   assert(first != states.end());

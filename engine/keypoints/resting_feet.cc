@@ -28,7 +28,7 @@ double AboveSole(std::size_t kind, double stature) {
 std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, double rate_hz, double stature) {
   constexpr double kMaxSpeed = 0.2, kReach = 0.025, kMaxDrift = 0.006, kShortest_s = 0.2;
   constexpr std::size_t kMaxStays = 200;
-  std::vector<std::pair<std::size_t, FootStay>> found;  // the stays, each with its number of frames
+  std::vector<std::pair<std::size_t, FootStay>> found;  // the stays (periods of rest), each with its number of frames
   // Divide the path of each landmark into stays.
   for (std::size_t kind = 0; kind < kFeet.size(); ++kind) {
     for (const Landmark landmark : kFeet[kind].first) {

@@ -15,7 +15,7 @@ constexpr std::size_t kFootKinds = 4;
 /// Returns how high a kind of landmark is above the sole of a flat foot *(ours)*, in the unit of `stature`.
 double AboveSole(std::size_t kind, double stature);
 
-/// A period of a fifth of a second or longer in which a landmark of a foot rested.
+/// A period in which a landmark of a foot rested for at least a fifth of a second.
 struct FootStay {
   glm::dvec3 place{0};
   std::size_t kind = 0;  ///< index of the landmark's kind, below kFootKinds
@@ -28,10 +28,10 @@ struct FootStay {
 /// @param stature the stature in the points' unit
 std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, double rate_hz, double stature);
 
-/// Returns the height along `up` of the floor under the feet. Each kind of landmark gives one height: the mean of its
-/// low stays (at most 1/20 of the stature above its 10th percentile), minus the landmark's height above the sole. The
-/// result is the median of these heights, or the lowest if they differ by more than 1/40 of the stature (then the feet
-/// do not stand flat). Returns 0 if there is no stay.
+/// Returns the height along `up` of the floor under the feet. Each kind of landmark gives one height: the mean height
+/// of the kind's low stays (at most 1/20 of the stature above the 10th percentile of the kind's stays), minus the
+/// kind's height above the sole. The result is the median of these heights, or the lowest of them if they differ by
+/// more than 1/40 of the stature (then the feet do not stand flat). Returns 0 if there is no stay.
 double FloorUnder(std::span<const FootStay> stays, const glm::dvec3& up, double stature);
 
 }  // namespace etude

@@ -20,7 +20,7 @@ constexpr int kGains = 15;
 constexpr double kGainStep = 0.02;
 double GainAt(int i) { return 1 + kGainStep * (i - kGains / 2); }
 
-/// The costs at all gains of the focal length that are tested.
+/// The cost of each tested gain, that is, of each factor on the focal length.
 using Costs = std::array<double, kGains>;
 
 /// Returns the gain of minimal cost, refined by a parabola through its neighbours; nullopt if the minimum is at an end
@@ -97,8 +97,8 @@ class RigChecker {
     return frame < seen.size() && seen[frame] ? &*seen[frame] : nullptr;
   }
 
-  /// Calls `take` with the index in frames_, the landmark and the epipolar distance of each pair of sightings of one
-  /// landmark.
+  /// For each pair of sightings of one landmark, calls `take` with the index in frames_, the landmark and the epipolar
+  /// distance.
   void ForEachDistance(std::span<const double> gains, const Read& read,
                        const std::function<void(std::size_t, std::size_t, double)>& take) const {
     for (std::size_t a = 0; a < cameras_.size(); ++a) {

@@ -40,17 +40,17 @@ struct FoundClock {
   FilmClock nearest;             ///< the clock of minimal loss, even if it was not accepted
 };
 
-/// Finds clocks that explain the keypoints much better than the given ones *(ours)*. The search covers offsets that
-/// differ by up to `max_frames` from the given ones, and drifts of up to three frames over half of the film. It
+/// Finds clocks that explain the keypoints much better than the given clocks *(ours)*. The search covers offsets that
+/// differ by up to `max_frames` from the given offsets, and drifts of up to three frames over half of the film. It
 /// minimises the mean Geman–McClure loss of epipolar distances, with a scale of 1 % of the height: first on a grid,
 /// then with ever smaller steps down to 1/500 of a frame. A clock is changed only if this halves the loss, because
 /// wrong keypoints alone are not evidence of a wrong clock.
 std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                    std::span<const FilmClock> given, int max_frames, const FollowOptions& options);
 
-/// Returns `frames` frames of one camera's people at the first camera's times. Between frames each person's keypoints
-/// follow a cubic (`PixelBetween`), with the lower confidence of the two frames. At times without frames of the film,
-/// nobody is present.
+/// Returns `frames` frames of one camera's people at the first camera's times. Between two frames, each keypoint's
+/// pixel follows a cubic (`PixelBetween`), and its confidence is the lower one of the two frames. At times without
+/// frames of the film, nobody is present.
 SeenPeople PeopleInTime(const SeenPeople& people, const FilmClock& clock, std::size_t frames,
                         const FollowOptions& options = {});
 SeenPeople PeopleInTime(const SeenPeople& people, double offset, std::size_t frames, const FollowOptions& options = {});

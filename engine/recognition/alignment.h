@@ -14,9 +14,10 @@ struct StepPair {
   int taught = 0;  ///< index of the taught step in the pattern
 };
 
-/// Runs subsequence dynamic time warping online, one step per Update (Müller 2007, section 4.4, with his slope
+/// Runs subsequence dynamic time warping online, one step per Update (Müller 2007, section 4.4, with the slope
 /// condition of at most 2). A path matches the whole pattern, may begin at any seen step, and ends at the last seen
-/// step. Its cost is the sum of the distances of its seen steps and of the pattern steps that it skips.
+/// step. The cost of a path is the sum of the distances of the path's seen steps and of the pattern steps that the path
+/// skips.
 class SubsequenceAligner {
  public:
   /// Aligns with `pattern`, which must have at least one step and outlive this object. A path longer than `longest` ≥ 1
@@ -40,7 +41,7 @@ class SubsequenceAligner {
   int count_ = 0;  // number of seen steps
   std::vector<double> costs_, distances_;
   std::vector<int> starts_;  // for each pattern step, the seen step at which the best path to it began
-  // Advance of the best path by seen step (a ring of `longest_`) and pattern step: 0, 1, 2 or kBegins.
+  // The advance of the best path into each seen step (a ring of `longest_`) and pattern step: 0, 1, 2 or kBegins.
   std::vector<std::uint8_t> advances_;
 };
 

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// One move's examples, and the largest number of steps that a performance of it may last.
+/// The examples of one move, and the largest number of steps that a performance of the move may last.
 struct Examples {
   std::vector<std::vector<PoseVector>> patterns;
   int longest = 0;
@@ -79,7 +79,7 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// If no known motion is nearer, an unknown motion at this distance, metres, is the alternative to a move. In 19 of 20
+/// An unknown motion at this distance, metres, is the alternative to a move if no known motion is nearer. In 19 of 20
 /// cases, another person's performance of a move is nearer to the move's examples than this (tests/sim/performer; the
 /// medians of two recorded sets are 10 and 16–28 cm).
 constexpr double kUnknownMotionDistance = 0.21;
@@ -168,7 +168,7 @@ class Stillness {
  private:
   PoseVector pose_;
   std::size_t count_ = 0;
-  std::vector<double> gaps_;  // the last squared distances to the pose, as a ring
+  std::vector<double> gaps_;  // ring of the last squared distances to the pose
 };
 
 class NearestFollower final : public StepFollower {
@@ -240,7 +240,7 @@ class NearestFollower final : public StepFollower {
   std::vector<double> right_, wrong_, held_still_;  // distances of this step, per move
   std::size_t longest_, since_open_ = 0;
   Stillness standing_;
-  std::vector<Stillness> held_;   // held pose of each example
+  std::vector<Stillness> held_;   // for each example, the comparison with its held mean pose
   std::vector<PoseVector> seen_;  // the last `longest_` steps
 };
 

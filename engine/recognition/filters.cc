@@ -25,7 +25,7 @@ glm::dvec3 HoltFilter::Update(const glm::dvec3& raw, bool inferred) {
   const double jitter_radius = options_.jitter_radius_m * widening;
   const double max_deviation = options_.max_deviation_radius_m * widening;
 
-  // Smooth position and trend; the first two frames initialise both.
+  // Smooth the position and the trend. The first two frames initialise the position and the trend.
   const glm::dvec3 previous = smoothed_;
   if (count_ == 0) {
     smoothed_ = raw;

@@ -52,7 +52,7 @@ class HoltFilter {
 /// paper tunes it in two steps: set `beta_per_m` to 0, hold the joint at rest and lower `min_cutoff_hz` until the
 /// jitter is acceptable; then move quickly and raise `beta_per_m` until the lag is acceptable.
 struct OneEuroOptions {
-  /// Cutoff at rest, > 0, as in the paper; lower it for less jitter at rest and more lag in slow motion.
+  /// Cutoff frequency at rest, > 0, as in the paper; lower it for less jitter at rest and more lag in slow motion.
   double min_cutoff_hz = 1.0;
   /// The increase of the cutoff frequency per m/s, ≥ 0 (ours: the paper's value is per pixel). Raise it for dances that
   /// are faster than ours.

@@ -21,7 +21,8 @@ class PoseSequence {
   /// from its first pose to its last.
   PoseSequence(std::size_t poses, int hold_frames, int span_frames);
 
-  /// Starts a new window: `Asked` counts only passages that begin after this call.
+  /// Starts a new window, that is, the time in which the move is asked for: `Asked` counts only passages that begin
+  /// after this call.
   void Open();
   /// Takes this frame's match with each pose, in [0, 1]. An empty span means that no body is seen; such a
   /// frame neither holds nor interrupts a pose.

@@ -47,7 +47,7 @@ Sample MakeSample(std::span<const PerformanceMeasures> performances, std::span<c
       sample.bins[i][m] = static_cast<std::uint8_t>(cut - sample.cuts[m].begin());
     }
   }
-  // Weigh the bags so that right and wrong ones have the same total weight.
+  // Weight the bags so that all right bags together have the same weight as all wrong bags together.
   for (const LabelledBag& bag : bags) {
     sample.labels.push_back(bag.is_right ? 1.0 : 0.0);
     sample.weights.push_back(0.5 * static_cast<double>(bags.size()) / (bag.is_right ? right : wrong));
@@ -123,7 +123,7 @@ DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const Boost
     for (const auto& members : row) {
       const Split split = splits[node] = BestSplit(sample, slopes, members, options, turn);
       tree.measures[node] = static_cast<int>(split.measure);
-      constexpr double kAll = 1e9;  // a limit above every value: without a useful split, all go left
+      constexpr double kAll = 1e9;  // a limit above every value: without a useful split, all performances go left
       tree.limits[node] = split.gain > 0 ? sample.cuts[split.measure][split.bin] : kAll;
       ++node;
       next.resize(next.size() + 2);
@@ -140,7 +140,8 @@ DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const Boost
     for (std::size_t i : row[leaf]) all.Add(slopes[i]);
     tree.leaves[leaf] = -options.rate * all.gradient / (all.curvature + options.ridge);
   }
-  // Add the tree's values to the log-odds of all performances, including those that the tree was not fitted to.
+  // Add the tree's values to the log-odds of all performances, also of the performances that the tree was not fitted
+  // to.
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     std::size_t node = 0;
     while (node < DecisionTree::kNodes)

@@ -81,7 +81,7 @@ std::span<const EmbeddedText> BuiltinLearntModelFiles();
 /// Returns the model of recogniser `learnt`: scenarios/recognisers/learnt.yaml.
 const LearntModel& BuiltinLearntModel();
 /// Returns the model of recogniser `coached`. It uses scenarios/recognisers/coached.yaml for performances that were
-/// asked for, and learnt.yaml for spotted ones.
+/// asked for, and learnt.yaml for performances that were spotted without being asked for.
 const LearntModel& BuiltinCoachedModel();
 
 /// Makes our learnt recogniser. It aligns performances with the taught examples, measures them, and judges the measures

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kUnaligned = std::numeric_limits<double>::infinity();
 
-/// An example of a move, and the largest number of steps that a performance of it may last.
+/// An example of a move, and the largest number of steps that a performance of the move may last.
 struct TaughtExample {
   std::size_t move;
   std::vector<PoseVector> pattern;
@@ -163,8 +163,8 @@ class MeasuringFollower final : public StepFollower {
     return measures;
   }
 
-  /// Returns the cost of holding still in the example's mean pose along the same path. It replaces the costs of other
-  /// moves if only one move was taught.
+  /// Returns the cost of holding still in the example's mean pose along `path`. It replaces the costs of other moves if
+  /// only one move was taught.
   static double CostOfHolding(const TaughtExample& example, std::span<const StepPair> path,
                               const std::function<const PoseVector&(int)>& seen) {
     double cost = 0;

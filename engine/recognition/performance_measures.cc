@@ -29,7 +29,7 @@ ClockComparison::ShiftSum ClockComparison::SumOf(Part part, int shift) const {
 }
 
 ClockComparison::Fit ClockComparison::FitOf(Part part, double usual_s) const {
-  constexpr double kMinShare = 0.6;     // a shift needs at least this share of the part's steps in common
+  constexpr double kMinShare = 0.6;     // a shift counts only if this share of the part's steps overlaps seen steps
   constexpr double kPerSecond2 = 0.02;  // penalty on the squared distance from the usual shift, to break ties
   const double usual = std::clamp(usual_s * kStepsPerSecond, -1.0 * kMaxSteps, 1.0 * kMaxSteps);
   const double length = static_cast<double>(pattern_.size()) * (part == Part::kWhole ? 1 : 0.5);
@@ -68,7 +68,7 @@ ClockMeasures ClockComparison::Measure(double usual_s) const {
 
 namespace {
 
-/// Weighted sums over one limb's pairs along a path.
+/// Weighted sums, for one limb, over the pairs of seen and taught steps along a path.
 struct LimbSums {
   double weight = 0, gaps = 0, products = 0, seen_squares = 0, taught_squares = 0;
   glm::dvec3 seen{0}, taught{0};
@@ -116,7 +116,7 @@ LimbMeasures MeasureLimb(const LimbSums& sums) {
           .missing = 1.0 - (covariance + kStill) / (taught_variance + kStill)};
 }
 
-/// Parts of PoseParts::kLimbs: those of the body's middle, then pairs of left and right.
+/// Indices of parts in PoseParts::kLimbs: first the parts of the body's middle, then pairs of a left and a right part.
 constexpr std::array<std::size_t, 4> kMiddle = {0, 1, 2, 11};
 constexpr std::array<std::array<std::size_t, 2>, 4> kPairs = {{{3, 4}, {5, 6}, {7, 8}, {9, 10}}};
 
@@ -206,8 +206,8 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
 
 namespace {
 
-/// Calls `relate(own, difference)` for every measure: `own` is its index, and `difference` the index of its difference
-/// from the person's usual value.
+/// Calls `relate(own, difference)` for every measure: `own` is the index of the measure, and `difference` the index at
+/// which the measure's difference from the person's usual value is stored.
 template <typename Relate>
 void ForEachOwn(const Relate& relate) {
   for (const MeasureSlice& slice : {kOwnMeasures, kClockSlice, kRigidSlice}) {
@@ -239,7 +239,7 @@ void RigidComparison::Update(const PoseVector& seen) {
 }
 
 std::array<double, kRigidMeasures> RigidComparison::Measure(double usual_s) const {
-  constexpr double kMinShare = 0.6;  // a fit needs at least this share of the example's steps in common
+  constexpr double kMinShare = 0.6;  // a fit counts only if this share of the example's steps overlaps seen steps
   // Small penalties break ties in favour of the usual lag and the taught pace.
   constexpr double kPerSecond2 = 0.01, kPerLog2 = 0.1;
   constexpr double kNone = std::numeric_limits<double>::infinity();

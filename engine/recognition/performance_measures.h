@@ -18,8 +18,9 @@ struct ClockMeasures {
   double first = 0;   ///< the same delay for the first half of the example
   double second = 0;  ///< the same delay for the second half of the example
   double drift = 0;   ///< second − first
-  /// `off` is the root mean squared distance at this person's usual shift. Each gain says by how much the best shift
-  /// lowers that distance: for the whole example, its first half and its second half.
+  /// `off` is the root mean squared distance at this person's usual shift. A gain is the amount by which the best shift
+  /// lowers this distance: `gain` for the whole example, `first_gain` for its first half, `second_gain` for its second
+  /// half.
   double off = 0, gain = 0, first_gain = 0, second_gain = 0;
 
   std::array<double, 8> All() const { return {shift, first, second, drift, off, gain, first_gain, second_gain}; }
@@ -56,9 +57,9 @@ class ClockComparison {
   std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< one sum per half of the example and per shift
 };
 
-/// The measures of the limbs, as for a warped path (36 numbers), then five more: the lag in seconds, the logarithm of
-/// the pace (below 0: faster than taught), the distance, the distance at the taught pace, and the share of the example
-/// that was seen.
+/// The number of measures of RigidComparison: 36 measures of the limbs, as for a warped path, then the lag in seconds,
+/// the logarithm of the pace (below 0: faster than taught), the distance, the distance at the taught pace, and the
+/// share of the example that was seen.
 constexpr std::size_t kRigidMeasures = 41;
 
 /// Compares the steps since the window opened with the example, limb by limb. The example is shifted and stretched in
@@ -97,18 +98,19 @@ struct MeasureSlice {
   std::size_t first = 0, count = 0;
 
   constexpr std::size_t end() const { return first + count; }
-  /// Returns the next slice, with the same length: the differences between these measures and the person's usual ones.
+  /// Returns the slice after this one, of the same length: the differences of these measures from the person's usual
+  /// values.
   constexpr MeasureSlice Beyond() const { return {end(), count}; }
 };
 
 /// The indices of a performance's measures. Trained models refer to measures by index. If you add, move or remove a
 /// measure, increase kMeasuresVersion and train the shipped models again (`etude train --recogniser`).
 constexpr int kMeasuresVersion = 1;
-/// For each limb: its error, its error after its mean direction is corrected, and the missing share of its amplitude.
-/// For a left and a right limb, the larger value comes first.
+/// For each limb: the error, the error after the limb's mean direction is corrected, and the missing share of the
+/// limb's amplitude. For a left and a right limb, the larger value comes first.
 constexpr MeasureSlice kLimbMeasures{0, 36};
-/// The square root of the path's cost, the same for each third of the example, the error of the worst limb, and the
-/// mean error of the limbs.
+/// The square root of the path's cost (for the whole example, then for each third of the example), the error of the
+/// worst limb, and the mean error of the limbs.
 constexpr MeasureSlice kDistanceMeasures{kLimbMeasures.end(), 6};
 /// Lag, stretch, unsteadiness and largest timing error of the path.
 constexpr MeasureSlice kPathClockMeasures{kDistanceMeasures.end(), 4};

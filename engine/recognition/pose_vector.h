@@ -20,7 +20,7 @@ constexpr std::size_t kPosePartCount = 12;
 /// One pose, independent of body size, position and heading.
 struct PoseVector {
   std::array<glm::dvec3, kPosePartCount> parts{};
-  std::array<double, kPosePartCount> weights{};  ///< in [0, 1]
+  std::array<double, kPosePartCount> weights{};  ///< weight of each part, in [0, 1]
 };
 
 /// Returns the mean squared distance of the poses' parts, weighted by `seen.weights`, in the square of the parts' unit.
@@ -82,7 +82,8 @@ class StepFollower : public MoveFollower {
   std::optional<std::size_t> asked() const { return asked_; }
 
  private:
-  /// Is called when a window opens for `move`, or with nullopt when the window closes.
+  /// Is called when a window (the time in which a move is asked for) opens for `move`, or with nullopt when the window
+  /// closes.
   virtual void Open(std::optional<std::size_t> move) = 0;
   /// Takes the next step. Returns the evidence that the asked performance ends now (0 without an asked move), and
   /// writes the evidence of every move to `spotted`.

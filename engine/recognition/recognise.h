@@ -47,8 +47,8 @@ Result<EvidenceTrace> FollowStream(const Recogniser& recogniser, std::size_t mov
 
 /// The options by which evidence becomes decisions.
 struct DecisionOptions {
-  /// The evidence at which a move counts as performed, in (0, 1]. Choose it on recordings of people other than those to
-  /// be judged, low enough to detect moves and high enough to make false alarms acceptably rare.
+  /// The evidence at which a move counts as performed, in (0, 1]. Choose it on recordings of other people than the
+  /// people who are to be judged: low enough to detect moves, and high enough to make false alarms acceptably rare.
   double threshold = 0.5;
   /// The time after a detection in which the same move is not detected again, in seconds, ≥ 0. It keeps a performance
   /// with flickering evidence from being detected twice.

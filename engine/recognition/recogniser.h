@@ -12,7 +12,7 @@ namespace etude {
 /// The rule that weights an angle by the tracking state of its joints.
 enum class Weighting {
   kFixed,     ///< every angle has weight 1, as in paper A
-  kAdaptive,  ///< the weight depends on the worst tracking state of its joints (ours)
+  kAdaptive,  ///< the weight depends on the worst tracking state of the angle's joints (ours)
 };
 
 struct TrackingWeights {
@@ -20,9 +20,9 @@ struct TrackingWeights {
   /// especially if the body hides its far side from the sensor. Adaptive weights also ignore mistakes in joints that
   /// are not seen.
   Weighting weighting = Weighting::kFixed;
-  /// The adaptive weight of an angle with an inferred joint, in [0, 1]; a tracked one has weight 1. At 0.3 (ours) three
-  /// inferred angles cannot outvote a tracked one. Raise it for a sensor whose inferred joints are accurate; at 1,
-  /// inferred joints count like tracked ones.
+  /// The adaptive weight of an angle with an inferred joint, in [0, 1]; an angle whose joints are all tracked has
+  /// weight 1. At 0.3 (ours) three inferred angles cannot outvote a tracked one. Raise it for a sensor whose inferred
+  /// joints are accurate; at 1, inferred joints count like tracked ones.
   double inferred_weight = 0.3;
   /// The adaptive weight of an angle with a joint that is not tracked, in [0, 1]. The default is 0 because a joint that
   /// is not tracked has its position from an earlier frame. Raise it only for a sensor that still measures joints it
@@ -56,8 +56,8 @@ struct Evidence {
 class MoveFollower {
  public:
   virtual ~MoveFollower() = default;
-  /// Opens a window for the taught move with index `move`, beginning with the next frame; earlier frames do not count.
-  /// A call without a value closes the window.
+  /// Opens a window, that is, asks for the taught move with index `move` from the next frame on; earlier frames do not
+  /// count. A call without a value closes the window.
   virtual void Ask(std::optional<std::size_t> move) = 0;
   /// Takes the next frame and returns its evidence.
   virtual Evidence Update(const SeenFrame& frame) = 0;

@@ -43,7 +43,8 @@ class LiveSight {
   FeatureFrame features_;
 };
 
-/// A whole stream as recognisers with the same filter see it, computed once for all of them.
+/// A whole stream after filtering, with its features. All recognisers with the same filter share it, so it is computed
+/// once.
 struct SeenStream {
   SkeletonStream filtered;
   std::vector<FeatureFrame> frames;  ///< features of each frame of the stream

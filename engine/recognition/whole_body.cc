@@ -301,7 +301,7 @@ class WholeBodyFollower final : public MoveFollower {
   std::unique_ptr<MoveFollower> judge_;
   bool judge_spots_;
   StepDescriber joints_, limbs_;
-  std::vector<std::vector<ExampleDistance>> always_;  // for each move, the distance of each example
+  std::vector<std::vector<ExampleDistance>> always_;  // for each move, one ExampleDistance per example
   std::vector<LatelyLowest> lately_;                  // for each move, its lowest distance in the last second
   std::vector<ExampleDistance> in_window_, images_;   // the asked move's examples, and their mirror images
   double right_ = kInfinity, image_ = kInfinity;      // distances of the nearest passages in the window

@@ -19,10 +19,10 @@ struct CaptureOptions {
 
 struct CapturedMotion {
   BodyMotion motion;
-  /// The same motion as the text of a BVH file: joint rotations of the person's own skeleton, lengths in metres.
+  /// The motion as the text of a BVH file: joint rotations of the person's own skeleton, lengths in metres.
   std::string bvh;
   std::vector<bool> is_held;  ///< for each frame: true if no pose could be recovered, and the last pose is repeated
-  double residual_px = 0;     ///< median residual of the triangulated keypoints
+  double residual_px = 0;     ///< median reprojection error of the triangulated keypoints
 };
 
 /// Recovers a person's motion from keypoints of two or more synchronised cameras. It identifies people over time and

@@ -19,13 +19,13 @@ ETUDE_API std::vector<std::string> CoachPolicies();
 
 struct CoachOptions {
   std::string policy = "at-first-mistake";  ///< name of the policy: one of CoachPolicies()
-  /// Name of the choice for transitions between clips, as in TransitionOptions.
+  /// Name of the rule that selects the frames of a transition between clips, as in TransitionOptions.
   std::string choice = "played";
-  std::string join = "planted-feet";      ///< name of the join of two clips, as in TransitionOptions
+  std::string join = "planted-feet";      ///< name of the method that joins two clips, as in TransitionOptions
   std::string recogniser = "whole-body";  ///< name of the recogniser: "whole-body", "dtw" or "nearest"
   /// If true, Kinect's own smoothing filter is applied to the stream before recognition.
   bool smooths = false;
-  /// If true, players dance as in a mirror: with their right side when the coach uses the left.
+  /// If true, players dance as in a mirror, with the right side of the body when the coach uses the left side.
   bool mirrors = false;
   bool dances_at_once = false;  ///< true: the coach starts with the dance, without waiting for a clap
   /// A performance is right if its evidence is at least this, in (0, 1]; nullopt: the recogniser's own threshold.

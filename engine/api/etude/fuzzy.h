@@ -15,8 +15,8 @@ namespace etude::engine {
 /// the first frame. Throws BadInput for a body without legs.
 ETUDE_API std::vector<PoseFeatures> ComputeFeatures(const BodyMotion& motion);
 
-/// Returns the fuzzy distance of two frames, 0 or more: the weighted Euclidean distance of their 24 grades of
-/// membership. Throws BadInput for features that are not finite.
+/// Returns the fuzzy distance of two frames, 0 or more: the weighted Euclidean distance between the frames' vectors of
+/// 24 membership grades. Throws BadInput for features that are not finite.
 ETUDE_API double FuzzyDistance(const PoseFeatures& a, const PoseFeatures& b);
 
 /// A pair of matching frames: a transition leaves the playing clip at `from` and enters the wanted clip at `to`.

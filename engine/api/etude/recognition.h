@@ -15,10 +15,10 @@ namespace etude::engine {
 
 struct RecogniserOptions {
   std::string kind = "whole-body";  ///< name of the recogniser: "whole-body", "dtw" or "nearest"
-  bool smooths = true;              ///< true: Kinect's own smoothing filter is applied to the stream first
+  bool smooths = true;              ///< true: Kinect's own smoothing filter is applied before recognition
 };
 
-/// The evidence for moves in one frame, from this frame and those before it; all in 0…1.
+/// The evidence for moves at one frame, computed from this frame and all earlier frames of the stream; values in 0…1.
 struct Evidence {
   double asked = 0;             ///< evidence that the requested move is right so far; never falls during one request
   std::vector<double> spotted;  ///< for each move, how much the motion looks like the end of a right performance

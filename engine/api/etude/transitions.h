@@ -15,17 +15,18 @@ namespace etude::engine {
 
 /// The settings of a transition from one clip to another.
 struct TransitionOptions {
-  /// Name of the choice of the frames to leave and enter: one of TransitionChoices().
+  /// Name of the rule that selects the frames at which clips are left and entered: one of TransitionChoices().
   std::string choice = "played";
   std::string join = "planted-feet";  ///< name of the method that joins the two clips: one of TransitionJoins()
   double threshold = 0.4;             ///< maximum fuzzy distance of matching frames for the fuzzy choices, in (0, 6]
-  /// The settings of the choice and of the join, by key; missing ones keep their defaults.
+  /// The settings of the choice and of the join, by key; a setting that is missing keeps its default.
   std::map<std::string, double> choice_settings = {}, join_settings = {};
 };
 
-/// Returns the names of all choices: "fuzzy-bridge" (paper A's), "played", "motion-matching", …
+/// Returns the names of all choices (rules that select a transition's frames): "fuzzy-bridge" (paper A's), "played",
+/// "motion-matching", …
 ETUDE_API std::vector<std::string> TransitionChoices();
-/// Returns the names of all joins: "cut" (paper A's), "crossfade", "planted-feet", …
+/// Returns the names of all joins (methods that join two clips): "cut" (paper A's), "crossfade", "planted-feet", …
 ETUDE_API std::vector<std::string> TransitionJoins();
 /// Lists the settings of a choice or a join. Throws BadInput for an unknown name.
 ETUDE_API std::vector<NumberSetting> TransitionChoiceSettings(const std::string& choice);
@@ -33,8 +34,9 @@ ETUDE_API std::vector<NumberSetting> TransitionJoinSettings(const std::string& j
 
 /// A transition from one clip to another, as it is shown.
 struct Transition {
-  /// The playing clip from its first frame, the frames in between, and the wanted clip to its end, placed on the floor
-  /// where the first clip was left. The motion has no frames if the choice finds no transition.
+  /// The playing clip from its first frame, then the frames of the transition, then the wanted clip to its end, moved
+  /// to the place on the floor where the playing clip was left. The motion has no frames if the choice finds no
+  /// transition.
   BodyMotion motion;
   std::vector<int> points;  ///< indices of the frames of `motion` after which another clip plays, ascending
   double wait_s = 0;        ///< seconds from the request until the wanted clip plays
@@ -42,8 +44,8 @@ struct Transition {
   std::string why;          ///< one sentence: why this transition was chosen, or why there is none
 };
 
-/// The proportions of one person: those of `pose`, scaled so that the hips of the standing body are `hip_height` metres
-/// high.
+/// The proportions of one person. The limb lengths are those of `pose`, scaled so that the hips of the standing body
+/// are `hip_height` metres high.
 struct BodyProportions {
   BodyPose pose;
   double hip_height = 0;

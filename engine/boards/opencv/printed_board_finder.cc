@@ -80,7 +80,8 @@ class OpenCvFinder : public PrintedBoardFinder {
   const PrintedBoard board;
   std::array<std::size_t, kDictionaries.size()> votes{};
   std::optional<std::size_t> dictionary;
-  /// Number of pictures in which the first marker is in the second (0) or the first (1) square.
+  /// Number of pictures that show layout 0 (the first marker is in the second square) and layout 1 (in the first
+  /// square).
   std::array<std::size_t, 2> layouts{};
   std::map<int, std::size_t> shares;  ///< number of pictures by the ratio of marker side to square side, hundredths
   std::array<std::size_t, 2> inversion{};  ///< number of markers printed black on white (0) and inverted (1)
@@ -129,12 +130,12 @@ class OpenCvFinder : public PrintedBoardFinder {
   struct Predicted {
     std::array<int, 2> corner;
     cv::Point2f pixel;
-    double disagreement = 0;  ///< distance between the predictions of both markers, in marker sides
+    double disagreement = 0;  ///< distance between the two markers' predictions of the corner, in marker sides
     double square_px = 0;
   };
 
-  /// Predicts each corner as the mean of the predictions of its two adjacent markers, for a given ratio of marker side
-  /// to square side.
+  /// Predicts each corner as the mean of the positions that the corner's two adjacent markers predict. `share` is the
+  /// ratio of marker side to square side.
   std::vector<Predicted> Predict(const std::map<int, Quad>& markers, int layout, double share) const {
     // Every marker predicts the four corners of its square.
     std::map<std::array<int, 2>, std::vector<std::pair<cv::Point2f, double>>> predictions;
@@ -164,8 +165,8 @@ class OpenCvFinder : public PrintedBoardFinder {
     const std::map<int, Quad> markers = Markers(gray);
     constexpr std::size_t kMinMarkers = 3;
     if (markers.size() < kMinMarkers) return {};
-    // Choose the layout and ratio that predict the most corners consistently; among equals, those with the smallest
-    // mean disagreement.
+    // Choose the layout and ratio for which the markers agree about the most corners; if several agree about equally
+    // many, choose the layout and ratio with the smallest mean disagreement.
     constexpr double kMaxDisagreement = 0.2;
     double min_disagreement = 1e9;
     int layout = 0, share = 75;
@@ -220,9 +221,9 @@ class OpenCvFinder : public PrintedBoardFinder {
     ++inversion[rim > outside ? 1 : 0];
   }
 
-  /// Refines the corners of a chessboard by cornerSubPix, with a window of 0.4 of the distance to the nearest
-  /// neighbour. This is needed because findChessboardCornersSB leaves errors of 0.1 px, mostly a bias that all corners
-  /// share. A corner that would move by more than a pixel, for example in strong blur, keeps its position.
+  /// Refines the corners of a chessboard by cornerSubPix, with a window of 0.4 times the distance to the nearest
+  /// neighbouring corner. This is needed because findChessboardCornersSB leaves errors of 0.1 px, mostly a bias that
+  /// all corners share. A corner that would move by more than a pixel, for example in strong blur, keeps its position.
   static void RefineChess(const cv::Mat& gray, const cv::Size& inner, Quad& corners) {
     constexpr double kOfSide = 0.4, kMaxMovePx = 1;
     constexpr int kMinHalf = 2, kMaxHalf = 20;

@@ -149,7 +149,7 @@ GltfCurve::Value GltfCurve::At(double time) const {
 
 GltfCurve::Value GltfCurve::Finished(Value value, std::size_t fallback_key) const {
   if (values_.width != 4) return value;
-  // A spline between opposite quaternions may pass through zero; then use the value of the key before it.
+  // A spline between opposite quaternions may pass through zero; then use the value of the last key before this time.
   const glm::dquat found = Quaternion(value.data());
   if (glm::dot(found, found) < kMinRotationLength * kMinRotationLength) {
     std::copy_n(Key(fallback_key), values_.width, value.begin());
@@ -234,7 +234,8 @@ bool LiesOnGrid(const std::vector<double>& times, double start, double rate_hz) 
 /// Returns the rate of the keys if all moving properties are linear with evenly spaced keys, because sampling at this
 /// rate loses no information; otherwise returns the default rate.
 double RateOf(const std::vector<Channel>& channels, double start) {
-  // Exporters give resting joints only two keys, at both ends. These keys say nothing about the rate.
+  // Exporters give resting joints only two keys, at the beginning and at the end. These keys say nothing about the
+  // rate.
   const bool any_moves = std::ranges::any_of(channels, [](const Channel& channel) { return channel.curve.Moves(); });
   const auto counts = [&](const Channel& channel) { return !any_moves || channel.curve.Moves(); };
   const GltfCurve* densest = nullptr;

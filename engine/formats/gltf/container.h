@@ -14,8 +14,8 @@ struct GltfContainer {
   std::string_view binary;  ///< the binary part of a GLB file; may be empty
 };
 
-/// The maximum size in bytes of a file, of all copies of its binary part together (one for each buffer without URI),
-/// and of all files that it refers to together.
+/// The maximum size of a file in bytes. The same limit holds for the sum of all copies of the file's binary part (one
+/// copy for each buffer without URI), and for the sum of all files to which the file refers.
 inline constexpr double kMaxGltfBytes = 256e6;
 
 /// Finds the parts of a .gltf or .glb file. Refuses files that would make a JSON parser use excessive memory:

@@ -54,7 +54,7 @@ class GltfFile {
   /// Returns an error unless 0 ≤ `index` < `count`.
   Result<void> CheckIndex(int index, std::size_t count, const std::string& where) const;
 
-  /// Returns the bytes of a buffer view, or an error if it extends beyond its buffer.
+  /// Returns the bytes of a buffer view, or an error if the view extends beyond its buffer.
   Result<std::string_view> ReadView(int view, const std::string& where) const;
 
   /// Reads an accessor with elements of `width` numbers (1 to 4, or 16 for a matrix) as doubles. Normalised integers

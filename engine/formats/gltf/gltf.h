@@ -17,7 +17,8 @@ namespace etude {
 /// meshes), and one clip per animation on the same skeleton.
 struct GltfContent {
   Character character;
-  /// The animations; names as in the file, in one line; unnamed and duplicate ones are numbered.
+  /// The animations. Names are as in the file, in one line; unnamed animations and animations with the same name are
+  /// numbered.
   std::vector<Clip> clips;
   /// The joints that a VRM file (0.x, 1.0) or VRM animation declares as bones, by VRM's bone names, for example
   /// "leftUpperArm".
@@ -65,8 +66,8 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
 /// Writes a character with its clips as one GLB: nodes, skins, materials without textures, and LINEAR animations at the
 /// clips' rates. All numeric values of surfaces and clips are rounded to floats. Reading the file returns the same
 /// skeleton, surfaces and clips, and writing these again gives the same bytes. A property that stays at rest is not
-/// written; one that is constant has one key. Neighbouring meshes with the same name and joints become one mesh with
-/// several primitives. Invalid UTF-8 and control characters in names become '?'.
+/// written; a property that is constant in another way has one key. Neighbouring meshes with the same name and joints
+/// become one mesh with several primitives. Invalid UTF-8 and control characters in names become '?'.
 ///
 /// Numbers must be finite, clips must have the character's skeleton, indices must be valid, and the joints of one mesh
 /// must have a common root. A character without meshes is allowed. The output is valid by Khronos' glTF validator.

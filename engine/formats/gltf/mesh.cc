@@ -83,7 +83,7 @@ Result<SharedTexture> GltfTextures::ReadPlain(int index, const std::string& wher
   ASSIGN_OR_RETURN(const auto bytes, BytesOf(model.images[static_cast<std::size_t>(source.source)], image_name));
   if (!IsUnderstood(bytes)) return kept;
 
-  // Decode the picture and set its wrapping.
+  // Decode the picture and set the texture's wrapping.
   auto picture = decode_(bytes, pixels_left_);
   if (!picture) return file_.Refuse(image_name, "{}", picture.error().message);
   RETURN_IF_ERROR(Take(picture->pixels.size(), image_name));
@@ -158,7 +158,7 @@ void Unweld(SkinnedMesh& mesh) {
   mesh.vertices = std::move(vertices);
 }
 
-/// Normalises the normals; one of length 0 becomes the area-weighted mean of its triangles' normals.
+/// Normalises the normals; a normal of length 0 becomes the area-weighted mean normal of the vertex's triangles.
 void FinishNormals(SkinnedMesh& mesh) {
   std::vector<glm::dvec3> sums(mesh.vertices.size(), glm::dvec3(0));
   for (const auto& [a, b, c] : mesh.triangles) {

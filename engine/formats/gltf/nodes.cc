@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMaxJoints = 1024;
 constexpr int kMaxLevels = 128;
 
-/// Tolerance, for rounding to floats, of a matrix whose axes must be perpendicular and whose last row must be 0, 0, 0,
+/// Tolerance for a matrix that was rounded to floats: its axes must be perpendicular, and its last row must be 0, 0, 0,
 /// 1.
 constexpr double kMatrixRounding = 1e-3;
 
@@ -125,7 +125,7 @@ class NodeReader {
       for (std::size_t k = 0; k < model_.animations[i].channels.size(); ++k) {
         const tinygltf::AnimationChannel& channel = model_.animations[i].channels[k];
         const int target = channel.target_node;
-        // Ignore a target without a node: tinygltf 2.7 leaves its channel out, 2.9 keeps it.
+        // Ignore a target without a node: tinygltf 2.7 leaves the target's channel out, 2.9 keeps the channel.
         if (target == kNoIndex && !channel.target_path.empty()) continue;
         const std::string where = fmt::format("animations[{}].channels[{}].target.node", i, k);
         RETURN_IF_ERROR(file_.CheckIndex(target, count_, where));
@@ -152,7 +152,8 @@ class NodeReader {
     nodes_.joint_of.assign(count_, kNoIndex);
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       if (!is_joint_[node]) continue;
-      // If the file lists a node's ancestors after the node, make them first, from the root down.
+      // If the file lists a node's ancestors after the node, make the joints of the ancestors first, from the root
+      // down.
       std::vector<int> chain;
       for (int above = node; above != kNoIndex && nodes_.joint_of[above] == kNoIndex; above = parents_[above]) {
         chain.push_back(above);

@@ -16,8 +16,8 @@ struct GltfNodes {
   std::vector<int> mesh_nodes;  ///< nodes of the scene with a mesh, ascending
 };
 
-/// Reads the nodes of the default scene. Without a default scene it reads those of the first scene, and without scenes
-/// all nodes. Nodes outside of the scene are included if they are animated or joints of a skin, with all their
+/// Reads the nodes of the default scene. Without a default scene it reads the nodes of the first scene, and without
+/// scenes all nodes. Nodes outside of the scene are included if they are animated or joints of a skin, with all their
 /// ancestors. Joints are in the file's order, but parents come first. A node that only holds a skinned mesh is not a
 /// joint, because such a mesh follows only its skin's joints. Matrices become translation, rotation and scale; unnamed
 /// nodes are called "node_<index>", and duplicate names are numbered (UniqueNames).

@@ -183,7 +183,7 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
     for (const auto& [key, value] : json.items()) {
       if (key == "extras" || key == "extensions") continue;
       const std::string name = where.empty() ? key : where + "." + key;
-      // A sparse accessor has an object there.
+      // In a sparse accessor, the value of this key is an object.
       const bool may_be_object = key == "indices" && !where.starts_with("meshes");
       if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() &&
           !(may_be_object && value.is_object())) {

@@ -11,8 +11,8 @@ namespace {
 
 using Bindings = std::vector<SkinnedMesh::Binding>;
 
-/// The four largest weights of a vertex with their bindings; the weights have the sum 1. If there are at most four,
-/// they keep their order.
+/// The four largest weights of a vertex with their bindings; the weights have the sum 1. If the file gives the vertex
+/// at most four weights, the weights keep the file's order.
 struct Influences {
   std::array<int, 4> bindings{};
   std::array<double, 4> weights{1, 0, 0, 0};
@@ -27,8 +27,8 @@ Influences Strongest(std::vector<std::pair<int, double>> all) {
   for (const auto& [binding, weight] : all) sum += weight;
   Influences influences;
   if (sum <= 0) return influences;
-  // If the sum is 1 within float rounding, it is not changed, so that writing and reading a file does not change
-  // weights.
+  // If the sum is 1 within float rounding, the weights are not changed, so that writing and reading a file keeps the
+  // same weights.
   constexpr double kRounding = 1e-6;
   const double divisor = std::abs(sum - 1) < kRounding ? 1.0 : sum;
   influences.weights = {};

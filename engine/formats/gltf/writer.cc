@@ -37,7 +37,7 @@ class GltfBytes {
   std::vector<unsigned char> bytes_;
 };
 
-/// The content of a buffer view, for its property `target`.
+/// The kind of content of a buffer view, which the view's property `target` states.
 enum class GltfTarget { kOther, kVertices, kIndices };
 
 /// The elements of an accessor: their location and type.
@@ -84,8 +84,8 @@ int AddGltfView(tinygltf::Model& model, const GltfBytes& bytes, std::size_t stri
   return static_cast<int>(model.bufferViews.size()) - 1;
 }
 
-/// Adds an accessor and returns its index. If `values` holds the accessor's numbers element by element, their minimum
-/// and maximum are stored, too; positions and key times need them.
+/// Adds an accessor and returns its index. If `values` holds the accessor's numbers element by element, the minimum and
+/// maximum of the numbers are stored, too; positions and key times need a minimum and a maximum.
 int AddGltfAccessor(tinygltf::Model& model, const GltfSlice& slice, std::span<const double> values = {}) {
   tinygltf::Accessor accessor;
   accessor.bufferView = slice.view;
@@ -119,7 +119,7 @@ struct Track {
   void Add(const glm::vec3& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
   void Add(const glm::vec4& value) { values.insert(values.end(), {value.x, value.y, value.z, value.w}); }
 
-  /// Returns true if all frames are equal, so that one key is enough.
+  /// Returns true if the value is the same in all frames, so that one key is enough.
   bool IsStill() const { return std::equal(values.begin() + 2 * width, values.end(), values.begin() + width); }
   bool IsAtRest() const { return std::equal(values.begin() + width, values.end(), values.begin()); }
 };
@@ -255,7 +255,7 @@ class GlbWriter {
     model_.materials.push_back(std::move(material));
   }
 
-  /// Adds a mesh. A rigid one is attached to its joint's node; any other gets its own node with a skin.
+  /// Adds a mesh. A rigid mesh is attached to the node of its joint; any other mesh gets a node of its own with a skin.
   void AddGroup(Group group) {
     // Write the primitives.
     const SkinnedMesh& first = group.front();
@@ -303,7 +303,7 @@ class GlbWriter {
       if (!has_skin) continue;
       for (const double weight : vertex.weights) bytes.Float(weight);
       for (std::size_t k = 0; k < 4; ++k) {
-        // Joints with weight 0 are written as 0, as the specification demands.
+        // The index of a joint with weight 0 is written as 0, as the specification demands.
         const auto binding = static_cast<std::uint32_t>(vertex.weights[k] != 0 ? vertex.bindings[k] : 0);
         if (short_joints) {
           bytes.Short(binding);
