@@ -52,6 +52,7 @@ struct MarkerRows {
   std::vector<double> times_s;  ///< one per row; NaN if the row gives none
   std::vector<int> lines;       ///< line of each row, from 1
   bool has_clock = true;        ///< false if the times were made from frame numbers
+  double first_number = 0;      ///< number of the first row's frame, if the times were made from frame numbers
   std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
   std::string time_name = "the column Time";  ///< what holds the times
 };
@@ -63,8 +64,9 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file);
 
 /// Places a body's rows on frames by their times. Holes of up to a second are bridged linearly. If there are longer
-/// holes, only the longest stretch without such a hole is kept. `remark` says what was changed. Fails like GridOfRows.
+/// holes, only the longest stretch without such a hole is kept. `remark` says what was changed, and `start_s` is the
+/// first frame's time. Fails like GridOfRows.
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
-                              std::string& remark);
+                              std::string& remark, double& start_s);
 
 }  // namespace etude

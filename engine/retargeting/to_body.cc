@@ -116,7 +116,10 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   const auto frames = static_cast<double>(clip.frames.size() - 1 - first);
   const double seconds = frames / clip.rate_hz;
   if (seconds > kMaxSeconds) {
-    return Fail({file}, "the clip lasts {:.0f} s; allowed: {:.0f} s", seconds, kMaxSeconds);
+    return Fail({file}, "the clip lasts {:.0f} s; allowed: {:.0f} s{}", seconds, kMaxSeconds,
+                clip.rate_hz < 1
+                    ? fmt::format("; its frames are {:.3g} s apart: does it count milliseconds?", 1 / clip.rate_hz)
+                    : "");
   }
   if (seconds * rate_hz > kMaxPoses) {
     return Fail({file}, "{:.0f} s at {:g} Hz are over {:.0f} poses", seconds, rate_hz, kMaxPoses);
@@ -382,7 +385,10 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   PlaceOnFloor(poses, done);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   done.changes = ChangesOf(done, map, clip, lies);
-  std::ranges::move(remarks, std::back_inserter(done.changes));
+  for (const std::string& said : {lies, lies.empty() ? done.found_up.doubt : ""}) {
+    if (!said.empty()) done.doubts.push_back(said);
+  }
+  for (const std::string& remark : remarks) done.Doubt(remark);
   done.Doubt(DescribeImpossibleHeight(done.motion.poses));
   done.Doubt(DescribeRootTravel(clip, map));
   return done;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "bench/model/recording.h"
 #include "bench/recordings/evaluation_extras.h"
@@ -10,6 +11,8 @@
 #include "bench/tasks/evaluation/match.h"
 #include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/evaluation/run.h"
+#include "engine/retargeting/body_doubts.h"
+#include "engine/retargeting/joint_arrays.h"
 #include "io/clips/raw_motions.h"
 
 namespace etude {
@@ -53,8 +56,9 @@ class EvaluationWorld final : public FileWorld {
     }
     const std::string& reference = files_.answers[method];
     if (reference.empty()) return CellResult::Ended(Status::kFailed, "the method has no answer of this name");
-    const auto answer = OpenRawMotion(reference, study_.opening);
+    auto answer = OpenRawMotion(reference, study_.opening);
     if (!answer) return CellResult::Ended(Status::kFailed, ToString(answer.error()));
+    std::ranges::move(DoubtsOnBody(RolesIn(*answer), answer->rate_hz), std::back_inserter(answer->notes));
     return Judged(*answer);
   }
 
@@ -63,6 +67,9 @@ class EvaluationWorld final : public FileWorld {
   static Result<RawMotion> Open(const EvaluationStudy& study, const std::string& reference) {
     auto truth = OpenRawMotion(reference, study.opening, study.has_only_controls);
     if (truth && study.has_only_controls) truth->contacts = ContactsByMotion(*truth);
+    if (truth && !study.has_only_controls) {
+      std::ranges::move(DoubtsOnBody(RolesIn(*truth), truth->rate_hz), std::back_inserter(truth->notes));
+    }
     return truth;
   }
 

@@ -456,7 +456,8 @@ Clip StiffWalk(double root_factor) {
 
 TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
   EXPECT_THAT(Convert(StiffWalk(1))->doubts, ::testing::IsEmpty());
-  for (const auto& [factor, said] : {std::pair(0.01, "100 times"), {1 / 2.54, "2.54 times"}, {100.0, "0.01 times"}}) {
+  for (const auto& [factor, said] : {std::pair(0.01, "100 times"), {1 / 2.54, "2.54 times"}, {1 / 17.72, "17.72 times"},
+                                     {1 / 5.644, "5.644 times"}, {100.0, "0.01 times"}}) {
     ASSERT_OK(body, Convert(StiffWalk(factor)));
     EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions are {}", said))));
   }
