@@ -41,7 +41,8 @@ std::vector<std::string> DoubtsOnBody(std::span<const JointPositions> frames, do
   const MotionFaults found = FindMotionFaults(body, {.begin_s = begin_s, .unseen = std::move(unseen)});
   for (const MotionFault& fault : found.faults) {
     if (fault.kind == FaultKind::kTorn) torn.push_back(fault);
-    if (fault.kind == FaultKind::kBends) bends[fault.joint == Role::kLeftKnee ? 0 : 1] = fault.text;
+    if (fault.kind != FaultKind::kBends) continue;
+    if (std::string& first = bends[fault.joint == Role::kLeftKnee ? 0 : 1]; first.empty()) first = fault.text;
   }
   std::ranges::move(FaultSentences(torn), std::back_inserter(doubts));
   if (!bends[0].empty() && !bends[1].empty()) doubts.push_back(bends[0] + "; " + bends[1] + ": is an axis mirrored?");

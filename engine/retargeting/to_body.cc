@@ -379,8 +379,6 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   RETURN_IF_ERROR(CheckLimbs(poses, file));
   std::vector<std::string> remarks;
   RETURN_IF_ERROR(FindUnit(rest, poses, options, file, done, remarks));
-  if (overstretch > 0)
-    remarks.push_back(fmt::format("the knees are overextended by {:.0f}° on average", Degrees(overstretch)));
   done.floor = options.keep_floor ? 0 : FloorOf(poses, options.floor);
   PlaceOnFloor(poses, done);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
@@ -389,6 +387,8 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
     if (!said.empty()) done.doubts.push_back(said);
   }
   for (const std::string& remark : remarks) done.Doubt(remark);
+  if (overstretch > 0)
+    done.changes.push_back(fmt::format("the knees are overextended by {:.0f}° on average", Degrees(overstretch)));
   done.Doubt(DescribeImpossibleHeight(done.motion.poses));
   done.Doubt(DescribeRootTravel(clip, map));
   return done;

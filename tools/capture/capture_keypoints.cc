@@ -12,7 +12,7 @@
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/keypoint_motion.h"
 #include "engine/keypoints/rig_warnings.h"
-#include "engine/retargeting/body_doubts.h"
+#include "engine/retargeting/exchanged_sides.h"
 #include "engine/unmarked/join_outlines.h"
 #include "io/files/files.h"
 #include "tools/capture/capture_parts.h"
@@ -276,7 +276,8 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
   std::vector<JointPositions> joints;
   for (const LandmarkPositions& frame : person.landmarks) joints.push_back(JointsOf(frame));
-  for (const std::string& doubt : DoubtsOnBody(joints, recover.rate_hz)) films.told.Tell("doubtful: " + doubt);
+  const std::string exchanged = DescribeExchangedJoints(joints, recover.rate_hz);
+  if (!exchanged.empty()) films.told.Tell("doubtful: " + exchanged);
   options.listener.print(ReportText(person, views) + FitText(person));
   facts["keypoints"] = FactsOf(person, views, films.told.lines);
   // If the options require silhouettes, refine the motion with them.

@@ -35,6 +35,13 @@ Recording RecordingOf(const MatchedMotions& matched) {
   return {{}, WriteEvaluationExtras(extras)};
 }
 
+/// Adds to the notes what no person's motion has. Only points are judged: UnderstandClip refuses skeletons whose sides
+/// are exchanged, and drawn figures may come apart.
+void AddDoubts(RawMotion& motion) {
+  if (!motion.rotations.empty()) return;
+  std::ranges::move(DoubtsOnBody(RolesIn(motion), motion.rate_hz), std::back_inserter(motion.notes));
+}
+
 /// The world of one pair of files. The truth is read when the world is made, each answer when it is judged.
 class EvaluationWorld final : public FileWorld {
  public:
@@ -58,7 +65,7 @@ class EvaluationWorld final : public FileWorld {
     if (reference.empty()) return CellResult::Ended(Status::kFailed, "the method has no answer of this name");
     auto answer = OpenRawMotion(reference, study_.opening);
     if (!answer) return CellResult::Ended(Status::kFailed, ToString(answer.error()));
-    std::ranges::move(DoubtsOnBody(RolesIn(*answer), answer->rate_hz), std::back_inserter(answer->notes));
+    AddDoubts(*answer);
     return Judged(*answer);
   }
 
@@ -67,9 +74,7 @@ class EvaluationWorld final : public FileWorld {
   static Result<RawMotion> Open(const EvaluationStudy& study, const std::string& reference) {
     auto truth = OpenRawMotion(reference, study.opening, study.has_only_controls);
     if (truth && study.has_only_controls) truth->contacts = ContactsByMotion(*truth);
-    if (truth && !study.has_only_controls) {
-      std::ranges::move(DoubtsOnBody(RolesIn(*truth), truth->rate_hz), std::back_inserter(truth->notes));
-    }
+    if (truth && !study.has_only_controls) AddDoubts(*truth);
     return truth;
   }
 
