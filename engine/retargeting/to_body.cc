@@ -386,7 +386,10 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   for (const std::string& said : {lies, lies.empty() ? done.found_up.doubt : ""}) {
     if (!said.empty()) done.doubts.push_back(said);
   }
-  for (const std::string& remark : remarks) done.Doubt(remark);
+  for (const std::string& remark : remarks) {
+    done.changes.push_back(remark);
+    if (!options.metres_per_unit) done.doubts.push_back(remark);  // the user knows the unit
+  }
   if (overstretch > 0)
     done.changes.push_back(fmt::format("the knees are overextended by {:.0f}° on average", Degrees(overstretch)));
   done.Doubt(DescribeImpossibleHeight(done.motion.poses));

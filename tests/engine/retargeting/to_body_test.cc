@@ -498,7 +498,7 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
       << "the T-pose's frames count";
 
   EXPECT_EQ(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 400, 0.1))),
-            "the clip lasts 3990 s; allowed: 3600 s");
+            "the clip lasts 3990 s; allowed: 3600 s; its frames are 10 s apart: does it count milliseconds?");
 }
 
 }  // namespace
