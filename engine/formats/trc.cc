@@ -167,12 +167,13 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   // Check the line X1 Y1 Z1 …; a line that begins with a number is the first frame of a file without that line.
   const std::string_view after_names = text;
   const auto axes = Cells(TakeLine(text, line));
-  std::size_t count = 0;
+  std::string order;  // of the first marker's axes
   for (const std::string_view cell : axes) {
     const std::size_t axis = cell.empty() ? std::string_view::npos : std::string_view("XYZxyz").find(cell.front());
-    if (axis != std::string_view::npos && axis % 3 != count++ % 3) {
-      return Fail({file, line, 0}, "the axis {}; allowed: X, Y and Z of each marker, in this order", Quote(cell));
-    }
+    if (axis != std::string_view::npos && order.size() < 3) order += "XYZXYZ"[axis];
+  }
+  if (order != "XYZ" && std::ranges::is_permutation(order, std::string_view("XYZ"))) {
+    return Fail({file, line, 0}, "axes in the order {}; allowed: X, Y, Z of each marker", order);
   }
   if (NumberIn(axes.front())) {
     text = after_names;

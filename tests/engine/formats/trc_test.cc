@@ -109,7 +109,7 @@ TEST(ReadTrc, TakesTheFirstFrameAndTheAxesFromTheLineThatHasThem) {
   EXPECT_EQ(none->frames, wanted->frames) << "a file without that line";
   EXPECT_EQ(ReadTrc(with("\tx1\ty1\tz1\t\n"), "a.trc")->frames, wanted->frames);
   EXPECT_EQ(testing::Refusal(ReadTrc(with("\t\tX1\tZ1\tY1\n"), "a.trc")),
-            "a.trc:5: the axis 'Z1'; allowed: X, Y and Z of each marker, in this order");
+            "a.trc:5: axes in the order XZY; allowed: X, Y, Z of each marker");
 }
 
 TEST(ReadTrc, RefusesShortRowsOfMoreMarkersThanFitIntoMemory) {
