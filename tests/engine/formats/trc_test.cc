@@ -94,7 +94,8 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsZero) {
   ASSERT_OK(read, ReadTrc(AtFiftyHertz(0, 60), "a.trc"));
   EXPECT_EQ(read->rate_hz, 50);
   EXPECT_EQ(read->remark, "");
-  EXPECT_EQ(testing::Refusal(ReadTrc(AtFiftyHertz(0, 1), "a.trc")), "a.trc:3: DataRate is 0, and the rows have one time");
+  EXPECT_EQ(testing::Refusal(ReadTrc(AtFiftyHertz(0, 1), "a.trc")),
+            "a.trc:3: DataRate is 0, and the rows have one time");
   std::string timeless = AtFiftyHertz(0, 2);
   for (const char* time : {"7.00", "7.02"}) timeless.erase(timeless.find(time), 4);
   EXPECT_EQ(testing::Refusal(ReadTrc(timeless, "a.trc")), "a.trc:3: DataRate is 0, and the rows have no times");

@@ -66,7 +66,8 @@ TEST(Match, AnAnswerThatEndsEarlyIsJudgedWhereItIs) {
 
 TEST(Match, FramesOfTheAnswerOutsideTheTruthAreSaid) {
   EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 120)).reason, HasSubstr("60 frames of the answer outside the truth"));
-  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(60, 240)).reason, HasSubstr("120 frames of the answer outside the truth"));
+  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(60, 240)).reason,
+              HasSubstr("120 frames of the answer outside the truth"));
   RawMotion truth = Gliding(30, 60), answer = Gliding(30, 60);
   truth.start_s = 10;
   answer.start_s = 9;
