@@ -18,6 +18,7 @@
 #include "engine/fuzzy/features.h"
 #include "engine/motion/clip.h"
 #include "engine/motion/edit.h"
+#include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/marker_sets.h"
@@ -114,6 +115,8 @@ ReadBody BodyOfArrays(const Npz& arrays, const std::string& file, double rate_hz
   ReadBody read;
   if (const auto body = BodyOf(raw)) {
     read = ResampledBody(*body, {"Etude's own arrays"}, rate_hz);
+    const std::string crossing = DescribeExchangedJoints(RolesIn(raw), raw.rate_hz);
+    if (!crossing.empty()) read.changes.push_back(crossing);
   } else {
     ReadingOptions others = options;  // `raw` already has the user's unit and axis
     others.metres_per_unit = 0;

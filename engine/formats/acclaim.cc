@@ -294,11 +294,11 @@ Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::st
 
 namespace {
 
-/// The frames of a motion, and the largest of its angles in the file's unit.
+/// The frames of a motion, and the largest angles of its root and of all other bones in the file's unit.
 struct AcclaimFrames {
   Clip clip;
   bool in_degrees = true;
-  double largest = 0;
+  double of_root = 0, of_bones = 0;
 };
 
 /// Reads the frames; `is_told_degrees` as for SkeletonReader.
@@ -340,8 +340,9 @@ Result<AcclaimFrames> ReadFrames(std::string_view text, const AcclaimSkeleton& s
         return Fail(lines.At(), "the skeleton has no bone {}", Quote(lines.words.front().text));
       }
       if (clip.frames.empty()) return Fail(lines.At(), "a bone precedes the first frame's number");
-      ASSIGN_OR_RETURN(clip.frames.back()[joint->second],
-                       ReadTransform(lines, skeleton, joint->second, in_degrees, read.largest));
+      ASSIGN_OR_RETURN(
+          clip.frames.back()[joint->second],
+          ReadTransform(lines, skeleton, joint->second, in_degrees, joint->second == 0 ? read.of_root : read.of_bones));
     }
   }
   if (clip.frames.empty()) return Fail({file}, "no frames");
@@ -355,13 +356,18 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
   ASSIGN_OR_RETURN(auto read, ReadFrames(text, skeleton, file, false));
   std::string remark;
   constexpr double kMinDegrees = 0.5;  // a recording whose angles are all smaller shows only the rest pose
-  if (!read.in_degrees && read.largest > kMaxRadians) {
-    remark = fmt::format("its angles are taken as degrees: as radians, which are stated, they would reach {:.4g}",
-                         read.largest);
+  const double largest = std::max(read.of_root, read.of_bones);
+  if (!read.in_degrees && read.of_bones > kMaxRadians) {
+    remark =
+        fmt::format("its angles are taken as degrees: as radians, which are stated, they would reach {:.4g}", largest);
     ASSIGN_OR_RETURN(read, ReadFrames(text, skeleton, file, true));
-  } else if (read.in_degrees && read.largest > kMinDegrees && read.largest <= 2 * kPi) {
-    remark = fmt::format("its angles stay within {:.2g} degrees: if they are radians, a line :RADIANS must say so",
-                         read.largest);
+  } else if (!read.in_degrees && read.of_root > kMaxRadians) {
+    // A body that turns on and on has no limit.
+    remark = fmt::format("its root turns by {:.4g} radians: if its angles are degrees, a line :DEGREES must say so",
+                         read.of_root);
+  } else if (read.in_degrees && largest > kMinDegrees && largest <= 2 * kPi) {
+    remark =
+        fmt::format("its angles stay within {:.2g} degrees: if they are radians, a line :RADIANS must say so", largest);
   }
   if (remarks != nullptr && !skeleton.remark.empty()) remarks->push_back(skeleton.remark);
   if (remarks != nullptr && !remark.empty()) remarks->push_back(remark);

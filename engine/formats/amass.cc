@@ -77,7 +77,8 @@ std::size_t WidthOf(const NumberArray* array) {
 Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<double> told_hz) {
   // Find the arrays and check their shapes.
   const NumberArray *poses = npz.Find("poses"), *places = npz.Find("trans"), *rate = npz.Find("mocap_framerate");
-  if (rate == nullptr) rate = npz.Find("mocap_frame_rate");
+  const NumberArray* other_rate = npz.Find("mocap_frame_rate");
+  if (rate == nullptr) rate = other_rate;
   const std::size_t width = WidthOf(poses);
   std::vector<std::string> names;
   for (const auto& [name, array] : npz.arrays) names.push_back(name);
@@ -102,6 +103,11 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
         "arrays {}; allowed: beside them one number, mocap_framerate or mocap_frame_rate, the frames a second, or "
         "`--rate` (in convert `--file-rate`, in a joint map `rate: 60`)",
         Join(names));
+  }
+  if (!told_hz && other_rate != nullptr && other_rate->values != rate->values) {
+    return Fail({file},
+                "mocap_framerate and mocap_frame_rate differ; allowed: one rate, or `--rate` (in convert "
+                "`--file-rate`)");
   }
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;
   const double rate_hz = told_hz ? *told_hz : rate->values.front();

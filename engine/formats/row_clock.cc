@@ -237,6 +237,10 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
                                           rows.rate_name, *told, rows.time_name, grid->rate_hz));
   }
   markers.rate_hz = grid->rate_hz;
+  if (!rows.has_clock && rows.first_number > 1) {
+    AddRemark(markers.remark, fmt::format("its frames have numbers from {:.10g} on and no times: the first has time 0",
+                                          rows.first_number));
+  }
   if (rows.has_clock) markers.start_s = scale.first * scale.seconds + rows.times_s[grid->frames.front().row];
   AddRemark(markers.remark, grid->remark);
   if (grid->is_even) return std::move(markers);
@@ -264,15 +268,19 @@ Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file) {
   for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
   for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
   rows.has_clock = csv.rate_hz.has_value();
-  if (!rows.has_clock) rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
+  if (!rows.has_clock) {
+    rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
+    rows.first_number = csv.numbers.empty() ? 0 : csv.numbers.front();
+  }
   ASSIGN_OR_RETURN(auto laid, LayOnClock(std::move(rows), file));
   if (laid.start_s) *laid.start_s += csv.scale.first * csv.scale.seconds;
   return laid;
 }
 
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
-                              std::string& remark) {
+                              std::string& remark, double& start_s) {
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(times_s, {}, std::nullopt, kRoleCount, file));
+  start_s = times_s.empty() ? 0 : times_s.front();
   if (!grid) return rows;
   AddRemark(remark, grid->remark);
   rows.rate_hz = grid->rate_hz;
@@ -291,6 +299,7 @@ Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, 
     AddRemark(remark, fmt::format("frames {} to {} of {} are kept (gaps of over {:g} s)", best_begin + 1, best_end,
                                   grid->frames.size(), kMaxBridged_s));
   }
+  start_s += static_cast<double>(best_begin) / rows.rate_hz;
   // Interpolate every joint.
   BodyMotion laid{.rate_hz = rows.rate_hz, .poses = {}};
   for (std::size_t k = best_begin; k < best_end; ++k) {

@@ -49,10 +49,11 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
 /// Markers in the rows of a file, before they are placed on frames.
 struct MarkerRows {
   MarkerMotion markers;
-  std::vector<double> times_s;                ///< time of each row; NaN if the row gives none
-  std::vector<int> lines;                     ///< line of each row, from 1
-  bool has_clock = true;                      ///< false if the times were made from frame numbers
-  std::string rate_name = "";                 ///< the header that gives `markers.rate_hz`; "" if none does
+  std::vector<double> times_s;  ///< time of each row; NaN if the row gives none
+  std::vector<int> lines;       ///< line of each row, from 1
+  bool has_clock = true;        ///< false if the times were made from frame numbers
+  double first_number = 0;      ///< number of the first row's frame, if the times were made from frame numbers
+  std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
   std::string time_name = "the column Time";  ///< what holds the times, in words for messages
 };
 /// Places markers on frames by their times, whose unit FindTimeScale finds; in a hole, no marker was seen. The remark
@@ -67,6 +68,6 @@ Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file);
 /// are longer holes, only the longest stretch of frames without such a hole is kept. `remark` says what was changed.
 /// Fails like GridOfRows.
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
-                              std::string& remark);
+                              std::string& remark, double& start_s);
 
 }  // namespace etude

@@ -83,7 +83,7 @@ Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, co
   };
   const auto rate = NumberIn(of("DataRate")), frames = NumberIn(of("NumFrames")), markers = NumberIn(of("NumMarkers"));
   constexpr double kMaxFrames = 1e7, kMaxMarkers = 1000;
-  if (!rate || !frames || !markers || !(*rate > 0) || !(*frames >= 0 && *frames <= kMaxFrames) ||
+  if (!rate || !frames || !markers || !(*rate >= 0) || !(*frames >= 0 && *frames <= kMaxFrames) ||
       !(*markers >= 1 && *markers <= kMaxMarkers)) {
     return Fail(place,
                 "not the header of a TRC file; allowed: DataRate, NumFrames, NumMarkers (to 1000) and Units with "
@@ -155,7 +155,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   MarkerRows rows{.markers = {.rate_hz = header.rate_hz, .names = {}, .frames = {}, .metres_per_unit = header.metres},
                   .times_s = {},
                   .lines = {},
-                  .rate_name = "DataRate"};
+                  .rate_name = header.rate_hz > 0 ? "DataRate" : ""};
   MarkerMotion& motion = rows.markers;
   const auto names = Cells(TakeLine(text, line));
   for (std::size_t marker = 0; marker < header.markers; ++marker) {
@@ -164,7 +164,21 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
       return Fail({file, line, 0}, "{} markers announced, {} named", header.markers, marker);
     motion.names.emplace_back(names[at]);
   }
-  TakeLine(text, line);  // skip the line X1 Y1 Z1 …
+  // Check the line X1 Y1 Z1 …; a line that begins with a number is the first frame of a file without that line.
+  const std::string_view after_names = text;
+  const auto axes = Cells(TakeLine(text, line));
+  std::string order;  // of the first marker's axes
+  for (const std::string_view cell : axes) {
+    const std::size_t axis = cell.empty() ? std::string_view::npos : std::string_view("XYZxyz").find(cell.front());
+    if (axis != std::string_view::npos && order.size() < 3) order += "XYZXYZ"[axis];
+  }
+  if (order != "XYZ" && std::ranges::is_permutation(order, std::string_view("XYZ"))) {
+    return Fail({file, line, 0}, "axes in the order {}; allowed: X, Y, Z of each marker", order);
+  }
+  if (NumberIn(axes.front())) {
+    text = after_names;
+    --line;
+  }
   if (text.find(',') != std::string_view::npos) motion.remark = "its numbers have decimal commas";
   // Check the size before any frame is stored: rows may leave out the cells of their last markers, so frames may take
   // far more memory than the text.
@@ -195,13 +209,17 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
     rows.times_s = TimesOfNumbers(numbers, header.rate_hz);
     rows.has_clock = false;
+    rows.first_number = numbers.empty() ? 0 : numbers.front();
+    if (header.rate_hz == 0) return Fail({file, 3, 0}, "DataRate is 0, and the rows have no times");
   }
   return rows;
 }
 
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(auto rows, ReadTrcRows(text, file));
-  return LayOnClock(std::move(rows), file);
+  ASSIGN_OR_RETURN(auto laid, LayOnClock(std::move(rows), file));
+  if (laid.rate_hz == 0) return Fail({file, 3, 0}, "DataRate is 0, and the rows have one time");
+  return laid;
 }
 
 }  // namespace etude

@@ -1,9 +1,13 @@
 #include "engine/retargeting/exchanged_sides.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "engine/base/names.h"
@@ -12,6 +16,8 @@ namespace etude {
 namespace {
 
 using enum Role;
+
+constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<std::array<Role, 4>, 2> kChains = {
     {{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand}, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}}};
@@ -92,16 +98,54 @@ std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames) {
   return exchanged.size() <= others.size() ? exchanged : others;
 }
 
-std::string DescribeExchangedJoints(std::span<const Role> left, const std::function<std::string(Role)>& name_of) {
-  std::vector<std::string> pairs;
-  for (const Role role : left) pairs.push_back(name_of(role) + " – " + name_of(Mirrored(role)));
-  return pairs.empty() ? "" : "left and right look exchanged, because limbs cross: " + Join(pairs);
+std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz) {
+  constexpr double kShorter = 0.25, kMinApart_m = 0.05, kMinRate_hz = 10;
+  std::vector<Exchange> found;
+  for (const auto& chain : kChains) {
+    for (const Role left : chain) {
+      // The steps of both joints into each frame, by their names and with exchanged names; NaN where one is not seen.
+      std::vector<double> straight(frames.size(), kUnseen), crossed = straight;
+      for (std::size_t f = 1; f < frames.size() && rate_hz >= kMinRate_hz; ++f) {
+        const auto &a = frames[f - 1][Index(left)], &b = frames[f - 1][Index(Mirrored(left))];
+        const auto &c = frames[f][Index(left)], &d = frames[f][Index(Mirrored(left))];
+        if (!a || !b || !c || !d || glm::distance(*a, *b) < kMinApart_m) continue;
+        straight[f] = glm::distance(*a, *c) + glm::distance(*b, *d);
+        crossed[f] = glm::distance(*a, *d) + glm::distance(*b, *c);
+      }
+      const auto step = [&](std::size_t f) { return f < frames.size() ? std::min(straight[f], crossed[f]) : kUnseen; };
+      for (std::size_t f = 1; f < frames.size(); ++f) {
+        // fmax ignores a neighbour that is not seen.
+        const double usual = std::fmax(std::fmax(step(f - 1), step(f + 1)), crossed[f]);
+        if (usual < kShorter * straight[f]) found.push_back({left, f});
+      }
+    }
+  }
+  return found;
 }
 
-std::string DescribeExchangedJoints(const BodyMotion& motion) {
-  std::vector<JointPositions> frames;
-  for (const BodyPose& pose : motion.poses) std::ranges::copy(pose.joints, frames.emplace_back().begin());
-  return DescribeExchangedJoints(FindExchangedJoints(frames), [](Role role) { return std::string(RoleName(role)); });
+std::string DescribeExchangedJoints(std::span<const JointPositions> frames, double rate_hz,
+                                    const std::function<std::string(Role)>& name_of) {
+  const auto pair_of = [&](Role left) { return name_of(left) + " – " + name_of(Mirrored(left)); };
+  std::vector<std::string> said, pairs;
+  for (const Role left : FindExchangedJoints(frames)) pairs.push_back(pair_of(left));
+  if (!pairs.empty()) said.push_back("left and right look exchanged, because limbs cross: " + Join(pairs));
+  pairs.clear();
+  std::set<std::size_t> times;
+  for (const auto& [left, frame] : FindExchanges(frames, rate_hz)) {
+    if (pairs.empty() || pairs.back() != pair_of(left)) pairs.push_back(pair_of(left));
+    times.insert(frame);
+  }
+  if (!times.empty()) {
+    said.push_back(
+        fmt::format("left and right exchange their places from one frame to the next, {} (first at {:.2f} s): {}",
+                    times.size() == 1 ? "once" : fmt::format("{} times", times.size()),
+                    static_cast<double>(*times.begin()) / rate_hz, Join(pairs)));
+  }
+  return Join(said, "; ");
+}
+
+std::string DescribeExchangedJoints(std::span<const JointPositions> frames, double rate_hz) {
+  return DescribeExchangedJoints(frames, rate_hz, [](Role role) { return std::string(RoleName(role)); });
 }
 
 bool PointFeetBackwards(std::span<const BodyPose> poses) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
@@ -16,10 +17,22 @@ namespace etude {
 /// so do upper arms and forearms together. Of the two ways to undo all crossings, the one with fewer joints is
 /// returned. `frames` have any unit; unseen joints do not count.
 std::vector<Role> FindExchangedJoints(std::span<const JointPositions> frames);
-/// Returns a message for the user that these left joints look exchanged with the right ones, or "" if the list is
-/// empty. `name_of` returns the name of a joint for the message.
-std::string DescribeExchangedJoints(std::span<const Role> left, const std::function<std::string(Role)>& name_of);
-std::string DescribeExchangedJoints(const BodyMotion& motion);
+/// A left joint that exchanges its place with the right one between two frames.
+struct Exchange {
+  Role left;
+  std::size_t frame;  ///< the first frame after the exchange
+};
+/// Finds exchanges in a part of a motion (ours). From one frame to the next, both joints of a pair move to the other's
+/// place: exchanging their names makes their steps at least four times as short. These steps are also four times as
+/// long as the steps before and after, so that crossing arms are no exchange. Joints nearer than 5 cm to each other and
+/// rates below 10 Hz are not judged. `frames` are in metres.
+std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz);
+
+/// Returns a message for the user about all that FindExchangedJoints and FindExchanges find; "" if that is nothing.
+/// `name_of` returns the name of a joint for the message.
+std::string DescribeExchangedJoints(std::span<const JointPositions> frames, double rate_hz,
+                                    const std::function<std::string(Role)>& name_of);
+std::string DescribeExchangedJoints(std::span<const JointPositions> frames, double rate_hz);
 
 /// Returns true if the toes of both feet point backwards in nearly all frames: left and right are exchanged, or an axis
 /// is mirrored.

@@ -310,6 +310,18 @@ std::optional<BodyMotion> BodyOf(const RawMotion& raw) {
   return motion;
 }
 
+std::vector<JointPositions> RolesIn(const RawMotion& motion) {
+  std::vector<JointPositions> frames(motion.FrameCount());
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      if (motion.roles[i] < 0) continue;
+      const glm::dvec3& place = motion.At(f, static_cast<std::size_t>(motion.roles[i]));
+      if (IsSeen(place)) frames[f][i] = place;
+    }
+  }
+  return frames;
+}
+
 MarkerMotion MarkersOf(const RawMotion& motion) {
   MarkerMotion markers{.rate_hz = motion.rate_hz, .names = motion.joints, .frames = {}};
   for (std::size_t f = 0; f < motion.FrameCount(); ++f) {

@@ -12,6 +12,7 @@
 #include "engine/motion/raw_motion.h"
 #include "engine/retargeting/joint_layouts.h"
 #include "engine/retargeting/orientation.h"
+#include "engine/retargeting/skin_markers.h"
 
 namespace etude {
 
@@ -54,6 +55,8 @@ struct ArrayOptions {
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told = {});
 /// Returns the twenty joints of a motion, whose joints may be in any order; nullopt if it has other joints, or gaps.
 std::optional<BodyMotion> BodyOf(const RawMotion& motion);
+/// Returns the positions of the joints that play a role, in every frame.
+std::vector<JointPositions> RolesIn(const RawMotion& motion);
 /// Returns the joints of a motion as markers with the joints' names; gaps stay gaps.
 MarkerMotion MarkersOf(const RawMotion& motion);
 

@@ -261,7 +261,8 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     frames.push_back(PositionsOf(set, columns, frame, scale));
     wands.push_back(WandsOf(columns, frame, scale));
   }
-  const std::vector<Role> exchanged = FindExchangedJoints(frames);
+  const std::string crossing =
+      DescribeExchangedJoints(frames, markers.rate_hz, [&](Role role) { return NamesOf(role, set, columns, markers); });
   const std::string centres = MoveToJointCentres(set, markers.sizes_m, wands, frames);
   const std::vector<JointPositions> seen = options.keeps_shown ? frames : std::vector<JointPositions>();
   int filled = 0;
@@ -307,13 +308,11 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
       PointFeetBackwards(body.motion.poses)) {
     body.changes.push_back("the feet point backwards: left and right are exchanged, or an axis is mirrored");
   }
-  const std::string crossing = DescribeExchangedJoints(
-      exchanged, [&](Role role) { return NamesOf(role, set, columns, markers); });
   if (!crossing.empty()) body.changes.push_back(crossing);
   StandOnFloor(options.keep_floor, IsOwn(set), body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
-  for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt, crossing}) {
+  for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt}) {
     if (!said.empty()) body.shown.remark += "; " + said;
   }
   return body;

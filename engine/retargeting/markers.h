@@ -23,10 +23,10 @@ struct MarkerOptions {
 
 /// A body found in the trajectories of markers.
 struct MarkerBody {
-  std::string name;   ///< the prefix of its markers ("Derrick" of "Derrick:LANK"), or ""
-  BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
-  UpFinding up;       ///< the axis of the file that became Y
-  double floor = 0;   ///< the height of the file's floor, metres; it became 0
+  std::string name;             ///< the prefix of its markers ("Derrick" of "Derrick:LANK"), or ""
+  BodyMotion motion;            ///< at the file's rate; metres, Y up, feet on the floor
+  UpFinding up;                 ///< the axis of the file that became Y
+  double floor = 0;             ///< the height of the file's floor, metres; it became 0
   std::size_t first_frame = 0;  ///< the file's index of the first kept frame
   /// The name of the marker set, then a text for users about each correction of the file's data.
   std::vector<std::string> changes;
@@ -53,8 +53,8 @@ struct MarkerBody {
 ///   the ankle and 4 cm below.
 /// Gaps of up to a second are interpolated linearly and counted. If there are longer gaps, only the longest stretch
 /// without such a gap is kept, and the note states this. Positions at 0, 0, 0 may count as gaps (RepairMarkers). The
-/// note names joints that seem to be exchanged between left and right (FindExchangedJoints). FindUp finds the axis that
-/// points up, by `options.up`. The floor (5th percentile of the lowest joint's height) becomes 0. For Etude's own
+/// note names joints that seem to be exchanged between left and right (DescribeExchangedJoints). FindUp finds the axis
+/// that points up, by `options.up`. The floor (5th percentile of the lowest joint's height) becomes 0. For Etude's own
 /// joints, Y is up, and the floor stays unless it is over half a metre from 0. If a file has several complete sets, the
 /// set with the highest rank is used, then the set that determines most joints; the note names the other.
 ///

@@ -328,7 +328,8 @@ bool HasModelOfAngles(std::string_view bytes) {
   return head.size() < bytes.size() && head.find("\npart ") != std::string_view::npos;
 }
 
-Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note) {
+Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note,
+                                     double* start_s) {
   constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
   if (bytes.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: {}", bytes.size(), kMaxBytes);
   ASSIGN_OR_RETURN(const AngleTable table, ReadAngleTable(bytes, file));
@@ -353,7 +354,9 @@ Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& 
     }
   }
   std::string changed;
-  ASSIGN_OR_RETURN(motion, LayOnClock(std::move(motion), times, file, changed));
+  double start = 0;
+  ASSIGN_OR_RETURN(motion, LayOnClock(std::move(motion), times, file, changed, start));
+  if (start_s != nullptr) *start_s = start;
   if (note != nullptr && !changed.empty()) *note += (note->empty() ? "" : "; ") + changed;
   return motion;
 }

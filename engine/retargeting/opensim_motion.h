@@ -34,6 +34,7 @@ bool HasModelOfAngles(std::string_view bytes);
 /// states its changes; a single row has 30 Hz. Angles are degrees, or radians after "inDegrees=no". Fails, with the
 /// line, for more than 64 MB, parts that are not the twenty roles (each once, after its parent), angles or translations
 /// without a column, rows of another length, numbers beyond ±10⁹, no rows, and times that run backwards.
-Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note = nullptr);
+Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note = nullptr,
+                                     double* start_s = nullptr);
 
 }  // namespace etude

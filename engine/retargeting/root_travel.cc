@@ -66,7 +66,7 @@ std::string DescribeRootTravel(const Clip& clip, const JointMap& map) {
   const double as_it_is = slide(1);
   if (!(as_it_is > kMinSlide)) return "";
   double best = 1, least = as_it_is;
-  for (const double factor : {1000.0, 100.0, 10.0, 39.37, 30.48, 2.54, 3.281}) {
+  for (const double factor : {1000.0, 100.0, 10.0, 39.37, 30.48, 2.54, 3.281, 17.72, 5.644}) {
     for (const double one : {factor, 1 / factor}) {
       if (const double slides = slide(one); slides < least) {
         best = one;

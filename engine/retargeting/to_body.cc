@@ -116,7 +116,10 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   const auto frames = static_cast<double>(clip.frames.size() - 1 - first);
   const double seconds = frames / clip.rate_hz;
   if (seconds > kMaxSeconds) {
-    return Fail({file}, "the clip lasts {:.0f} s; allowed: {:.0f} s", seconds, kMaxSeconds);
+    return Fail({file}, "the clip lasts {:.0f} s; allowed: {:.0f} s{}", seconds, kMaxSeconds,
+                clip.rate_hz < 1
+                    ? fmt::format("; its frames are {:.3g} s apart: does it count milliseconds?", 1 / clip.rate_hz)
+                    : "");
   }
   if (seconds * rate_hz > kMaxPoses) {
     return Fail({file}, "{:.0f} s at {:g} Hz are over {:.0f} poses", seconds, rate_hz, kMaxPoses);
@@ -376,13 +379,19 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   RETURN_IF_ERROR(CheckLimbs(poses, file));
   std::vector<std::string> remarks;
   RETURN_IF_ERROR(FindUnit(rest, poses, options, file, done, remarks));
-  if (overstretch > 0)
-    remarks.push_back(fmt::format("the knees are overextended by {:.0f}° on average", Degrees(overstretch)));
   done.floor = options.keep_floor ? 0 : FloorOf(poses, options.floor);
   PlaceOnFloor(poses, done);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   done.changes = ChangesOf(done, map, clip, lies);
-  std::ranges::move(remarks, std::back_inserter(done.changes));
+  for (const std::string& said : {lies, lies.empty() ? done.found_up.doubt : ""}) {
+    if (!said.empty()) done.doubts.push_back(said);
+  }
+  for (const std::string& remark : remarks) {
+    done.changes.push_back(remark);
+    if (!options.metres_per_unit) done.doubts.push_back(remark);  // the user knows the unit
+  }
+  if (overstretch > 0)
+    done.changes.push_back(fmt::format("the knees are overextended by {:.0f}° on average", Degrees(overstretch)));
   done.Doubt(DescribeImpossibleHeight(done.motion.poses));
   done.Doubt(DescribeRootTravel(clip, map));
   return done;

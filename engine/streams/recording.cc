@@ -235,12 +235,14 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
 Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(MarkerRows rows, ReadTrcRows(text, file));
   const MarkerMotion& markers = rows.markers;
-  const TimeScale scale = FindTimeScale(rows.times_s, {markers.rate_hz, rows.rate_name});
+  const auto told = rows.rate_name.empty() ? std::nullopt : std::optional(markers.rate_hz);
+  const TimeScale scale = FindTimeScale(rows.times_s, {told, rows.rate_name});
   for (double& time : rows.times_s) time = scale.SecondsOf(time);
   RETURN_IF_ERROR(CheckMarkerNames(markers.names, file));
   // Place rows of constant rate exactly one period apart, because their written times are rounded.
-  ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, markers.rate_hz, markers.names.size(), file));
+  ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   StreamRecording recording{.format = StreamFormat::kTrc, .records_times = true, .is_level = true};
+  if (!grid && !told) return Fail({file, 3}, "DataRate is 0, and the rows have one time");
   recording.rate_hz = grid ? grid->rate_hz : markers.rate_hz;
   for (const std::string& remark : {markers.remark, scale.remark}) {
     if (!remark.empty()) recording.remarks.push_back(remark);

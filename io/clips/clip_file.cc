@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"
@@ -193,7 +193,9 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       if (const auto motion = BodyOf(raw)) {
         std::vector<std::string> notes = {"Etude's own arrays"};
         notes.insert(notes.end(), raw.notes.begin(), raw.notes.end());
-        if (const auto crossing = DescribeExchangedJoints(*motion); !crossing.empty()) notes.push_back(crossing);
+        if (auto crossing = DescribeExchangedJoints(RolesIn(raw), raw.rate_hz); !crossing.empty()) {
+          notes.push_back(std::move(crossing));
+        }
         file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
         if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
         return file;
@@ -235,8 +237,11 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   // Try text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
     std::string note = "angles of the model in the file's header";
-    ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note));
-    return FileOfBody(ClipFormat::kMot, motion, path, {note});
+    double start_s = 0;
+    ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note, &start_s));
+    file = FileOfBody(ClipFormat::kMot, motion, path, {note});
+    file.bodies[0].start_s = start_s;
+    return file;
   }
   if (first.text == "{" && IsDeepMimicMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));

@@ -45,15 +45,16 @@ std::string_view FormatName(ClipFormat format);
 struct MadeBody {
   /// The source of the body, and every change that was made to the file's content, as sentences for users.
   std::vector<std::string> changes;
-  UpFinding up = {};                 ///< the axis of the file that became Y
-  double floor_m = 0;                ///< the height that became 0
-  std::size_t first_frame = 0;       ///< the frame of the file that became the first
+  UpFinding up = {};                   ///< the axis of the file that became Y
+  double floor_m = 0;                  ///< the height that became 0
+  std::size_t first_frame = 0;         ///< the frame of the file that became the first
+  std::optional<double> start_s = {};  ///< the first frame's time by the file's own clock, if it states one
 };
 
 /// The content of a motion file.
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
-  Character figure;                       ///< a skeleton, and meshes if the file has any
+  Character figure;  ///< a skeleton, and meshes if the file has any
   /// Clips on that skeleton; some glTF files have none, a marker file has one per person.
   std::vector<Clip> clips;
   std::vector<MadeBody> bodies = {};      ///< one entry per clip if the clips are bodies already; else empty
@@ -61,7 +62,7 @@ struct ClipFile {
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
   /// MarkerBody::shown of each clip that was made from markers; filled only if `keeps_shown` is set.
   std::vector<MarkerMotion> shown = {};
-  bool has_rate = true;                  ///< false: the file gives no rate, so a rate was assumed
+  bool has_rate = true;  ///< false: the file gives no rate, so a rate was assumed
 };
 
 /// The options with which a clip is opened.

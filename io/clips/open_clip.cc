@@ -203,6 +203,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   };
   if (!is_recording && options.roles && options.roles->rate_hz) {
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
+    for (MadeBody& body : file.bodies) body.start_s.reset();
     for (MarkerMotion& shown : file.shown) {
       shown.rate_hz = *options.roles->rate_hz;
       shown.start_s.reset();  // the file's clock has another rate

@@ -125,11 +125,13 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
   } else {
     // UnderstandClip finds roles, unit and up axis; its resampling and its floor are not used here.
     const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
+    const std::optional<double> start_s = source.made ? source.made->start_s : std::nullopt;
     OpenOptions how = options;
     how.body.drop_t_pose = false;
     how.body.floor = 0;
     ASSIGN_OR_RETURN(const auto opened, UnderstandClip(std::move(source), how));
     raw = OfSkeleton(opened.source.clip, opened.body.metres_per_unit, opened.body.up);
+    raw.start_s = start_s;
     for (const Role role : AllRoles()) {
       const bool is_composed = std::ranges::find(opened.map.composed, role) != opened.map.composed.end();
       if (!is_composed) raw.roles[Index(role)] = opened.map[role].joint;

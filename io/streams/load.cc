@@ -8,6 +8,7 @@
 
 #include "engine/base/names.h"
 #include "engine/recognition/recognise.h"
+#include "engine/retargeting/exchanged_sides.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
 
@@ -36,6 +37,15 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
   if (!recording.is_level) text += ", " + Describe(made.level);
   if (made.lost_frames > 0) text += fmt::format(", nobody in {} of {} frames", made.lost_frames, frames);
   for (const std::string& remark : recording.remarks) text += ", " + remark;
+  std::vector<JointPositions> tracked;
+  for (const SensedFrame& frame : made.stream.frames) {
+    JointPositions& places = tracked.emplace_back();
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      if (frame.joints[i].state == TrackingState::kTracked) places[i] = frame.joints[i].position;
+    }
+  }
+  const std::string exchanged = DescribeExchangedJoints(tracked, made.stream.rate_hz);
+  if (!exchanged.empty()) text += ", " + exchanged;
   constexpr double kBackwards = -0.35;  // the threshold that CheckSides uses for clips
   const auto feet = FeetForward(made.stream);
   if (feet && *feet < kBackwards) text += ", feet point backwards: the stream may be mirrored (--reflect)";

@@ -228,6 +228,7 @@ def swapped(person, only=None):
 SLOW, SLOW_RATE, SLOW_FRAMES = "a film of 25 frames a second", 25, 50
 NTSC, NTSC_RATE = "a film of 29.97 frames a second", 30000 / 1001
 LATE_AND_NOISY = "late by 3 frames, keypoints off by 2 px"
+IN_ALL_FILMS = "sides swapped in 20 frames of all films"
 LEFT_RIGHT = {name for name in HALPE if name[0] in "LR" and ("L" + name[1:]) in HALPE}
 
 
@@ -249,8 +250,10 @@ def seen_people(cameras, mistake, truth):
                 # A second person walks behind the first; in the picture they overlap.
                 people.append(camera.person(figure(k / RATE, (1 - k / RATE, -1.1), 0.7)))
                 people = people[::-1] if k % 2 else people
+            is_amid = 20 <= k < 40
+            if mistake == IN_ALL_FILMS and is_amid:
+                people = [swapped(person)]
             if name == "cam2":
-                is_amid = 20 <= k < 40
                 exchanged = {"sides swapped in 20 frames": is_amid and swapped(person), "sides swapped for ever": swapped(person),
                              "legs swapped in 20 frames": is_amid and swapped(person, "legs"), "mirrored": swapped(person)}
                 turned = {"turned by 180": lambda p: [WIDTH - 1 - p[0], HEIGHT - 1 - p[1]], "mirrored": lambda p: [WIDTH - 1 - p[0], p[1]],
@@ -478,6 +481,11 @@ class Mistakes(EtudeCase):
                     if mistake == "none":
                         for word in ("corrected", "doubtful", "turned", "exchanged"):
                             self.assertNotIn(word, told)
+
+    # No camera contradicts another one, so nothing is mended; the person's joints jump.
+    def test_sides_that_change_in_all_films_are_doubted(self):
+        told, _, _ = self.capture(mistake=IN_ALL_FILMS, cameras=2)
+        self.assertIn("doubtful: left and right exchange their places from one frame to the next, 2 times (first at 0.", told)
 
     def test_what_no_page_names_is_told_and_mended(self):
         for name, (rig, pixels, words) in list(STRANGERS.items())[::1 if HEAVY else 5]:

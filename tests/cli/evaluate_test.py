@@ -217,6 +217,20 @@ class Evaluate(EtudeCase):
             self.assertIn(words, row["reason"])
             self.assertEqual("begins" in row["reason"], words != "")
 
+    def test_a_truth_whose_sides_are_exchanged_in_part_is_told(self):
+        left, right = self.names.index("left_wrist"), self.names.index("right_wrist")
+        frames = [list(frame) for frame in self.frames]
+        for frame in frames[20:40]:
+            frame[left], frame[right] = frame[right], frame[left]
+        wrong = self.trc_file("wrong.trc", frames)
+        for truth, answer, whose in ((wrong, self.shared / "clap.csv", "truth"), (self.shared / "clap.npz", wrong, "answer")):
+            self.evaluate(truth, answer, out=self.folder / whose)
+            told = next(part for part in self.rows(self.folder / whose)[0]["reason"].split("; ") if "exchange" in part)
+            self.assertEqual(told, "left and right exchange their places from one frame to the next, 2 times (first at 0.67 s): "
+                             "left_wrist – right_wrist")
+        self.evaluate(self.shared / "clap.npz", self.shared / "clap.csv")
+        self.assertNotIn("exchange", self.rows()[0]["reason"])
+
     def test_a_lag_is_found_and_both_are_judged(self):
         truth, answer = self.trc_file("truth.trc", self.frames), self.trc_file("late.trc", self.frames[2:])
         facts = self.facts("evaluate", truth, answer, "--lag", "find", "-o", self.out)

@@ -10,7 +10,9 @@
 #include "engine/formats/trc.h"
 #include "engine/keypoints/adjust_person.h"
 #include "engine/keypoints/agreement.h"
+#include "engine/keypoints/keypoint_motion.h"
 #include "engine/keypoints/rig_warnings.h"
+#include "engine/retargeting/exchanged_sides.h"
 #include "engine/unmarked/join_outlines.h"
 #include "io/files/files.h"
 #include "tools/capture/capture_parts.h"
@@ -272,6 +274,10 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   options.listener.print(PeopleText(person, views));
   TellMends(person, chosen, views, films.told);
   TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
+  std::vector<JointPositions> joints;
+  for (const LandmarkPositions& frame : person.landmarks) joints.push_back(JointsOf(frame));
+  const std::string exchanged = DescribeExchangedJoints(joints, recover.rate_hz);
+  if (!exchanged.empty()) films.told.Tell("doubtful: " + exchanged);
   options.listener.print(ReportText(person, views) + FitText(person));
   facts["keypoints"] = FactsOf(person, views, films.told.lines);
   // If the options require silhouettes, refine the motion with them.

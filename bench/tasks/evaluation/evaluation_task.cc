@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "bench/model/recording.h"
 #include "bench/recordings/evaluation_extras.h"
@@ -10,6 +11,8 @@
 #include "bench/tasks/evaluation/match.h"
 #include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/evaluation/run.h"
+#include "engine/retargeting/body_doubts.h"
+#include "engine/retargeting/joint_arrays.h"
 #include "io/clips/raw_motions.h"
 
 namespace etude {
@@ -30,6 +33,13 @@ Recording RecordingOf(const MatchedMotions& matched) {
   extras.truth.positions = matched.pair.truth.positions;
   extras.answer.positions = matched.pair.found.positions;
   return {{}, WriteEvaluationExtras(extras)};
+}
+
+/// Adds to the notes what no person's motion has. Only points are judged: UnderstandClip refuses skeletons whose sides
+/// are exchanged, and drawn figures may come apart.
+void AddDoubts(RawMotion& motion) {
+  if (!motion.rotations.empty()) return;
+  std::ranges::move(DoubtsOnBody(RolesIn(motion), motion.rate_hz), std::back_inserter(motion.notes));
 }
 
 /// The world of one pair of files. The truth is read when the world is made, each answer when it is judged.
@@ -53,8 +63,9 @@ class EvaluationWorld final : public FileWorld {
     }
     const std::string& reference = files_.answers[method];
     if (reference.empty()) return CellResult::Ended(Status::kFailed, "the method has no answer of this name");
-    const auto answer = OpenRawMotion(reference, study_.opening);
+    auto answer = OpenRawMotion(reference, study_.opening);
     if (!answer) return CellResult::Ended(Status::kFailed, ToString(answer.error()));
+    AddDoubts(*answer);
     return Judged(*answer);
   }
 
@@ -64,6 +75,7 @@ class EvaluationWorld final : public FileWorld {
   static Result<RawMotion> Open(const EvaluationStudy& study, const std::string& reference) {
     auto truth = OpenRawMotion(reference, study.opening, study.has_only_controls);
     if (truth && study.has_only_controls) truth->contacts = ContactsByMotion(*truth);
+    if (truth && !study.has_only_controls) AddDoubts(*truth);
     return truth;
   }
 

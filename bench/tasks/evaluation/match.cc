@@ -239,6 +239,8 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
   if (is_resampled) note += fmt::format(", the answer was interpolated linearly from {:g} Hz", answer.rate_hz);
   if (matched.lag) note += ", " + NoteOn(*matched.lag);
   if (!clock.empty()) note += ", " + clock;
+  // At another rate, the last frame may be the rest of a frame of the truth.
+  if (matched.surplus > 1) note += fmt::format(", {} frames of the answer outside the truth", matched.surplus);
   if (matched.uncovered > 0) note += fmt::format(", {} frames of the truth outside the answer", matched.uncovered);
   for (const RawMotion* motion : {&truth, &answer}) {
     if (motion->notes.empty()) continue;
@@ -315,6 +317,12 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     constexpr double kRounding = 1e-6;  // tolerance in frames, as in `Sampled`
     const double at = (start_s + static_cast<double>(f) / rate_hz) * answer.rate_hz;
     if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) ++matched.uncovered;
+  }
+  // Count the answer's frames before the truth's first and after its last frame.
+  for (std::size_t f = 0; f < answer.FrameCount(); ++f) {
+    constexpr double kOutside = 0.5;  // frames
+    const double at = (static_cast<double>(f) / answer.rate_hz - start_s) * truth.rate_hz;
+    if (at < -kOutside || at > static_cast<double>(frames - 1) + kOutside) ++matched.surplus;
   }
   if (SeenShare(matched.pair).value_or(0) == 0) {
     return Fail({answer.name}, "no joint of '{}' is ever seen in both motions", truth.name);

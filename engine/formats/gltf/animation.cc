@@ -198,6 +198,7 @@ struct Timing {
   double start = 0;
   double rate_hz = kDefaultRateHz;
   double frames = 1;  ///< number of frames, a whole number; it may exceed the allowed number
+  double step = 0;    ///< mean time between the keys of the property with most keys, seconds
 };
 
 void Apply(const Channel& channel, double time, LocalPose& pose) {
@@ -258,13 +259,15 @@ double RateOf(const std::vector<Channel>& channels, double start) {
 Timing TimingOf(const std::vector<Channel>& channels) {
   double start = channels.front().curve.times().front();
   double end = start;
+  std::size_t keys = 2;
   for (const Channel& channel : channels) {
     start = std::min(start, channel.curve.times().front());
     end = std::max(end, channel.curve.times().back());
+    keys = std::max(keys, channel.curve.CountTimes());
   }
   const double rate = RateOf(channels, start);
   constexpr double kSlack = 0.02;  // tolerance, as a share of a frame, as in LiesOnGrid
-  return {start, rate, std::floor((end - start) * rate + kSlack) + 1};
+  return {start, rate, std::floor((end - start) * rate + kSlack) + 1, (end - start) / static_cast<double>(keys - 1)};
 }
 
 class ClipReader {
@@ -332,8 +335,11 @@ class ClipReader {
     const std::size_t joints = nodes_.skeleton.joints.size();
     frame_bytes_ += timing.frames * static_cast<double>(joints * sizeof(LocalTransform));
     if (frame_bytes_ > kMaxFrameBytes) {
-      return file_.Refuse(where, "with its {} frames of {} joints all clips take {:.0f} MB; allowed: {:.0f} MB",
-                          timing.frames, joints, frame_bytes_ / 1e6, kMaxFrameBytes / 1e6);
+      return file_.Refuse(where, "with its {} frames of {} joints all clips take {:.0f} MB; allowed: {:.0f} MB{}",
+                          timing.frames, joints, frame_bytes_ / 1e6, kMaxFrameBytes / 1e6,
+                          timing.step > 1
+                              ? fmt::format("; its keys are {:.3g} s apart: does it count milliseconds?", timing.step)
+                              : "");
     }
     Clip clip{.name = UniqueName(index), .skeleton = nodes_.skeleton, .rate_hz = timing.rate_hz, .frames = {}};
     clip.frames.assign(static_cast<std::size_t>(timing.frames), RestPose(clip.skeleton));
@@ -343,6 +349,11 @@ class ClipReader {
       if (auto ok = CheckGltfPose(file_, clip.skeleton, clip.frames[k], fmt::format("{} at {} s", where, time)); !ok) {
         return ok;
       }
+    }
+    constexpr double kLate_s = 0.1;  // some exporters put the first frame at the time of frame 1
+    if (timing.start > kLate_s) {
+      remarks_.push_back(
+          fmt::format("the keys of {} begin at {:.3g} s, which becomes time 0", Quote(clip.name), timing.start));
     }
     clips_.push_back(std::move(clip));
     return {};

@@ -95,6 +95,19 @@ TEST(Acclaim, AnglesThatAreImpossibleInTheStatedUnitAreTakenInTheOtherOrSaid) {
   EXPECT_EQ(said("1\nroot 5 0 0 0 0 0\nupper 0 0 0\n"), "");
 }
 
+TEST(Acclaim, ARootThatTurnsOnAndOnMayBeInRadians) {
+  const std::string degrees = "1\nroot 0 0 0 0 1080 0\nupper 90 0 0\n", radians =
+      ":RADIANS\n1\nroot 0 0 0 0 18.8495559215388 0\nupper 1.5707963267949 0 0\n";
+  ASSERT_OK(skeleton, ReadAcclaimSkeleton(kSkeleton, "a.asf"));
+  std::vector<std::string> remarks;
+  ASSERT_OK(wanted, ReadAcclaimMotion(degrees, *skeleton, "a.amc"));
+  ASSERT_OK(clip, ReadAcclaimMotion(radians, *skeleton, "a.amc", &remarks));
+  const int end = clip->skeleton.Find("lower_end");
+  ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[end].position, AcclaimGlobals(*wanted, 0)[end].position);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0], "its root turns by 18.85 radians: if its angles are degrees, a line :DEGREES must say so");
+}
+
 TEST(Acclaim, RefusesWhatHasNoBones) {
   EXPECT_EQ(testing::Refusal(ReadAcclaimSkeleton("", "a.asf")),
             "a.asf: no bones; allowed: an Acclaim skeleton with :root and :bonedata");

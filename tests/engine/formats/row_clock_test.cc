@@ -248,10 +248,11 @@ TEST(RowClock, OfTrcIsItsColumnTimeElseItsFrameNumbers) {
 }
 
 TEST(RowClock, OfABodyIsBridgedForASecondAndCutBeyond) {
-  const auto lay = [](const std::vector<double>& times, std::string& remark) {
+  double start_s = 0;
+  const auto lay = [&](const std::vector<double>& times, std::string& remark) {
     BodyMotion rows{.poses = {}};
     for (const double time : times) rows.poses.emplace_back()[Role::kHead] = CurveAt(time);
-    const auto motion = LayOnClock(std::move(rows), times, "a", remark);
+    const auto motion = LayOnClock(std::move(rows), times, "a", remark, start_s);
     EXPECT_TRUE(motion);
     return motion.value_or(BodyMotion{});
   };
@@ -260,11 +261,25 @@ TEST(RowClock, OfABodyIsBridgedForASecondAndCutBeyond) {
   ASSERT_EQ(bridged.poses.size(), 60u);
   EXPECT_LT(glm::distance(bridged.poses[27][Role::kHead], 0.5 * (CurveAt(19 / 30.0) + CurveAt(35 / 30.0))), 1e-9);
   EXPECT_THAT(remark, HasSubstr("15 of 60 frames are missing"));
+  EXPECT_EQ(start_s, 0);
   remark.clear();
   const BodyMotion cut = lay(TimesAt(30, 100, 20, 60), remark);
   ASSERT_EQ(cut.poses.size(), 40u);
   EXPECT_LT(glm::distance(cut.poses[0][Role::kHead], CurveAt(2)), 1e-9);
   EXPECT_THAT(remark, HasSubstr("frames 61 to 100 of 100 are kept"));
+  EXPECT_EQ(start_s, 2);
+}
+
+TEST(RowClock, FrameNumbersThatBeginLaterAreSaidWhereThereAreNoTimes) {
+  const auto remark = [](double first_number, bool has_clock) {
+    MarkerRows rows = RowsAt(TimesAt(30, 90), 30);
+    rows.first_number = first_number;
+    rows.has_clock = has_clock;
+    return LayOnClock(std::move(rows), "a")->remark;
+  };
+  EXPECT_EQ(remark(11, false), "its frames have numbers from 11 on and no times: the first has time 0");
+  for (const double usual : {0.0, 1.0}) EXPECT_EQ(remark(usual, false), "");
+  EXPECT_EQ(remark(11, true), "");
 }
 
 }  // namespace

@@ -90,6 +90,29 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
   EXPECT_EQ(brief->remark, "");
 }
 
+TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsZero) {
+  ASSERT_OK(read, ReadTrc(AtFiftyHertz(0, 60), "a.trc"));
+  EXPECT_EQ(read->rate_hz, 50);
+  EXPECT_EQ(read->remark, "");
+  EXPECT_EQ(testing::Refusal(ReadTrc(AtFiftyHertz(0, 1), "a.trc")),
+            "a.trc:3: DataRate is 0, and the rows have one time");
+  std::string timeless = AtFiftyHertz(0, 2);
+  for (const char* time : {"7.00", "7.02"}) timeless.erase(timeless.find(time), 4);
+  EXPECT_EQ(testing::Refusal(ReadTrc(timeless, "a.trc")), "a.trc:3: DataRate is 0, and the rows have no times");
+}
+
+TEST(ReadTrc, TakesTheFirstFrameAndTheAxesFromTheLineThatHasThem) {
+  const std::string text = AtFiftyHertz(50, 60);
+  const std::size_t blank = text.find("\n\n") + 1;
+  const auto with = [&](const std::string& line) { return text.substr(0, blank) + line + text.substr(blank); };
+  ASSERT_OK(wanted, ReadTrc(with("\t\tX1\tY1\tZ1\n"), "a.trc"));
+  ASSERT_OK(none, ReadTrc(text.substr(0, blank) + text.substr(blank + 1), "a.trc"));
+  EXPECT_EQ(none->frames, wanted->frames) << "a file without that line";
+  EXPECT_EQ(ReadTrc(with("\tx1\ty1\tz1\t\n"), "a.trc")->frames, wanted->frames);
+  EXPECT_EQ(testing::Refusal(ReadTrc(with("\t\tX1\tZ1\tY1\n"), "a.trc")),
+            "a.trc:5: axes in the order XZY; allowed: X, Y, Z of each marker");
+}
+
 TEST(ReadTrc, RefusesShortRowsOfMoreMarkersThanFitIntoMemory) {
   std::string text = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tNumFrames\tNumMarkers\tUnits\n50\t40000\t1000\tm\n";
   text += "Frame#\tTime";

@@ -455,7 +455,8 @@ Clip StiffWalk(double root_factor) {
 
 TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
   EXPECT_THAT(Convert(StiffWalk(1))->doubts, ::testing::IsEmpty());
-  for (const auto& [factor, said] : {std::pair(0.01, "100 times"), {1 / 2.54, "2.54 times"}, {100.0, "0.01 times"}}) {
+  for (const auto& [factor, said] : {std::pair(0.01, "100 times"), {1 / 2.54, "2.54 times"}, {1 / 17.72, "17.72 times"},
+                                     {1 / 5.644, "5.644 times"}, {100.0, "0.01 times"}}) {
     ASSERT_OK(body, Convert(StiffWalk(factor)));
     EXPECT_THAT(body->doubts, ::testing::ElementsAre(HasSubstr(fmt::format("the root's positions are {}", said))));
   }
@@ -496,7 +497,7 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
       << "the T-pose's frames count";
 
   EXPECT_EQ(testing::Message(Convert(AtRest(testing::PersonSkeleton(), 400, 0.1))),
-            "the clip lasts 3990 s; allowed: 3600 s");
+            "the clip lasts 3990 s; allowed: 3600 s; its frames are 10 s apart: does it count milliseconds?");
 }
 
 }  // namespace

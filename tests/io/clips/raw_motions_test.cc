@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/clip.h"
+#include "engine/retargeting/opensim_motion.h"
 #include "io/clips/body_in_place.h"
 #include "io/clips/references.h"
 #include "sim/choreography/canonical_body.h"
@@ -206,6 +208,22 @@ TEST_F(RawMotionsTest, KimodosWholeSkeletonHasItsFingersAndTheSameRoles) {
   const auto refused = ReadKimodo(arrays(), "k.npz");
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("1 × 76 × 3"));
+}
+
+TEST_F(RawMotionsTest, AnglesKeepTheClockOfTheirFile) {
+  const BodyMotion motion = Lifted(25, 12);
+  std::istringstream text(WriteOpenSimMotion(motion, StandingPose(), "a"));
+  std::string all, cut;
+  int row = -1;  // 0 is the line of headings
+  for (std::string line; std::getline(text, line);) {
+    if (row >= 0 || line.starts_with("time")) ++row;
+    all += line + "\n";
+    if (row <= 0 || row > 5) cut += line + "\n";
+  }
+  EXPECT_EQ(Opened(Write("all.mot", all)).start_s, 0);
+  const RawMotion late = Opened(Write("cut.mot", cut));
+  EXPECT_EQ(late.start_s, 0.2);
+  EXPECT_EQ(late.FrameCount(), 7u);
 }
 
 TEST_F(RawMotionsTest, ABuiltInClipIsItsOwnBody) {

@@ -10,6 +10,7 @@
 #include "io/clips/clip_library.h"
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
+#include "sim/choreography/move.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -123,6 +124,24 @@ std::string OpenNiBvh(double back) {
     text += '\n';
   }
   return text;
+}
+
+TEST(LoadStreams, SidesThatAreExchangedInAPartOfARecordingAreSaid) {
+  ASSERT_OK(folder, TemporaryFolder::Make("sides"));
+  ASSERT_OK(move, LoadBuiltinMove("boxing"));
+  const auto description = [&](const BodyMotion& motion) {
+    const std::string file = (std::filesystem::path(folder->path()) / "take.csv").string();
+    EXPECT_TRUE(WriteFileAtomically(file, WriteJointCsv(motion)));
+    const auto loaded = LoadStreams({file}, {}, {});
+    return loaded ? loaded->streams.front().description : ToString(loaded.error());
+  };
+  EXPECT_EQ(description(move->motion).find("exchange"), std::string::npos) << description(move->motion);
+  BodyMotion wrong = move->motion;
+  for (std::size_t f = 20; f < 40; ++f) std::swap(wrong.poses[f][Role::kLeftKnee], wrong.poses[f][Role::kRightKnee]);
+  EXPECT_NE(description(wrong).find("left and right exchange their places from one frame to the next, 2 times (first at "
+                                    "0.67 s): left_knee – right_knee"),
+            std::string::npos)
+      << description(wrong);
 }
 
 TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsRefused) {

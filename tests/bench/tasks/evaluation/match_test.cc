@@ -64,6 +64,19 @@ TEST(Match, AnAnswerThatEndsEarlyIsJudgedWhereItIs) {
   EXPECT_THAT(result.reason, HasSubstr("15 frames of the truth outside the answer"));
 }
 
+TEST(Match, FramesOfTheAnswerOutsideTheTruthAreSaid) {
+  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(30, 120)).reason, HasSubstr("60 frames of the answer outside the truth"));
+  EXPECT_THAT(Judged(Gliding(30, 60), Gliding(60, 240)).reason,
+              HasSubstr("120 frames of the answer outside the truth"));
+  RawMotion truth = Gliding(30, 60), answer = Gliding(30, 60);
+  truth.start_s = 10;
+  answer.start_s = 9;
+  EXPECT_THAT(Judged(truth, answer).reason, HasSubstr("30 frames of the answer outside the truth, 30 frames of the"));
+  for (const RawMotion& same : {Gliding(30, 60), Gliding(12.5, 26), Gliding(60, 120), Gliding(30, 30)}) {
+    EXPECT_THAT(Judged(Gliding(30, 60), same).reason, ::testing::Not(HasSubstr("outside the truth")));
+  }
+}
+
 TEST(Match, ABodyOfAnotherSizeIsRightOnceScaled) {
   RawMotion answer = Gliding(30, 10);
   for (glm::dvec3& p : answer.positions) p *= 1.1;

@@ -185,6 +185,20 @@ TEST(GltfAnimation, BeginsAtItsFirstKeyAndEndsAtItsLastOfAllChannels) {
   EXPECT_EQ(frames[3].scale, glm::dvec3(4));
 }
 
+TEST(GltfAnimation, ALateBeginningAndTimesInMillisecondsAreSaid) {
+  const auto begins_at = [](float start) {
+    return Read(Animated({{"translation", "LINEAR", {start, start + 1, start + 2}, {0, 0, 0, 1, 0, 0, 0, 0, 0}}}))
+        .remarks;
+  };
+  EXPECT_THAT(begins_at(2), ::testing::ElementsAre("the keys of 'Move' begin at 2 s, which becomes time 0"));
+  EXPECT_THAT(begins_at(1.f / 24), ::testing::IsEmpty()) << "as of exporters that count frames from 1";
+  // Six hours in milliseconds, with an uneven step.
+  const auto refused = ReadGltf(
+      Animated({{"translation", "LINEAR", {0, 33, 70, 21.6e6f}, {0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0}}}), "a.glb", {});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("s apart: does it count milliseconds?"));
+}
+
 TEST(GltfAnimation, TakesTheRateFromWhatMoves) {
   // Exporters give constant values two keys with STEP.
   const Clip clip = OnlyClip(Animated({{"scale", "STEP", {0, 0.1f}, {2, 2, 2, 2, 2, 2}},

@@ -1,0 +1,52 @@
+#include "engine/retargeting/body_doubts.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "engine/motion/motion_faults.h"
+#include "engine/retargeting/exchanged_sides.h"
+#include "engine/retargeting/marker_sets.h"
+
+namespace etude {
+
+std::vector<std::string> DoubtsOnBody(std::span<const JointPositions> frames, double rate_hz) {
+  std::vector<std::string> doubts;
+  if (auto said = DescribeExchangedJoints(frames, rate_hz); !said.empty()) doubts.push_back(std::move(said));
+  // Make a body. A joint that is not seen stays where it was, or is put midway between others.
+  BodyMotion body{.rate_hz = rate_hz, .poses = {}};
+  std::vector<JointSet> unseen;
+  for (const JointPositions& frame : frames) {
+    const auto lacks = [&](Role role) { return !frame[Index(role)]; };
+    if (body.poses.empty() && std::ranges::any_of(kNeededJoints, lacks)) continue;
+    BodyPose pose = body.poses.empty() ? BodyPose{} : body.poses.back();
+    JointSet& hidden = unseen.emplace_back();
+    for (const Role role : AllRoles()) {
+      if (!lacks(role)) pose[role] = *frame[Index(role)];
+      hidden.set(Index(role), lacks(role));
+    }
+    const auto put_midway = [&](Role role, Role a, Role b) {
+      if (lacks(role)) pose[role] = 0.5 * (pose[a] + pose[b]);
+    };
+    put_midway(Role::kHipCentre, Role::kLeftHip, Role::kRightHip);
+    put_midway(Role::kShoulderCentre, Role::kLeftShoulder, Role::kRightShoulder);
+    put_midway(Role::kSpine, Role::kHipCentre, Role::kShoulderCentre);
+    body.poses.push_back(pose);
+  }
+  // Choose the faults that no error of a position explains.
+  std::vector<MotionFault> torn;
+  std::array<std::string, 2> bends;
+  const double begin_s = static_cast<double>(frames.size() - body.poses.size()) / rate_hz;
+  const MotionFaults found = FindMotionFaults(body, {.begin_s = begin_s, .unseen = std::move(unseen)});
+  for (const MotionFault& fault : found.faults) {
+    if (fault.kind == FaultKind::kTorn) torn.push_back(fault);
+    if (fault.kind != FaultKind::kBends) continue;
+    if (std::string& first = bends[fault.joint == Role::kLeftKnee ? 0 : 1]; first.empty()) first = fault.text;
+  }
+  std::ranges::move(FaultSentences(torn), std::back_inserter(doubts));
+  if (!bends[0].empty() && !bends[1].empty()) doubts.push_back(bends[0] + "; " + bends[1] + ": is an axis mirrored?");
+  return doubts;
+}
+
+}  // namespace etude

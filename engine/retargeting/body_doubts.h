@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/retargeting/skin_markers.h"
+
+namespace etude {
+
+/// Returns what no person's motion has, as sentences for users: left and right are exchanged (DescribeExchangedJoints),
+/// a joint is torn off its neighbours (FindMotionFaults), or both knees bend backwards. Joints may have wrong names, or
+/// an axis may be mirrored. `frames` are in metres, Y up. A joint that a frame lacks is not judged; frames before the
+/// first one with all needed joints (kNeededJoints) only count for exchanges.
+std::vector<std::string> DoubtsOnBody(std::span<const JointPositions> frames, double rate_hz);
+
+}  // namespace etude
