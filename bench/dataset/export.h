@@ -13,7 +13,7 @@ namespace etude {
 
 struct ExportOptions {
   std::vector<std::string> scenarios;  ///< paths of files, or of folders with *.yaml files
-  std::optional<std::uint64_t> seed;   ///< seed of the worlds; nullopt = each scenario's own, else 1
+  std::optional<std::uint64_t> seed;   ///< seed of the worlds; nullopt = each scenario's own seed, else 1
   std::optional<SecretKey> key = {};   ///< the key of secret worlds, instead of a seed
   bool reuse_key = false;              ///< true: the key may have been used before (used_keys.h)
   std::optional<int> trials;           ///< trials per condition; nullopt = each scenario's own

@@ -72,7 +72,7 @@ std::string NameOf(const Plan& plan, std::size_t w) {
                      WorldName(plan.scenario_of(w), world.condition, world.trial));
 }
 
-// The limit of kMaxReplyBytes; 60 s of poses take 3 MB.
+// Largest size of an answer file, bytes; equal to kMaxReplyBytes. An answer with 60 s of poses takes 3 MB.
 constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;
 
 Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {

@@ -76,7 +76,7 @@ Result<std::string> SealOf(Json baseline) {
   return Digest().Add(std::string_view(text)).Hex();
 }
 
-/// The cells that one line of statuses or values fills: those of one scenario, condition and method.
+/// The cells of one scenario, condition and method. One line of statuses or values in the file fills them.
 struct Slot {
   std::size_t trials = 0;
   SnapshotCells* cells = nullptr;

@@ -71,7 +71,7 @@ struct Snapshot {
   std::string suite;
   std::string program_version;
   std::vector<SnapshotScenario> scenarios;
-  std::string unsealed = {};  ///< why its seal does not match, if it was read from a file; else ""
+  std::string unsealed = {};  ///< why the file's seal does not match; "" = it matches, or no file was read
 };
 
 /// Returns the letter of a status: 'o' ok, 'u' unsolved, 'f' failed, 't' timeout, 'c' crashed, 'm' out of memory, 'b'

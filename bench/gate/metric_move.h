@@ -48,7 +48,7 @@ struct MetricMove {
   MoveIdentity identity;
   Movement movement = Movement::kSame;
   int worlds = 0;     ///< number of worlds in which no cell timed out, crashed or ran out of memory
-  int differing = 0;  ///< number of these worlds in which the value differs, or exists in one snapshot only
+  int differing = 0;  ///< number of compared worlds in which the value differs, or exists in one snapshot only
   int lost = 0;       ///< number of worlds with a value in the first snapshot only
   int gained = 0;     ///< number of worlds with a value in the second snapshot only
   std::optional<double> before, after;  ///< the metric's aggregate over the values in each snapshot
@@ -87,7 +87,7 @@ void JudgeMoves(std::span<MetricMove> moves, const std::set<std::string>& exact)
 using TailRules = std::map<std::string, TailRule>;
 
 /// Returns the worlds that became far worse: by more than `rule.times` practical thresholds, or because their value was
-/// lost. For kOkShare, a world is far worse if it was `ok` and no longer is; it counts as lost unless it is now
+/// lost. For kOkShare, a world is far worse if it was `ok` and no longer is; the world counts as lost unless it is now
 /// `unsolved`. If the metric has no direction, only lost values count. Lost worlds come first, then the others from the
 /// worst on.
 std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);

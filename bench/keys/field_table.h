@@ -166,7 +166,7 @@ struct Field {
             }};
   }
 
-  /// Adds the unit. It is needed only if the key's name does not state the whole unit.
+  /// Adds the unit of the values. It is needed only if the key's name does not state the whole unit.
   Field Unit(const std::string& unit) const {
     Field field = *this;
     field.info.value.allowed += " (" + unit + ")";
@@ -201,7 +201,7 @@ struct Field {
 };
 
 /// All keys of a mapping, in the order in which they are read and documented. A key may occur several times, because
-/// two solvers may have settings of the same name, but at most one of its conditions may hold at once.
+/// two solvers may have settings of the same name, but at most one of the key's conditions may hold at once.
 template <typename Options>
 struct FieldTable {
   std::vector<Field<Options>> fields;

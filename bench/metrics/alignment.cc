@@ -62,7 +62,7 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   return similarity;
 }
 
-/// Returns `fit`, or without scale the rigid transformation with the same rotation. `fit` has a scale.
+/// Returns `fit`, which has a scale. If `with_scale` is false, returns the rigid transformation with the same rotation.
 std::optional<Similarity> WithScale(const std::optional<Similarity>& fit, const PointMoments& moments,
                                     bool with_scale) {
   if (!fit || with_scale) return fit;

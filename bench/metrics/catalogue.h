@@ -60,9 +60,9 @@ struct MetricInfo {
 
   std::string practical_reason;     ///< why a smaller difference than `practical` does not matter
   std::string formula;              ///< the exact definition: frames, denominators, edge cases
-  std::string null_rule;            ///< the cases in which it has no value although the method answered
+  std::string null_rule;            ///< the cases in which the metric has no value although the method answered
   std::string source;               ///< the origin of the definition
-  std::vector<MetricInput> inputs;  ///< the inputs of its test vectors
+  std::vector<MetricInput> inputs;  ///< the inputs of the metric's test vectors
   std::span<const MetricVector> vectors = {};
   std::string domain = {};  ///< the metric's heading on the reference page, e.g. "Inverse kinematics"
 };

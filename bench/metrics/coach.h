@@ -22,7 +22,8 @@ struct CoachedPerformance {
 /// A correction that the coach decided to give.
 struct GivenCorrection {
   int decided_frame = 0;
-  std::optional<int> act_frame;  ///< first frame of the act, without its transition; empty if the session ended first
+  std::optional<int> act_frame;  ///< first frame of the correcting act, without its transition; empty if the session
+                                 ///< ended first
 };
 
 /// A coached session (docs/reference/metrics.md, Coach). Performances and corrections are in order of time.
@@ -49,9 +50,9 @@ CorrectionTally TallyCorrections(const CoachedSession& session);
 /// no performance was wrong.
 std::optional<double> AnsweredShare(const CorrectionTally& tally);
 
-/// Returns `decision_delay_s`: the time from the first frame of a wrong performance until the coach judges it wrong.
-/// The time is censored at the end of the window if the coach never does. Kaplan–Meier median; empty if the survival
-/// curve never falls to one half.
+/// Returns `decision_delay_s`: the time from the first frame of a wrong performance until the coach judges it wrong. If
+/// the coach never judges it wrong, the time is censored at the end of the window. Kaplan–Meier median; empty if the
+/// survival curve never falls to one half.
 std::optional<double> DecisionDelaySeconds(const CoachedSession& session);
 /// Returns `feedback_delay_s`: the time from the decision to correct until the first frame of the correcting act,
 /// censored at the session's end. Kaplan–Meier median; empty if the survival curve never falls to one half.

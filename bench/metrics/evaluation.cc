@@ -28,7 +28,7 @@ void SeenMean::Add(std::span<const double> values) {
     }
   };
   add_seen(std::min((kSums - next_) % kSums, values.size()));
-  // Add groups of kSums values at a time without testing each for NaN, because a NaN shows in the sum.
+  // Add kSums values at a time without testing each value for NaN: a NaN makes the sum NaN, which is tested.
   const std::size_t rounds = (values.size() - i) / kSums;
   double sums[kSums];
   std::copy_n(sums_, kSums, sums);

@@ -40,7 +40,8 @@ struct Distances {
 struct Line {
   double slope = 0, mean_truth = 0, mean_found = 0;
   double square_truth = 0;
-  double explained = 0, all = 0;  ///< sums of squares of the answer: explained by the line, and total
+  double explained = 0, all = 0;  ///< sums of squares of the answer's distances: the part that the line explains, and
+                                  ///< the total
 };
 
 Line FitLine(const Distances& pair) {

@@ -265,7 +265,7 @@ class BesideClip {
 
   std::span<const BodyPose> poses() const { return poses_; }
   /// Returns the index in poses() of a shown frame, if this joint supports the clip's body in that frame, or if no
-  /// joint supports it. Returns nullopt otherwise.
+  /// joint supports the clip's body. Returns nullopt otherwise.
   std::optional<int> BearsAt(int frame, std::size_t joint) const {
     const int now = frame - begin_;
     if (now < 0 || now >= static_cast<int>(poses_.size())) return std::nullopt;
@@ -323,8 +323,8 @@ double SlowestOf(const JointSet& joints, const Speed& speed) {
   return slowest.value_or(0);
 }
 
-/// Sets a measurement of a frame to 0 if it is at most 1.25 times the largest value that the clips themselves reach
-/// within three frames of it.
+/// Sets each measurement of a frame to 0 if the measurement is at most 1.25 times the largest value that the clips
+/// themselves reach within three frames of this frame.
 void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame) {
   constexpr int kReach = 3;
   constexpr double kAllowance = 1.25;
@@ -370,8 +370,8 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
     BodyFrame frame = FrameOf(moving, f - from, held);
     Excuse(clips, f, frame);
     // Glide is the distance moved by the slowest supporting joint or, without support, by the slowest joint of the
-    // feet. If this joint also supports the body in a clip, the shorter of two distances is taken: its own movement, or
-    // its movement relative to the clip.
+    // feet. If this joint also supports the body in a clip, the shorter of two distances is taken: the joint's own
+    // movement, or the joint's movement relative to the clip.
     if (!held.flight) {
       frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
         double slowest = TravelOf(view.shown, f, j).value_or(0);

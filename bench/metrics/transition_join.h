@@ -14,7 +14,7 @@ namespace etude {
 /// motions have the rate at which joins are judged and are in metres.
 struct JoinView {
   std::span<const BodyPose> shown;  ///< the spliced motion
-  /// The old clip, continued. left[f] is its own frame at the time of shown[f]; the first index is 0.
+  /// The old clip, continued. left[f] is the old clip's frame at the time of shown[f]; the first index is 0.
   std::span<const BodyPose> left;
   /// The wanted clip, placed where it is shown. The frame wanted[k] belongs to shown[last + k].
   std::span<const BodyPose> wanted;
@@ -117,7 +117,7 @@ struct CleanMeasures {
   double own_slide_cmps = 0;  ///< foot slide of the clip that slides more, measured over the whole clip
   double skipped_share = 0;
   std::optional<double> settle_s;
-  bool possible = false;  ///< all measures of its body are within their limits (transition_body.h)
+  bool possible = false;  ///< all measures of the shown body are within their limits (transition_body.h)
 };
 /// Returns true if the transition is clean by `clean_share_v3`: `natural`, `calmly_natural` and `supported` are true;
 /// `slide_cmps` is at most 6 or at most `own_slide_cmps`; the motion settles within 1.5 s; `strange_cm_s` is at most 10

@@ -53,7 +53,7 @@ struct Series {
   std::string name;  ///< name of the curve, e.g. "mpjpe_mm"
   std::string axis;  ///< what the values are indexed by: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
-  std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into them
+  std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into these names
 };
 
 struct Track;  // Forward declaration: bench/model/recording.h defines Track and includes the headers of motions.

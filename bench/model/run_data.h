@@ -20,8 +20,8 @@ class RowSource {
  public:
   virtual ~RowSource() = default;
   virtual std::size_t size() const = 0;
-  /// Chooses evenly spaced worlds and returns the indices of all their rows. The result has about `rows` indices, or
-  /// those of all rows if the run has fewer.
+  /// Chooses evenly spaced worlds and returns the indices of all their rows. The result has about `rows` indices. If
+  /// the run has fewer rows, the result has the indices of all rows.
   virtual std::vector<std::size_t> SampleRowIndices(std::size_t rows) const = 0;
   /// Replaces `row` by the row at index `place`, reusing its memory. Series and recording are not read.
   virtual void Read(std::size_t place, Row& row) const = 0;

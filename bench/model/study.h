@@ -39,8 +39,8 @@ struct TailRule {
   double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
   /// A comparison with at least this many far worse worlds is a regression; 0 = never.
   int worlds = 4;
-  /// The minimum share of the compared worlds that must be far worse, in addition to their number. In a large number of
-  /// worlds, rounding may change a few.
+  /// The smallest share of the compared worlds that must be far worse for a regression. It applies in addition to
+  /// `worlds`: in a large number of worlds, rounding may change a few.
   double share = 0.05;
   /// A comparison in which at least this many worlds lost their value or answer is a regression; 0 = never.
   int lost = 1;
@@ -61,7 +61,8 @@ struct ComparedMethod {
   /// True: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
   bool has_oracle = false;
   std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces
-  std::string settings = {};             ///< its other settings as text; equal settings have equal texts; "" = outside
+  std::string settings = {};             ///< the method's settings besides `oracle`, as text; equal settings have equal
+                                         ///< texts; "" = outside method
   std::string description = {};          ///< a sentence about the method, or the method's settings
 };
 
@@ -71,7 +72,7 @@ struct Study {
   std::string scenario;
   std::string task;
   std::string question;
-  std::string description = {};  ///< a sentence about its worlds; "" = not described
+  std::string description = {};  ///< a sentence about the study's worlds; "" = not described
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 1;
   std::vector<ComparedMethod> methods;              ///< at least one method

@@ -30,7 +30,7 @@ struct Specimen {
 /// Makes two settings of a task with three problems each. The problems are the same in every call. Fails if there is no
 /// such task, if its worlds cannot be made on this machine (no renderer), or if `seat` is not one of the task's seats
 /// ("" if the task has no seats). With `recordings`, the worlds are the recorded people, with one problem for each of
-/// the first three; only task detection has such worlds. `recordings` must outlive the result.
+/// the first three people; only task detection has such worlds. `recordings` must outlive the result.
 Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat,
                                             const LabelledStreams* recordings = nullptr);
 

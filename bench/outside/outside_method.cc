@@ -182,7 +182,7 @@ Outcome<void> OutsideMethod::State::Start() {
   answered.clear();
   auto reply = Exchange(*hello, StartSeconds(), ReadHello);
   const bool ended = !reply && (reply.error().status == Status::kCrashed || reply.error().status == Status::kFailed);
-  if (ended) {  // the sandbox may be the cause
+  if (ended) {  // the program has ended; the sandbox may be the cause
     if (auto tried = options.fence.Try(); !tried) return NotAsked(tried.error());
     const std::string cure = program.CureOfStart();
     reply.error().reason += cure.empty() ? kHint : cure;

@@ -21,7 +21,8 @@ struct OutsideOptions {
   std::string options_json = {};     ///< an object sent in the handshake; "" = {}
   double time_s = 300;               ///< time limit per problem, or per step of a session
   double memory_mb = 4096;           ///< limit of resident memory of the program with all its processes
-  std::string error_file = {};       ///< file for its standard error, up to 1 MiB; "" = it shares Etude's
+  std::string error_file = {};       ///< file for the program's standard error, up to 1 MiB; "" = the program shares
+                                     ///< Etude's standard error
   /// The shortest time limit, in seconds, of the handshake and of each setting; `time_s` applies if it is longer.
   /// During these steps, programs load libraries and models.
   double start_s = 30;

@@ -22,7 +22,7 @@
 namespace etude {
 namespace {
 
-constexpr long kTailBytes = 4096;  // size of the end of the output in which the last line is searched
+constexpr long kTailBytes = 4096;  // number of bytes at the end of the output in which the last line is searched
 
 /// Opens a log file for appending, and creates its folder. Links are not followed, because a resumed run may come from
 /// somebody else.

@@ -43,7 +43,7 @@ class ErrorLog {
 
   std::string file_;
   int memory_ = -1;
-  Descriptor unbuffered_;  ///< the file itself, if the system cannot make a memory file
+  Descriptor unbuffered_;  ///< the log file itself, if the system cannot make a memory file
 };
 
 /// The reason why a program gave no answer.
@@ -91,7 +91,7 @@ class WatchedProgram {
   /// run.
   std::string WithoutFolder(std::string text) const;
 
-  /// Returns the processor time since the previous call, measured at the last sample before each call, seconds.
+  /// Returns the program's processor time since the previous call, seconds. Each call uses the last sample before it.
   double TakeCpuSeconds();
   /// Returns the largest memory measured since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }
@@ -111,7 +111,7 @@ class WatchedProgram {
   const OutsideOptions& options_;
   ErrorLog errors_;
   std::optional<TemporaryFolder> attachment_root_;
-  ProgramView view_;    ///< the view of the child, without attachments and the Python package
+  ProgramView view_;    ///< what the sandbox shows the child, apart from attachments and the Python package
   ControlGroup group_;  ///< the child's group; if this machine provides none, `meter_` measures the memory
   std::optional<ChildProcess> child_;
   std::optional<TreeMeter> meter_;  ///< measures the child and its processes

@@ -39,8 +39,8 @@ struct ReplayOptions {
   std::string folder;
   std::vector<std::string> cells;          ///< identities of cells, as in cells.jsonl; empty = a sample
   std::optional<std::size_t> sample = {};  ///< the size of the sample; nullopt = all cells
-  /// The seed of the sample; nullopt = the seed of the suite. The maker of the run knows the suite's seed and thus its
-  /// sample.
+  /// The seed of the sample; nullopt = the seed of the suite. The maker of the run knows the suite's seed, and thus the
+  /// cells that this seed draws.
   std::optional<std::uint64_t> dice = {};
   bool recorded_too = false;      ///< true: all cells with a recording are chosen in addition to the sample
   bool without_programs = false;  ///< true: cells that need outside programs are left out

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The NumPy names of the types of number that columns contain.
+/// NumPy's names for the number types that columns contain.
 template <typename Number>
 constexpr std::string_view kNpyType = {};
 template <>

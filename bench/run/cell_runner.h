@@ -25,8 +25,7 @@ struct FinishedCell {
 /// TaskWorld::Judge fails.
 Result<CellResult> JudgeAnswer(TaskWorld& world, const Json& answer);
 
-/// Runs the cells of one world after the cells of another. Each world is built once. Outside methods keep running
-/// between worlds.
+/// Runs cells, world by world. Each world is built once. Outside methods keep running between worlds.
 class CellRunner {
  public:
   /// Outside methods run in the sandbox `fence`. Their standard error goes to files in `error_folder`, or to Etude's
