@@ -30,7 +30,7 @@ Json EncodeScenario(const SnapshotScenario& scenario) {
             {"metrics", std::move(metrics)},
             {"worlds", EncodePairs(scenario.worlds)},
             {"methods", EncodePairs(scenario.methods)}};
-  // The order of files is kept.
+  // The files are a list of pairs, because a list keeps their order.
   for (const auto& [name, truth] : scenario.files) json["files"].push_back({name, truth});
   return json;
 }

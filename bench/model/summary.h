@@ -75,7 +75,7 @@ struct LeftOut {
 /// not run (bench/statistics/beyond.h). If every world is its own unit, the result equals the result on the worlds.
 struct Beyond {
   int units = 0;      ///< number of sampling units with at least one pair (a world with values of both methods)
-  int differing = 0;  ///< number of these units whose mean difference is not zero
+  int differing = 0;  ///< number of units whose mean difference is not zero
   /// The pseudo-median (Hodges–Lehmann) of the units' mean differences, and its 95 % interval, which decides the
   /// verdict.
   std::optional<double> difference, low, high;

@@ -24,7 +24,7 @@ struct Specimen {
   std::unique_ptr<ClipLibrary> clips;  ///< the clips, which must outlive the task
   std::unique_ptr<Task> task;
   std::vector<SpecimenProblem> problems;
-  bool has_plain_method = false;  ///< method 0 of its worlds is a built-in method that solves them
+  bool has_plain_method = false;  ///< true: method 0 of the specimen's worlds is a built-in method that solves them
 };
 
 /// Makes two settings of a task with three problems each. The problems are the same in every call. Fails if there is no

@@ -57,7 +57,8 @@ struct Joint {
 
 struct Goal {
   Vector axes[3], position;
-  double scale, axis_scale;  // square roots of the weights of rows, per kPositionScale of length and per radian
+  double scale, axis_scale;  // square roots of the weights of position rows (per kPositionScale of length) and axis
+                             // rows (per radian)
 };
 
 struct Pose {

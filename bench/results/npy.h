@@ -37,7 +37,8 @@ class NpyWriter {
     return file_.Write({reinterpret_cast<const char*>(&number), sizeof number});
   }
   std::size_t count() const { return count_; }
-  /// Ends the file as an array of this shape. The product of the shape is count(); an empty shape = one dimension.
+  /// Ends the file as an array of this shape. The lengths in the shape must multiply to count(); an empty shape = one
+  /// dimension.
   Result<void> Finish(std::vector<std::size_t> shape = {});
 
  private:

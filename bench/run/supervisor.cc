@@ -32,7 +32,8 @@ constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if n
 // Number of deaths in a row that end the run; a single death may be chance (a shortage of memory, a stray kill).
 constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which it loads clips
-constexpr double kClockPerLimit = 20;   // maximum wall time, as a multiple of the scenario's limit on processor time
+constexpr double kClockPerLimit = 20;   // maximum wall time of a step, as a multiple of the scenario's limit on
+                                        // processor time
 constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report it
 constexpr int kShutdownGraceMs = 3000;  // time in which an ending worker can end all its outside methods
 
@@ -51,7 +52,8 @@ struct Worker {
   double cpu_s = 0;            ///< processor time of the worker at the last measurement
   double cpu_began = 0;        ///< processor time of the worker when it began its present step
   bool ready = false;          ///< true: the worker has finished its set-up
-  /// The worker's orders; the first one is in progress and lists the methods that have no answer yet.
+  /// The worker's orders (pieces of work, plan.h). The first one is in progress and lists the methods that have no
+  /// answer yet.
   std::deque<Order> orders;
   bool built = false;               ///< true: the worker has built the world of its first order
   bool dismissed = false;           ///< true: the worker has ended and is not replaced
@@ -159,7 +161,7 @@ class Supervisor {
 
   static ProcessUsage Measure(Worker& worker) {
     worker.measured = Clock::now();
-    // This leaves out the outside methods, because the worker itself measures them.
+    // MeasureAlone leaves out the outside methods, because the worker itself measures them.
     const ProcessUsage usage = worker.process.MeasureAlone();
     worker.cpu_s = usage.own_cpu_s;
     return usage;
@@ -331,7 +333,8 @@ class Supervisor {
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());
       worker.orders.pop_front();
-      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // returns the orders that were not begun
+      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // puts the orders that were not begun back into the
+                                                                  // queue
         orders_.PutBack(std::move(worker.orders.back()));
       }
       RETURN_IF_ERROR(GiveUp(std::move(order), worker.built, status, reason));
@@ -346,8 +349,9 @@ class Supervisor {
     return {};
   }
 
-  /// Delivers the cell in progress as lost; if the world was still being built, delivers all its cells as lost. Returns
-  /// the other methods to the queue. If `status` is nullopt, the lost cells get no rows and are only counted.
+  /// Delivers the cell in progress as lost; if the world was still being built, delivers all cells of the world as
+  /// lost. Puts the other methods back into the queue. If `status` is nullopt, the lost cells get no rows and are only
+  /// counted.
   Result<void> GiveUp(Order order, bool built, std::optional<Status> status, const std::string& reason) {
     const World& world = plan_.world(order.world);
     const std::size_t lost = built ? 1 : order.methods.size();
@@ -375,7 +379,7 @@ class Supervisor {
   std::vector<Pace> paces_;  ///< wall time of the worlds so far, by scenario
   int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished its own
   std::size_t not_run_ = 0;  ///< number of cells that could not be run
-  std::string why_not_run_;  ///< why the first such cell could not be run
+  std::string why_not_run_;  ///< why a cell could not be run; if there are several such cells, the reason of the first
 };
 
 /// Returns the part of the orders whose cells are answered, or the part whose cells are not.

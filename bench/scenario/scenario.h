@@ -36,7 +36,7 @@ struct Condition {
   /// The swept parameters, after the library's name if there are libraries; empty if nothing is swept.
   std::vector<SweptValue> swept;
   Node node;
-  std::string library = {};  ///< the library of its worlds; "" = the scenario's `clips`
+  std::string library = {};  ///< the library of the condition's worlds; "" = the scenario's `clips`
 };
 
 /// A value of a condition that is the name of a file.
@@ -58,7 +58,8 @@ struct RecordingSelection {
 
 struct MethodEntry {
   std::string name;
-  std::string against;            ///< the method with which it is compared; the first method is compared with itself
+  std::string against;            ///< the method with which this method is compared; the first method is compared with
+                                  ///< itself
   Node node;                      ///< the mapping that its task reads; not used for an outside method without a seat
   std::vector<std::string> exec;  ///< an outside method's program and arguments; empty = built in
   std::string options_json;       ///< an outside method's `options`, sent to it unchanged
@@ -100,7 +101,7 @@ struct Scenario {
   std::string file;
   std::string name;
   std::string question;
-  std::string description;  ///< a sentence about its worlds; "" = not described
+  std::string description;  ///< a sentence about the scenario's worlds; "" = not described
   std::string task;
   std::vector<std::string> clips;     ///< references to clips, as the file writes them
   std::vector<NamedClips> libraries;  ///< libraries in place of `clips`; every condition is repeated for each library
@@ -152,7 +153,7 @@ Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const Sour
 std::span<const KeyInfo> CommonScenarioKeys();
 const FieldTable<Limits>& LimitFields();
 const FieldTable<StreamSource>& ReadingFields();
-/// Returns the keys of `video`. They name methods of `scenario`, which must outlive the table.
+/// Returns the keys of `video`. The values of some keys name methods of `scenario`, which must outlive the table.
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 
 }  // namespace etude

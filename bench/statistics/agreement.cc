@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kFigures = 5;
 constexpr std::size_t kAgreementResamples = 1999;
 
-using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, low, high, ICC
+using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, lower and upper limit of agreement, ICC
 
 /// Returns the standard deviation of a single new difference between the two measurements (Bland and Altman 2007).
 /// Returns nothing for fewer than two units.

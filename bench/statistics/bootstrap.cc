@@ -51,7 +51,8 @@ class DrawnMedian {
   /// compared.
   double Of(const std::uint64_t* drawn) {
     HalvesWithin found = FindHalvesWithin(drawn, sorted_.size(), low_, last_, near_.data());
-    if (lower_ < found.below || upper_ >= found.below + found.within) {  // not among these: compare all
+    if (lower_ < found.below || upper_ >= found.below + found.within) {  // the middle draws are not near the middle of
+                                                                         // the values: compare all draws
       found = FindHalvesWithin(drawn, sorted_.size(), 0, ~std::uint32_t{0}, near_.data());
     }
     const auto end = near_.begin() + static_cast<std::ptrdiff_t>(found.within);

@@ -96,8 +96,8 @@ std::size_t IndexOfNth(const Signs& signs, std::size_t n, std::uint64_t flip) {
   }
 }
 
-/// The absolute differences |d| in ascending order, zeros first. It computes the aggregate of the differences under any
-/// signs.
+/// The absolute differences |d| in ascending order, zeros first. The class computes the aggregate of the differences
+/// under any signs.
 class FlippedSample {
  public:
   FlippedSample(std::vector<double> sizes, Aggregate aggregate) : sizes_(std::move(sizes)), aggregate_(aggregate) {
@@ -111,8 +111,8 @@ class FlippedSample {
   }
 
  private:
-  /// Precomputes the sum of each group of eight sizes under all 256 signs. The mean of a draw then needs an eighth of
-  /// the additions.
+  /// Precomputes the sum of each group of eight differences |d| under all 256 signs. The mean of a draw then needs an
+  /// eighth of the additions.
   void SumBytes() {
     byte_sums_.resize((sizes_.size() + 7) / 8);
     for (std::size_t byte = 0; byte < byte_sums_.size(); ++byte) {

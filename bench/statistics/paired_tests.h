@@ -8,9 +8,9 @@
 
 namespace etude {
 
-/// Both tests are two-sided. Their null hypothesis is that the differences are symmetric around zero, i.e. that
-/// exchanging the two methods in a world changes nothing. With n non-zero differences, neither test can reach a p below
-/// 2 / 2ⁿ.
+/// The signed-rank test and the sign-flip test are two-sided. Their null hypothesis is that the differences are
+/// symmetric around zero, i.e. that exchanging the two methods in a world changes nothing. With n non-zero differences,
+/// neither test can reach a p below 2 / 2ⁿ.
 
 /// Computes Wilcoxon's signed-rank test. Zeros are treated as by Pratt (1959): they are ranked with the other
 /// differences, and then their ranks are left out. Tied differences share their mean rank. Up to 50 non-zero

@@ -23,7 +23,7 @@ std::vector<double> FitBradleyTerry(const WinTable& wins);
 struct PreferredMethod {
   std::string method;
   double wins = 0, answers = 0;
-  /// Probability of being preferred, averaged over the methods with which it was compared.
+  /// Probability of being preferred, averaged over the methods with which this method was compared.
   std::optional<double> share;
   std::optional<Interval> interval;  ///< resampled over raters; nullopt below kMinSample raters
 };

@@ -345,7 +345,8 @@ class BudgetMaker {
   }
 
  private:
-  /// Adds the reduction of the error in one step of the chain, as the share of the stages that the step replaces.
+  /// Adds one step of the chain to the budget. The reduction of the error in this step is the share of the stages that
+  /// the step replaces.
   void AddStep(const Member& before, const Member& after) {
     std::string name;
     for (const std::string& stage : Without(after.stages, before.stages)) name += (name.empty() ? "" : ", ") + stage;

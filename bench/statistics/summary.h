@@ -25,7 +25,7 @@ ConditionFindings MeasureMethod(const Study& study, const ConditionTable& table,
                                 std::uint64_t seed);
 void Append(ConditionFindings more, ConditionFindings& findings);
 
-/// Returns the summary of a study. `findings` are those of all its conditions, in their order.
+/// Returns the summary of a study. `findings` has one entry per condition of the study, in the order of the conditions.
 ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, std::vector<ConditionFindings> findings,
                               std::uint64_t seed);
 

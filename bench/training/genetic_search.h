@@ -48,7 +48,7 @@ using PagmoEvolve = void(const std::function<double(std::span<const double>)>& s
                          GeneticResult& result);
 
 /// The half-width of the ramp of PairTable::SoftF1, as a share of d² = 0.4². On the ramp, a pair counts as partly
-/// matched. There are few close pairs, so F1 without a ramp jumps with every single pair. A search with it would
+/// matched. There are few close pairs, so F1 without a ramp jumps with every single pair. A search without a ramp would
 /// overfit these pairs and do worse on other clips.
 constexpr double kFitnessRamp = 0.5;
 

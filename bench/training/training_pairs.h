@@ -34,8 +34,8 @@ constexpr int kFramesPerClip = 16;
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
                           const BodyProportions& proportions);
 
-/// The largest number of training clips. The number of pairs grows with its square, so more clips would make learning
-/// slow, and they would improve it little.
+/// The largest number of training clips. The number of pairs grows with the square of the number of clips, so more
+/// clips would make learning slow, and would improve it little.
 constexpr std::size_t kMaxTrainingClips = 40;
 
 /// Returns every built-in move and the clips of `clips` with other identities, all retargeted to `proportions`. If

@@ -101,7 +101,7 @@ struct JudgedFiles {
   std::string name;   ///< identifier of the world; it does not depend on which other files exist
   std::string unit;   ///< the sampling unit to which the world belongs, such as a person; "" = its name
   std::string truth;  ///< a reference to a motion (io/clips/references.h); "" = the task knows no truths
-  std::vector<std::string> answers;  ///< references to motions, by method; "" = the method has no answer of this name
+  std::vector<std::string> answers;  ///< references to motions, by method; "" = the method has no answer in this world
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 
@@ -134,12 +134,12 @@ struct TaskKind {
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
   /// The metric that says how well a cell reached the task's goal (solved, recovered, clean, …).
   std::string success;
-  std::vector<std::string> metrics;          ///< all metrics that its cells report, by a value or by a reason
+  std::vector<std::string> metrics;          ///< all metrics that the task's cells report, by a value or by a reason
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< the keys that the task adds to a scenario
   std::vector<KeyInfo> method_keys;     ///< the keys that the task adds to a method, except `name`
-  /// The seats of the task's loop that a program may take; the method's key `seat` names one. The program is then asked
-  /// step by step. The task's keys configure everything else of the method.
+  /// The seats of the task: the parts of the loop that a program may replace. The method's key `seat` names one. The
+  /// program is then asked step by step. The task's keys configure everything else of the method.
   std::vector<std::string> seats = {};
   bool has_problems = true;      ///< true: a program without a seat may be asked one question per world
   bool uses_clips = true;        ///< true: its worlds use a scenario's `clips`

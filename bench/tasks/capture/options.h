@@ -52,8 +52,8 @@ struct StudioOptions {
   int annotators = 1;                ///< number of people who mark the same pictures independently: 1 or 2
   int mark_every = 1;                ///< the annotator marks every n-th frame; directions are interpolated in between
   std::vector<double> moments = {};  ///< frames, counted from 1, for which a recording keeps every stage
-  /// The cameras take a picture of every n-th frame only. It is above 1 if the cameras are the sensor of another task,
-  /// whose takes are long.
+  /// The cameras take a picture of every n-th frame only. The number is above 1 if the cameras are the sensor of
+  /// another task, whose takes are long.
   int picture_every = 1;
 
   bool IsPictured(std::size_t frame) const { return frame % static_cast<std::size_t>(picture_every) == 0; }
@@ -150,7 +150,7 @@ class SeatedSegmenter;
 struct CaptureMethod {
   std::string name;
   CaptureSeat seat = CaptureSeat::kNone;
-  SeatedSegmenter* program = nullptr;  ///< the program in that seat during a run
+  SeatedSegmenter* program = nullptr;  ///< the program in the method's seat during a run
   Segmenter segmenter = Segmenter::kHue;
   PersonPieces pieces = PersonPieces::kLargest;  ///< methods that read silhouettes always use all large pieces
   MarkSource marks = MarkSource::kAnnotator;

@@ -212,7 +212,7 @@ void ReportPoses(const CaptureWorld& world, const CaptureRun& run, const std::ve
 }
 
 /// Measures the share of frames in view and, of these, the share with a skeleton. Returns true if any frame in view has
-/// one.
+/// a skeleton.
 template <typename Frame>
 bool ReportRecovered(const CaptureWorld& world, const std::vector<std::optional<Frame>>& frames, CellResult& cell) {
   const auto judged = InView(world, frames);

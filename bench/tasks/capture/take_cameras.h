@@ -43,8 +43,8 @@ class SeatedSegmenter {
 /// The cameras of a take, and the data that all its pictures share: backgrounds, clocks, annotators.
 class TakeCameras {
  public:
-  /// The objects behind the references must outlive this object. The world must already have its first pose. It must
-  /// have the poses that a frame needs before that frame is shot.
+  /// The objects behind the references must outlive this object. The world must already have its first pose. Before a
+  /// frame is shot, the world must have the poses that the frame needs.
   TakeCameras(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
               std::span<const PersonSource> sources, Renderer& renderer);
 

@@ -36,7 +36,7 @@ struct CoachCondition {
   DetectionOptions sight;  ///< the person and the sensor; the session script in it is not used
 };
 
-/// The part of the loop that an outside program takes.
+/// The part of the loop (the seat) that an outside program replaces.
 enum class Seat { kNone, kRecogniser, kPolicy, kLearner };
 /// Returns "recogniser", "policy", "learner".
 const std::vector<std::string>& SeatNames();

@@ -49,7 +49,7 @@ struct LoggedPerformance {
 /// A transition of the coach.
 struct LoggedTransition {
   std::vector<int> points;
-  bool is_bridged = false;  ///< true: it uses bridge frames, directly or with clips in between
+  bool is_bridged = false;  ///< true: the transition uses bridge frames, directly or with clips in between
 };
 
 /// The words on the screen. They are shown from `begin_frame` on.
@@ -78,7 +78,7 @@ struct SessionLog {
   int Frames() const { return static_cast<int>(modes.size()); }
 };
 
-/// The parts of a session. All must outlive it.
+/// The parts of a session. All parts must outlive the session.
 struct SessionParts {
   const Coach& coach;
   const Recogniser& recogniser;

@@ -26,7 +26,8 @@ struct LeaveOneOut {
   /// The same performances, classified by the nearest whole performance of any other person. This is a baseline for
   /// comparison.
   std::vector<Classified> nearest;
-  std::vector<Moment> points, detections;  ///< moments in recordings with action points, on one time axis
+  std::vector<Moment> points, detections;  ///< times of action points and of detections, in recordings with action
+                                           ///< points, on one time axis
   /// The number of performances whose move nobody else performed right. `verdicts` contains them as not recognised.
   int untaught_performances = 0;
 };

@@ -27,7 +27,7 @@ struct MatchedMotions {
   std::string note;                       ///< a note on the match, in one line
 };
 
-/// The rule that finds the frame of the answer that belongs to the truth's first frame.
+/// The rule by which the frame of the answer is found that is paired with the truth's first frame.
 enum class Lag {
   kNone,  ///< the answer's first frame
   kFind,  ///< the time that FindTimeShift finds, which may be between two frames

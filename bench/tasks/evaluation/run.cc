@@ -39,7 +39,7 @@ std::string DigestOf(const PointTracks& tracks) {
   Digest digest;
   const auto& points = tracks.positions;
   for (std::size_t at = 0; at < points.size();) {
-    // Add the points up to the next one that is not seen.
+    // Add the points up to the next point that is not seen.
     std::size_t end = at;
     while (end < points.size() && !std::isnan(points[end].x)) ++end;
     if (end > at) digest.Add(std::span(&points[at].x, 3 * (end - at)));

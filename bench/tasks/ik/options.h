@@ -29,7 +29,7 @@ struct IkTrialOptions {
   LimitSet limit_set = LimitSet::kAdult;
   double pose_range = 0.5;  ///< true angles are drawn uniformly from this share of their ranges, around the middle
   IkStart start = IkStart::kDisturbed;
-  double joint_noise_deg = 15;  ///< size of the disturbance of the start
+  double joint_noise_deg = 15;  ///< strength of the noise on the start angles (NoiseKind)
   NoiseKind noise = NoiseKind::kGaussian;
   TargetNoise target_noise;
   double unreachable_cm = 0;  ///< distance of one target beyond the effector's reach; 0: all can be reached

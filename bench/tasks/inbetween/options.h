@@ -13,7 +13,8 @@ namespace etude {
 struct InbetweenOptions {
   std::vector<std::string> truth;     ///< files whose windows are judged
   std::vector<std::string> training;  ///< training files: for L2P's deviations, the offsets, and the library of fillers
-  std::string people;                 ///< the person in a file's name, e.g. *_{person}; "" = each file is a unit
+  std::string people;                 ///< pattern for the person in a file's name, e.g. *_{person}; "" = each file is a
+                                      ///< unit
   int window = 65, offset = 40;       ///< length of a window, and distance of successive windows, frames
   int training_window = 50, training_offset = 20;
   int past = 10;                  ///< number of frames before the gap; all are given

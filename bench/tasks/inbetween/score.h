@@ -32,7 +32,7 @@ struct HiddenWindow {
   /// The divisors of L2P: the standard deviations of each joint's position in training, metres. Empty if they are
   /// unknown.
   std::vector<glm::dvec3> deviations;
-  std::shared_ptr<const JudgedFile> file;  ///< shared by all windows of a file; they outlive the file's motion
+  std::shared_ptr<const JudgedFile> file;  ///< shared by all windows of a file; the windows outlive the file's motion
 };
 
 /// Returns the ids of all metrics, in the order in which they are measured.

@@ -10,7 +10,7 @@ namespace etude {
 /// The cameras of a condition with `sensor: cameras`.
 struct CameraSensing {
   StudioOptions studio;
-  std::vector<PersonSource> sources;  ///< the sources of all methods, each once
+  std::vector<PersonSource> sources;  ///< the sources of all methods; equal sources are listed once
 };
 
 /// Returns the keys of a condition with `sensor: cameras`: the keys of `task: capture` that do not concern its takes,

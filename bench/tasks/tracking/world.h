@@ -20,7 +20,8 @@ namespace etude {
 /// is nearer.
 struct TrackingWorld {
   KinematicTree tree;
-  std::vector<TreeState> truth;                      ///< one state per frame; solvers are given its root
+  std::vector<TreeState> truth;                      ///< one state per frame; solvers are given only the root of each
+                                                     ///< state
   std::vector<std::vector<EffectorTarget>> targets;  ///< indexed [frame][effector]
   std::vector<double> first_angles;                  ///< the angles at which the first frame starts, within the limits
 };
