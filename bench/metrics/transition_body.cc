@@ -35,7 +35,7 @@ std::optional<double> HeadingOf(const glm::dvec3& from, const glm::dvec3& to) {
 /// Returns the turn from one heading to another, radians, in [−π, π].
 double Turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
 
-/// Returns the heading of the hips: perpendicular to the line between them, radians about +Y.
+/// Returns the heading of the hips: perpendicular to the line between the hips, radians about +Y.
 std::optional<double> HipHeading(const BodyPose& pose) {
   const auto line = HeadingOf(pose[kRightHip], pose[kLeftHip]);
   return line ? std::optional(*line - 0.5 * kPi) : std::nullopt;
@@ -254,7 +254,8 @@ class BesideClip {
     return std::span(frames_).subspan(from, to - from + 1);
   }
 
-  /// Returns the height of the clip's lowest joint within a third of a second of a shown frame, metres.
+  /// Returns the height of the clip's lowest joint, metres: the lowest height in the frames within 1/3 s of a shown
+  /// frame.
   double Floor(int frame) const {
     constexpr int kWindow = 10;
     const auto [from, to] = Indices(frame, kWindow);

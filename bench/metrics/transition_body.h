@@ -18,7 +18,7 @@ namespace etude {
 struct BodyRule {
   std::string_view metric;
   double limit = 0;        ///< largest value of a clean transition, in the unit of `metric`
-  std::string_view unmet;  ///< why a value may be missing; empty if it is never missing
+  std::string_view unmet;  ///< why a value may be missing; empty if no value is ever missing
 };
 
 /// The rules of clean_share since version 4. BodyMeasures holds its values in this order.

@@ -54,7 +54,7 @@ bool IsCalmlyNatural(const JoinView& view, double limit_cm);
 /// too few frames.
 double Liveness(const JoinView& view);
 
-/// All frames of a library's clips. Finds the distance from a given frame to the nearest of them.
+/// All frames of a library's clips. Finds the distance from a given frame to the nearest frame of the library.
 class RealFrames {
  public:
   RealFrames() = default;

@@ -103,7 +103,7 @@ void CompareAnswers(const MotionLibrary& library) {
   }
 }
 
-/// Registers a benchmark that plans all transitions in turn. The reported time is the mean over them.
+/// Registers a benchmark that plans all transitions in turn. The reported time is the mean over all transitions.
 void RegisterPlanning(const MotionLibrary& library, const std::string& name, auto plan) {
   benchmark::RegisterBenchmark(("plan/" + name).c_str(), [=, &library](benchmark::State& state) {
     const std::vector<TransitionRequest> requests = Requests(library);

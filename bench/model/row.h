@@ -45,7 +45,7 @@ std::optional<Status> FindStatus(std::string_view name);
 struct MetricValue {
   std::string id;  ///< id of a metric in bench/metrics; the id names the unit
   std::optional<double> value;
-  std::string null_reason;  ///< why the value is missing; "" if it is not
+  std::string null_reason;  ///< why the value is missing; "" = the value exists
 };
 
 /// A curve of a cell: one value per frame or iteration, e.g. the error in each frame.

@@ -78,7 +78,7 @@ struct Study {
   std::vector<ComparedMethod> methods;              ///< at least one method
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one condition
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
-  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
+  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
   /// The metric that says whether the task's goal was reached; answers compare it before the value metric. "" = the
   /// task has none.
   std::string success;

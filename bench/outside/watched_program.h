@@ -114,7 +114,7 @@ class WatchedProgram {
   ProgramView view_;    ///< what the sandbox shows the child, apart from attachments and the Python package
   ControlGroup group_;  ///< the child's group; if this machine provides none, `meter_` measures the memory
   std::optional<ChildProcess> child_;
-  std::optional<TreeMeter> meter_;  ///< measures the child and its processes
+  std::optional<TreeMeter> meter_;  ///< measures the child and the child's own processes
   Clock::time_point last_measured_{};
   double cpu_s_ = 0;          ///< processor time of the running program at the last sample
   double cpu_charged_s_ = 0;  ///< the part of cpu_s_ that TakeCpuSeconds has already returned

@@ -54,7 +54,7 @@ struct TransitionExtras {
   std::string from, to;                 ///< the clip that is left, and the wanted clip
   std::string branch;                   ///< the kind of transition, e.g. "front half", "in-between"
   std::string why;                      ///< a sentence that says why this transition was chosen
-  std::optional<int> request_frame;     ///< frame of the request; negative if it was before the start of the recording
+  std::optional<int> request_frame;     ///< frame of the request; negative = before the start of the recording
   std::optional<double> wait_s, threshold, natural_limit_cm;
   /// The largest distance of any transition point; `partials` has the terms of its square.
   std::optional<double> distance;

@@ -36,8 +36,8 @@ struct CellChoice {
 /// is equally likely. Fails if a named cell does not exist or cannot be run again.
 Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
 
-/// Returns the probability that a random choice of `drawn` out of `cells` cells contains none of the `forged` forged
-/// cells (hypergeometric distribution).
+/// Returns the probability that `drawn` cells, drawn at random from `cells` cells, include none of the `forged` cells
+/// (hypergeometric distribution).
 double ChanceOfMissing(std::size_t cells, std::size_t drawn, std::size_t forged);
 
 /// A way to forge some of the cells from which the sample was drawn, and the probability that the sample contains none

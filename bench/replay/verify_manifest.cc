@@ -111,7 +111,8 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   for (const auto& [name, _] : suite.sources) {
     if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
   }
-  // `now` also contains the metrics that were read from this manifest itself. Report those that no scenario defines.
+  // `now` also contains the metrics that were read from this manifest itself. Report the metrics that no scenario
+  // defines.
   ASSIGN_OR_RETURN(const auto parsed, ScenariosOf(folder));
   std::set<std::string> own;
   for (const Scenario& scenario : parsed) {

@@ -48,7 +48,8 @@ struct ScenarioSetup {
 /// A method whose answers are read from files and scored; it is not run (etude score).
 struct ScoredMethod {
   std::string name;
-  bool alone = false;  ///< true: the scored method replaces the scenarios' own methods; false: it is compared with them
+  bool alone = false;  ///< true: the scored method replaces the scenarios' own methods; false: it is added to these
+                       ///< methods
 };
 
 /// The version of the rule by which secret worlds are made. Version 2 introduced disguised clips

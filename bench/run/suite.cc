@@ -263,7 +263,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   UsersOfFiles users;
   std::size_t cells = 0;
   for (const std::string& file : files) {
-    // Read the file and the files that it includes. Compute their digest, in the order of their canonical names.
+    // Read the file and the files that it includes. Compute one digest of all these files, in the order of their
+    // canonical names.
     SourceTexts texts;
     if (!options.text.empty()) texts[file] = options.text;
     ASSIGN_OR_RETURN(auto scenarios, options.text.empty() ? ReadScenarios(file, texts) : ParseScenarios(file, texts));

@@ -31,10 +31,11 @@ constexpr double kLongWorldS = 1;
 constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if no worker is idle
 // Number of deaths in a row that end the run; a single death may be chance (a shortage of memory, a stray kill).
 constexpr int kMaxDeathsInSetup = 3;
-constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which it loads clips
-constexpr double kClockPerLimit = 20;   // maximum wall time of a step, as a multiple of the scenario's limit on
-                                        // processor time
-constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report it
+constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which the worker loads clips
+constexpr double kClockPerLimit = 20;   // maximum wall time of a step, as a multiple of the scenario's processor-time
+                                        // limit
+constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report the
+                                        // end
 constexpr int kShutdownGraceMs = 3000;  // time in which an ending worker can end all its outside methods
 
 Clock::time_point After(double seconds) {
@@ -52,8 +53,7 @@ struct Worker {
   double cpu_s = 0;            ///< processor time of the worker at the last measurement
   double cpu_began = 0;        ///< processor time of the worker when it began its present step
   bool ready = false;          ///< true: the worker has finished its set-up
-  /// The worker's orders (pieces of work, plan.h). The first one is in progress and lists the methods that have no
-  /// answer yet.
+  /// The worker's orders (pieces of work); the first one is in progress and lists the methods that have no answer yet.
   std::deque<Order> orders;
   bool built = false;               ///< true: the worker has built the world of its first order
   bool dismissed = false;           ///< true: the worker has ended and is not replaced
@@ -62,7 +62,7 @@ struct Worker {
   std::size_t condition = OrderQueue::kNowhere;
 };
 
-/// The wall time of a scenario's worlds that have been run so far, and their number.
+/// The wall time of the worlds of a scenario that have been run so far, and their number.
 struct Pace {
   double seconds = 0;
   int worlds = 0;
@@ -333,8 +333,7 @@ class Supervisor {
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());
       worker.orders.pop_front();
-      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // puts the orders that were not begun back into the
-                                                                  // queue
+      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // puts back the orders that were not begun
         orders_.PutBack(std::move(worker.orders.back()));
       }
       RETURN_IF_ERROR(GiveUp(std::move(order), worker.built, status, reason));
@@ -349,9 +348,8 @@ class Supervisor {
     return {};
   }
 
-  /// Delivers the cell in progress as lost; if the world was still being built, delivers all cells of the world as
-  /// lost. Puts the other methods back into the queue. If `status` is nullopt, the lost cells get no rows and are only
-  /// counted.
+  /// Delivers the cell in progress as lost, or all cells of the world if it was still being built. Puts back the other
+  /// methods. If `status` is nullopt, the lost cells get no rows and are only counted.
   Result<void> GiveUp(Order order, bool built, std::optional<Status> status, const std::string& reason) {
     const World& world = plan_.world(order.world);
     const std::size_t lost = built ? 1 : order.methods.size();
@@ -377,9 +375,9 @@ class Supervisor {
   std::string setup_line_;
   std::vector<Worker> workers_;
   std::vector<Pace> paces_;  ///< wall time of the worlds so far, by scenario
-  int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished its own
+  int deaths_in_setup_ = 0;  ///< number of workers that died during set-up since a worker last finished its set-up
   std::size_t not_run_ = 0;  ///< number of cells that could not be run
-  std::string why_not_run_;  ///< why a cell could not be run; if there are several such cells, the reason of the first
+  std::string why_not_run_;  ///< why a cell could not be run; the reason of the first such cell
 };
 
 /// Returns the part of the orders whose cells are answered, or the part whose cells are not.

@@ -21,7 +21,7 @@ struct SupervisorOptions {
   Fence fence = {};                         ///< sandbox in which outside methods run
   int jobs = 0;                             ///< number of worker processes; 0 = one per processor
   const std::atomic<bool>* stop = nullptr;  ///< the run ends early when this becomes true (Ctrl-C)
-  /// The cells that are answered but not yet measured: those of an earlier attempt, and those that Deliver adds. If
+  /// The cells that are answered but not yet measured: cells of an earlier attempt, and cells that Deliver adds. If
   /// null, answered cells are stored in a temporary file, and Deliver receives measured cells only.
   CellTable* answered = nullptr;
   /// Called many times a second while the run waits for workers.

@@ -68,7 +68,7 @@ class DrawnMedian {
   double ValueOf(std::uint64_t number) const { return sorted_[(number * sorted_.size()) >> 32]; }
 
   std::span<const double> sorted_;
-  std::size_t lower_, upper_;  ///< the ranks of both middle draws
+  std::size_t lower_, upper_;  ///< the ranks of the two middle draws
   std::vector<std::uint32_t> near_;
   std::uint32_t low_ = 0, last_ = 0;
 };

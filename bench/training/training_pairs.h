@@ -43,8 +43,8 @@ constexpr std::size_t kMaxTrainingClips = 40;
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
                                           const BodyProportions& proportions);
 
-/// Returns every pair of a frame of `a` and a frame of `b`. A pair is labelled close if its true pose gap is below
-/// kCloseGap.
+/// Returns every pair that consists of a frame of `a` and a frame of `b`. A pair is labelled close if its true pose gap
+/// is below kCloseGap.
 std::vector<LabelledPair> LabelPairs(std::span<const TrainingFrame> a, std::span<const TrainingFrame> b,
                                      const Memberships& memberships = PaperMemberships());
 

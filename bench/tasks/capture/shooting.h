@@ -17,8 +17,8 @@ BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 /// Returns the figure of the performer at a fractional frame.
 Figure PerformerAt(const CaptureWorld& world, double frame);
 
-/// Returns a copy of `effects` with only those that determine the camera's time and geometry (clocks, shutter, lens).
-/// Effects that degrade the picture are left out. Used for pictures of the truth.
+/// Returns a copy of `effects` with only the effects on the camera's time and geometry (clocks, shutter, lens). Effects
+/// that degrade the picture are left out. Used for pictures of the truth.
 CameraEffects FaultlessPictures(const CameraEffects& effects);
 
 /// Shoots the pictures of a take.

@@ -22,7 +22,7 @@ void FollowPerformances(const SessionLog& log, const Recogniser& recogniser, con
 
 /// Returns the highest threshold on evidence at which at most `needless_per_min` right performances per minute are
 /// below it. `right` holds the evidence for all right performances in `minutes` > 0 of sessions, in any order. Returns
-/// 1 if all of them may be below.
+/// 1 if all right performances may be below the threshold.
 double ThresholdOf(std::vector<double> right, double minutes, double needless_per_min);
 
 /// Sets CoachOptions::right_from for methods that do not set it. This is the evidence at or above which a performance

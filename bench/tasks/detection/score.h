@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// Returns the requested performances that are right or wrong, with their judgements. Grey ones are left out.
+/// Returns the requested performances that are right or wrong, with their judgements. Grey performances are left out.
 /// `judgements` has one entry per event.
 std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<const Judgement> judgements);
 
