@@ -14,9 +14,9 @@ constexpr double kMinFitted = 3;  // fewer points do not determine a rotation
 
 bool BothSeen(const glm::dvec3& a, const glm::dvec3& b) { return !std::isnan(a.x) && !std::isnan(b.x); }
 
-/// Returns the similarity of AlignSimilarity without a singular value decomposition, or nothing if rounding could spoil
-/// it. The rotation is the eigenvector of the largest eigenvalue of Horn's 4 × 4 matrix (Horn 1987). Newton's method
-/// finds that eigenvalue as a root of the characteristic polynomial (Theobald 2005).
+/// Returns the similarity of AlignSimilarity without a singular value decomposition, or nothing if rounding could make
+/// the result inaccurate. The rotation is the eigenvector of the largest eigenvalue of Horn's 4 × 4 matrix (Horn 1987).
+/// Newton's method finds that eigenvalue as a root of the characteristic polynomial (Theobald 2005).
 std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   const glm::dmat3& s = moments.covariance;  // s[a][b] = Σ point_a target_b
   const glm::dvec3 skew(s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]);
@@ -118,7 +118,7 @@ FrameFits PairFits::Of(Alignment alignment) const {
     case kFrameScaled:
       break;
   }
-  // Each frame has a fit of its own. For kFrame, replace it by the rigid fit.
+  // Each frame has a similarity of its own. For kFrame, replace the similarity by the rigid fit.
   FrameFits found{each_frame_};
   if (alignment == kFrameScaled) return found;
   for (std::size_t f = 0; f < frames; ++f) found.fits[f] = WithScale(found.fits[f], moments_[f], false);

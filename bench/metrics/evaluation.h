@@ -85,7 +85,7 @@ std::optional<double> SkateFromContacts(const PointTracks& feet, const std::vect
 std::optional<double> ContactF1(const std::vector<bool>& found, const std::vector<bool>& truth);
 /// Returns PFC (physical foot contact) as EDGE's code computes it, but with Y up and at the motion's own rate.
 std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<const glm::dvec3> root, double rate_hz);
-/// The mean depth of the answer's lowest joint below height 0, and its mean height above 0, millimetres.
+/// The mean depth of the answer's lowest joint below height 0, and the mean height of this joint above 0, millimetres.
 struct FloorErrors {
   std::optional<double> penetration_mm, floating_mm;
 };
@@ -100,8 +100,8 @@ struct RotationChannels {
 std::optional<RotationChannels> RotationsOf(const EvaluatedPair& pair);
 
 /// Returns the mean absolute error of the bend angles, degrees. Each entry of `bends` holds three points (hip, knee,
-/// ankle; or shoulder, elbow, wrist), and its angle is at the middle point. Returns nothing if no three points are seen
-/// in both motions.
+/// ankle; or shoulder, elbow, wrist); the bend angle is at the middle point. Returns nothing if no three points are
+/// seen in both motions.
 std::optional<double> BendErrorDeg(const PointTracks& found, const PointTracks& truth,
                                    std::span<const std::array<std::size_t, 3>> bends);
 

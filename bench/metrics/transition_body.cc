@@ -124,7 +124,7 @@ struct Moving {
   std::vector<glm::dvec3> centres = {}, accelerations = {};
 };
 
-/// Measures everything in a frame that does not depend on the clips; glide_cm and sunk_cm stay 0.
+/// Measures a frame, apart from the values that depend on the clips: glide_cm and sunk_cm stay 0.
 BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   constexpr double kFriction = 1, kCarried = 0.5, kRest = 0.3;
   const BodyPose &pose = moving.poses[f], &velocity = moving.velocities[f];
@@ -266,7 +266,7 @@ class BesideClip {
 
   std::span<const BodyPose> poses() const { return poses_; }
   /// Returns the index in poses() of a shown frame, if this joint supports the clip's body in that frame, or if no
-  /// joint supports the clip's body. Returns nullopt otherwise.
+  /// joint does. Returns nullopt otherwise.
   std::optional<int> BearsAt(int frame, std::size_t joint) const {
     const int now = frame - begin_;
     if (now < 0 || now >= static_cast<int>(poses_.size())) return std::nullopt;
@@ -371,8 +371,8 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
     BodyFrame frame = FrameOf(moving, f - from, held);
     Excuse(clips, f, frame);
     // Glide is the distance moved by the slowest supporting joint or, without support, by the slowest joint of the
-    // feet. If this joint also supports the body in a clip, the shorter of two distances is taken: the joint's own
-    // movement, or the joint's movement relative to the clip.
+    // feet. If this joint also supports the body in a clip, the joint's own movement or its movement relative to the
+    // clip is taken, whichever is shorter.
     if (!held.flight) {
       frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
         double slowest = TravelOf(view.shown, f, j).value_or(0);

@@ -207,8 +207,8 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
   return {};
 }
 
-/// Reads the lines that came since the last reply. Repeated answers are ignored. Any other line is an error, because
-/// its question has not been sent yet.
+/// Reads the lines that came since the last reply. Repeated answers are ignored. Any other line is an error, because no
+/// question is open.
 template <typename Read>
 Outcome<void> OutsideMethod::State::ReadPendingLines(Read read) {
   program.Receive();

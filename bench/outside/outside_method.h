@@ -53,7 +53,7 @@ struct OutsideReply {
 
 /// A program that answers problems over its standard input and output. It is started for the first problem, kept for
 /// the next ones, and restarted after a failure. Repeated answers are always ignored. If the start or a setting fails
-/// three times in a row, it is not tried again, and every further reply equals the third.
+/// three times in a row, this step is not tried again, and every further reply equals the third.
 class OutsideMethod {
  public:
   explicit OutsideMethod(OutsideOptions options);
@@ -77,7 +77,7 @@ class OutsideMethod {
   /// handshake.
   std::string ProgramName() const;
   /// Closes the program's input, waits up to `patience_ms`, and returns how the program ended: "exit code 0", "signal 9
-  /// (Killed)" if it had to be killed, or "not running". The next problem starts it again.
+  /// (Killed)" if it had to be killed, or "not running". The next problem starts the program again.
   std::string End(int patience_ms);
 
  private:

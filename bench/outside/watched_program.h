@@ -30,11 +30,11 @@ class ErrorLog {
   /// Returns the path that must be opened as the program's standard error; "" if the program shares Etude's standard
   /// error.
   std::string path() const;
-  /// Discards the part of the collected output that exceeds the limit, but keeps its end.
+  /// Shortens the collected output to the limit. The end of the output is kept.
   void Trim();
   /// Returns the last non-empty line since the last Save; "" if there is none.
   std::string LastLine() const;
-  /// Appends the collected output to the file, up to kMaxBytes, and clears it. Creates the file's folder.
+  /// Appends the collected output to the file, up to kMaxBytes, and then discards it. Creates the file's folder.
   void Save();
 
  private:
@@ -66,7 +66,8 @@ class WatchedProgram {
   /// Starts the program. Fails if this machine cannot start it.
   OutsideOutcome<void> Start();
   bool IsRunning() const { return child_.has_value(); }
-  /// Closes the program's input, waits `patience_ms`, then kills the program. Returns how it ended, or "not running".
+  /// Closes the program's input, waits `patience_ms`, then kills the program. Returns how the program ended, or "not
+  /// running".
   std::string Stop(int patience_ms);
 
   /// Sends a line. If the program has closed its input, the next WaitForLine fails. Send and the next five functions

@@ -265,7 +265,7 @@ class DensePeer final : public IkPeer {
     return true;
   }
 
-  // Computes the step and returns its largest change of an angle, radians; 0 on failure.
+  // Computes the step and returns the largest change of an angle in the step, radians; 0 on failure.
   double FindStep(double mu) {
     // Active-set passes: solve with some angles fixed at their limits, until the set of fixed angles stays the same.
     std::memset(sides_, 0, sizeof(sides_));

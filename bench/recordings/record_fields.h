@@ -24,8 +24,8 @@ template <typename Value>
 Result<void> DecodeValue(const Json& json, Value& value);
 
 /// The keys of one JSON object of a recording. Each format is declared once, as a function `Describe(RecordFields&,
-/// Record&)`. The function names every key, its member and its meaning, in the order of writing. It is used to write a
-/// record, to read one, and to make its reference page. Unknown keys are ignored on reading.
+/// Record&)`. The function names every key, its member and its meaning, in the order of writing. It is used to write
+/// and read records, and to make the reference page. Unknown keys are ignored on reading.
 class RecordFields {
  public:
   template <typename Record>

@@ -45,8 +45,8 @@ class CellRunner {
   FinishedCell Measure(int condition, FinishedCell answered);
 
  private:
-  /// Measures the peak resident size of this process. Reading it takes as long as running a short cell, so the value is
-  /// cached for 5 ms.
+  /// Measures the peak resident size of this process. Reading the size takes as long as running a short cell, so the
+  /// value is cached for 5 ms.
   class PeakMemory {
    public:
     void Begin();

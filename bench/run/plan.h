@@ -87,7 +87,7 @@ class OrderQueue {
   /// Removes and returns the next order; there must be one. `condition` is the worker's condition, which this function
   /// updates.
   Order Take(std::size_t& condition);
-  /// Puts back an order that a worker did not finish: it becomes the first one of its condition again.
+  /// Puts back an order that a worker did not finish: the order becomes the first one of its condition again.
   void PutBack(Order order);
 
  private:

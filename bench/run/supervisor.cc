@@ -167,7 +167,7 @@ class Supervisor {
     return usage;
   }
 
-  /// Starts the time limits of the worker's next step; its wall time may be at most `clock_s` seconds.
+  /// Starts the time limits of the worker's next step; the step's wall time may be at most `clock_s` seconds.
   static void Begin(Worker& worker, double clock_s) {
     constexpr auto kStale = std::chrono::milliseconds(100);
     if (Clock::now() - worker.measured > kStale) Measure(worker);
@@ -235,7 +235,7 @@ class Supervisor {
 
   Result<void> WatchOver(Worker& worker, bool has_input) {
     if (worker.process.broken_by() != 0) return ReplaceEnded(worker);  // the worker may not have received its orders
-    // Handle the lines that the worker wrote, and its end if it ended.
+    // Handle the lines that the worker wrote and, if the worker has ended, its end.
     if (has_input) {
       const bool alive = worker.process.Receive();
       for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
@@ -323,7 +323,7 @@ class Supervisor {
     return Replace(worker, Status::kCrashed, "its worker ended with " + end);
   }
 
-  /// Ends a worker, reports what it was doing as lost, and starts another worker if orders are left. If `status` is
+  /// Ends a worker, reports its work in progress as lost, and starts another worker if orders are left. If `status` is
   /// nullopt, this machine is the cause, and the lost cells get no rows.
   Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();

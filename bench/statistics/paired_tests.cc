@@ -75,7 +75,7 @@ double NormalTail(const std::vector<int>& ranks, double w) {
 constexpr std::size_t kMaxEnumerated = 16;
 constexpr int kDraws = 9999;
 
-/// The share of the largest difference that counts as rounding.
+/// Differences up to this share of the largest difference count as rounding errors.
 constexpr double kRounding = 1e-12;
 
 /// The signs of the differences, one bit each: 1 = negative.

@@ -36,7 +36,8 @@ void AddTo(WinTable& sum, const WinTable& wins) {
   }
 }
 
-/// Returns, for each item, its probability of being preferred, averaged over the items with which it was compared.
+/// Returns, for each item, the probability that the item is preferred, averaged over the items with which it was
+/// compared.
 std::vector<std::optional<double>> SharesOf(const WinTable& wins) {
   const std::vector<double> strengths = FitBradleyTerry(wins);
   std::vector<std::optional<double>> shares(wins.size());

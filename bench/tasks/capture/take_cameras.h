@@ -59,7 +59,7 @@ class TakeCameras {
   /// The pictures of one camera. Its TakeCameras must outlive this object.
   class Feed {
    public:
-    /// Shoots the next picture, cuts out the person and marks it. The frames of a camera must come in order.
+    /// Shoots the next picture, cuts out the person, and marks the picture. The frames of a camera must come in order.
     Picture Next(std::size_t frame);
 
    private:

@@ -34,8 +34,8 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program);
 
-/// Adds all metrics of a session to a result, by a value or by the reason why it is missing. Also adds the curves, and
-/// digests of the motions danced and sensed, of the decisions and of the motion shown.
+/// Adds all metrics of a session to a result, by a value or by the reason why a metric is missing. Also adds the
+/// curves, and digests of the motions danced and sensed, of the decisions and of the motion shown.
 void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result);
 std::vector<std::string> CoachMetrics();
 

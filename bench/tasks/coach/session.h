@@ -34,7 +34,8 @@ class Player {
   virtual bool HasGivenUp() const = 0;
   /// Tests the player without a coach, after the time that `performances_later` performances would take. Returns, for
   /// every move of the dance, the probability of dancing it without a fault. A player that does not know this
-  /// probability performs each move once; its value is 1 if right and 0 if wrong, and a grey performance has no entry.
+  /// probability performs each move once: the value is then 1 for a right and 0 for a wrong performance; a grey
+  /// performance has no entry.
   virtual std::vector<double> TakeTest(int performances_later) = 0;
 };
 

@@ -53,7 +53,7 @@ DetectionOptions DrawCondition(const WorldKey& key) {
   return options;
 }
 
-/// Runs a measuring recogniser over the session, and returns its measures.
+/// Runs a measuring recogniser over the session, and returns the recogniser's measures.
 std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoire& repertoire,
                                      const TrackingWeights& weights) {
   std::vector<Measured> measured;

@@ -13,7 +13,7 @@ constexpr const char* kNoFit = "the alignment is not determined: fewer than thre
 constexpr const char* kNoRoot = "no root is seen in both";
 constexpr const char* kNoFeet = "the answer has no ankles and toes, or fewer than two frames";
 
-/// A metric that is the mean joint error after an alignment, and the reason if it has no value.
+/// A metric that is the mean joint error after an alignment, and the reason if the metric has no value.
 struct AlignedError {
   const char* id;
   Alignment alignment;
@@ -163,7 +163,7 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
                               StandardisedChannels(matched.pair.truth.positions, means, deviations));
   }
   result.MeasureOr("l2p@lafan1", l2p, why);
-  // Measure NPSS, and its weight among other pairs.
+  // Measure NPSS, and the weight of this pair among other pairs.
   const auto measure = [&](PowerOf kind) {
     return rotations ? MeasurePowerSpectrum(rotations->found, rotations->truth, kWindowFrames, kind) : std::nullopt;
   };

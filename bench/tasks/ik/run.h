@@ -21,7 +21,7 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
 /// Returns the parts of the targets that the effectors of a world must reach: positions, axes or both.
 IkTargetParts AskedOf(const IkProblem& problem);
 
-/// The costs that a method reports, and the reason if it did not reach the targets.
+/// The costs that a method reports, and the reason if the method did not reach the targets.
 struct IkAccount {
   std::optional<int> iterations, fk_evaluations;  ///< costs; empty if the method does not report them
   int max_steps = 0;

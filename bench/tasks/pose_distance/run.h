@@ -46,7 +46,7 @@ PairVerdict ComputePairVerdict(const PairWorld& world, const PoseDistanceMethod&
 std::vector<std::string> PoseDistanceMetrics();
 
 /// Scores a verdict. `distance` is the built-in distance that was used; its value is a metric if the world has a single
-/// pair. It is null for an outside method, whose scale is unknown.
+/// pair. `distance` is null for an outside method, whose scale is unknown.
 CellResult ScorePairs(const PairWorld& world, const PairVerdict& verdict, const PoseDistance* distance);
 
 }  // namespace etude
