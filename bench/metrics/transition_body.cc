@@ -254,8 +254,7 @@ class BesideClip {
     return std::span(frames_).subspan(from, to - from + 1);
   }
 
-  /// Returns the height of the clip's lowest joint, metres: the lowest height in the frames within 1/3 s of a shown
-  /// frame.
+  /// Returns the height of the clip's lowest joint in the frames within a third of a second of a shown frame, metres.
   double Floor(int frame) const {
     constexpr int kWindow = 10;
     const auto [from, to] = Indices(frame, kWindow);

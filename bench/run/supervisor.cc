@@ -32,10 +32,8 @@ constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if n
 // Number of deaths in a row that end the run; a single death may be chance (a shortage of memory, a stray kill).
 constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which the worker loads clips
-constexpr double kClockPerLimit = 20;   // maximum wall time of a step, as a multiple of the scenario's processor-time
-                                        // limit
-constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report the
-                                        // end
+constexpr double kClockPerLimit = 20;   // maximum wall time of a step, as a multiple of the processor-time limit
+constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and say so
 constexpr int kShutdownGraceMs = 3000;  // time in which an ending worker can end all its outside methods
 
 Clock::time_point After(double seconds) {

@@ -15,8 +15,7 @@
 namespace etude {
 namespace {
 
-/// Returns the metrics that the condition's cells report: first the catalogue's metrics in its order, then added
-/// metrics.
+/// Returns the metrics that the condition's cells report: the catalogue's in its order, then the added metrics.
 std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   std::vector<const MetricInfo*> present;
   for (const MetricInfo& metric : AllMetrics()) {
