@@ -117,7 +117,7 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
   const Place place{path.string(), 0, 0};
   ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
   RETURN_IF_ERROR(CheckMetricVersions(manifest, place));
-  // Parse each scenario. The manifest contains the digests of its clips.
+  // Parse each scenario. The manifest contains the digests of the scenario's clips.
   std::vector<FinishedScenario> finished;
   ParsedSuite parsed(suite);
   for (std::size_t s = 0; s < suite.scenarios.size(); ++s) {

@@ -65,7 +65,7 @@ class Lines {
 // made of a run with such a cell.
 constexpr std::string_view kLetters = "oufbs";
 constexpr std::string_view kAnswers = "ou";     // letters of the statuses that have an answer
-constexpr std::int64_t kMaxTrials = 1'000'000;  // the limit of a scenario file
+constexpr std::int64_t kMaxTrials = 1'000'000;  // the largest number of trials that a scenario file may state
 constexpr std::int64_t kMaxVersions = 1'000'000;
 
 /// Returns the seal of a baseline: the digest of its JSON values without the key `seal`. White space does not affect
@@ -81,7 +81,7 @@ struct Slot {
   std::size_t trials = 0;
   SnapshotCells* cells = nullptr;
 };
-/// Slots by the text "scenario, condition, method".
+/// Slots, keyed by the text "scenario, condition, method".
 using Slots = std::map<std::string, Slot>;
 
 class BaselineReader {

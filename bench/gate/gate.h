@@ -33,7 +33,7 @@ struct GateExpectation {
   ExpectationResult result;
 };
 
-/// The run's own answer about a method (summary.json). The report shows it next to the changes since the baseline.
+/// A verdict on a method, from the run's own summary.json. The report shows it next to the changes since the baseline.
 struct GateAnswer {
   std::string scenario, condition;
   Answer answer;

@@ -21,7 +21,7 @@ constexpr const char* kOkShare = "ok_share";
 const MetricInfo* FindGateMetric(std::string_view id);
 
 enum class Movement {
-  kSame,      ///< all values are equal
+  kSame,      ///< all values are the same in both snapshots
   kBetter,    ///< the value is clearly better, by at least the practical threshold
   kWorse,     ///< the value is clearly worse, by at least the practical threshold
   kNoMatter,  ///< the difference is clearly below the practical threshold
@@ -74,10 +74,10 @@ struct MoveColumns {
 /// `seed` seeds the random numbers of the bootstrap and of the tests.
 MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed);
 
-/// Judges each move. In a scenario that `exact` names, any difference is kChanged. In other scenarios, three
-/// comparisons are judged: the metric's own aggregate; the mean, because a median does not show a change in fewer than
-/// half of the worlds; and the share of worlds with a value. If one of the three is worse, the move is worse. Holm's
-/// correction covers all comparisons of `moves` in which a world differs.
+/// Judges each change of a metric (move). In a scenario that `exact` names, any difference is kChanged. In other
+/// scenarios, three comparisons are judged: the metric's own aggregate; the mean, because a median does not show a
+/// change in fewer than half of the worlds; and the share of worlds with a value. If one of the three is worse, the
+/// change is kWorse. Holm's correction covers all comparisons of `moves` in which a world differs.
 ///
 /// The correction stays valid although comparisons without a difference are left out: the tests flip the signs of the
 /// differences, and whether there is a difference does not depend on signs.
@@ -93,7 +93,7 @@ using TailRules = std::map<std::string, TailRule>;
 std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);
 
 /// Returns the smallest number of far worse worlds, among `compared` worlds, that counts as a regression; 0 if no
-/// number of worlds counts as one.
+/// number does.
 int WorldsThatFail(int compared, const TailRule& rule);
 bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule);
 

@@ -49,7 +49,7 @@ void ReadNumbers(Fields& fields, const std::string& key, Count count, Range rang
 /// Reads a list of names. An unknown name is an error in `fields`.
 std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const std::vector<std::string>& known);
 
-/// Returns the items of a list; empty if the key is absent.
+/// Returns the items of the list at `key`; empty if the key is absent.
 std::span<const Node> ReadItems(Fields& fields, const std::string& key);
 
 /// A key of a mapping, and the member of `Options` into which the key's value is read. It is declared once for the

@@ -51,7 +51,7 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   }
   for (int i = 0; i < 4; ++i) rows[i][i] -= lambda;
   const glm::dvec4 vector = cofactors();
-  // If the cofactors are small, another rotation fits nearly as well, or this one turns by nearly 180°.
+  // If the cofactors are small, another rotation fits nearly as well, or the rotation is by nearly 180°.
   constexpr double kSafe = 0.01;
   const double length = glm::length(vector);
   if (!(length > kSafe * lambda * lambda * lambda)) return std::nullopt;

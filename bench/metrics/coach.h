@@ -72,7 +72,7 @@ std::optional<double> RepetitionsUntilRight(std::span<const std::vector<Performa
 std::optional<double> Retention(std::span<const double> chances);
 
 /// Returns `beat_error_ms`: the 95th percentile of the absolute times by which the dance is early or late. The input is
-/// in seconds, the result in milliseconds. The result is empty if there are no errors.
+/// in seconds, the result in milliseconds. The result is empty if `errors_s` is empty.
 std::optional<double> BeatErrorMs(std::span<const double> errors_s);
 
 /// Returns the median of `values`; `transition_jump_cm` uses it. The result is empty if there are no values.

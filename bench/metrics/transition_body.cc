@@ -107,7 +107,8 @@ struct BodyFrame {
   std::optional<double> zmp_cm, slip_mps2;  // nullopt if no joint supports the body
   double glide_cm = 0;                      // distance that the slowest supporting joint moves in this frame
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
-  std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each foot at rest, radians
+  std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each foot, radians; nullopt if
+                                                    // the foot moves
 };
 
 /// A motion, its mass centre and its velocities.
@@ -382,7 +383,7 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
         return slowest;
       });
     }
-    // Measure the depth below the lowest joint of the clips.
+    // Measure how far the body is below the lowest joint of the clips.
     double floor = clips.front().Floor(f);
     for (const BesideClip& clip : clips) floor = std::min(floor, clip.Floor(f));
     frame.sunk_cm = kToCm * std::max(floor - LowestOf(view.shown[f]), 0.0);

@@ -83,7 +83,8 @@ double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
 /// s if the motion is that long. Support is found from the clips, never from the shown frames (FindSupport).
 std::vector<Support> JoinSupport(const JoinView& view);
 
-/// A transition floats if the body is unsupported for at least this many frames in a row. Shorter gaps are not visible.
+/// A transition counts as floating if the body is unsupported for at least this many frames in a row. Shorter gaps are
+/// not visible.
 constexpr int kFloatingFrames = 4;
 /// Returns `unsupported_frames`: the largest number of unsupported frames in a row.
 int UnsupportedFrames(std::span<const Support> support);

@@ -48,7 +48,7 @@ struct TailRule {
 
 /// The rules by which `etude gate` compares one scenario with a baseline.
 struct GateRules {
-  /// Metrics to compare; if the scenario names none, success and the headline metrics.
+  /// Metrics to compare; if the scenario names none, the success metric and the headline metrics.
   std::vector<std::string> metrics;
   bool exact = false;  ///< true: every difference is a regression, even below the practical threshold
   TailRule tail;
@@ -57,7 +57,7 @@ struct GateRules {
 
 struct ComparedMethod {
   std::string name;
-  std::string against;  ///< the method with which this one is compared; the first method names itself
+  std::string against;  ///< the method with which this method is compared; the first method names itself
   /// True: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
   bool has_oracle = false;
   std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces

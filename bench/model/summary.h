@@ -83,7 +83,7 @@ struct Beyond {
   PairedTest test;                 ///< the test of the units' mean differences that decides the verdict
   std::optional<double> p_holm;    ///< p-value of `test` after Holm's correction over the scenario's comparisons
   std::optional<Verdict> verdict;  ///< verdict for units that were not run; nullopt = too few units in this run
-  std::string why_open;            ///< why there is no verdict, or why it is inconclusive
+  std::string why_open;            ///< why there is no verdict, or why the verdict is inconclusive
   std::vector<LeftOut> left_out;   ///< one entry per unit, in the order of names; empty if every world is its own unit
 };
 
@@ -135,7 +135,7 @@ struct Answer {
   std::string value_metric = {};             ///< the metric that ValueMetricOf returns; "" if there is none
   Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
   AnswerStep decided_by = AnswerStep::kNone;
-  /// The verdict of the deciding comparison, generalised to other sampling units; nullopt = too few units.
+  /// The verdict of the comparison that decided, generalised to other sampling units; nullopt = too few units.
   std::optional<Verdict> beyond = {};
   /// The comparison of the success metric (Study::success), in which failed cells count 0; nullopt if no cell has a
   /// value.
@@ -153,7 +153,7 @@ struct Answer {
 struct BudgetShare {
   std::string stage;  ///< the processing stage, or several stages that were replaced together
   double mean = 0;
-  std::optional<double> ci_low = {}, ci_high = {};  ///< 95 % interval of the mean
+  std::optional<double> ci_low = {}, ci_high = {};  ///< 95 % interval of the mean reduction
 };
 
 /// The error of one method, split into the costs of its processing stages (bench/statistics/summary.h).
@@ -223,7 +223,8 @@ struct ScenarioSummary {
   std::vector<ExpectationResult> expectations;
   /// Number of comparisons, over all conditions and headline metrics, to which Holm's correction applies together.
   int family = 0;
-  std::vector<AcrossVerdict> across = {};  ///< verdicts across parameters; empty if the scenario has no key `across`
+  std::vector<AcrossVerdict> across = {};  ///< verdicts under all values of the parameters in `across`; empty without
+                                           ///< this key
   std::string description = {};            ///< a sentence about the scenario's worlds; "" = not described
   /// One sentence about each method; empty if the scenario describes no method.
   std::vector<std::string> descriptions = {};

@@ -83,14 +83,14 @@ struct OutsideMethod::State {
   struct Session {
     std::string id;
     AttachmentFolder files;
-    int steps = 0;  ///< number of steps sent so far
+    int steps = 0;  ///< number of steps sent in the session in progress
   };
   std::optional<Session> session;  ///< the session in progress
   std::set<std::string> answered;  ///< ids of the questions that the running program was asked before
-  int repeated = 0;                ///< lines ignored since the problem was sent
+  int repeated = 0;                ///< number of lines ignored since the problem was sent
 
   struct Failures {
-    int times = 0;  ///< number of failures in a row
+    int times = 0;  ///< number of successive failures of one step
     OutsideFailure last;
   };
   std::map<std::string, Failures> failures;  ///< failures by the name of the step

@@ -83,7 +83,7 @@ class WatchedProgram {
   /// since the last sample.
   OutsideOutcome<void> Measure();
   OutsideOutcome<void> MeasureIfDue();
-  /// Returns the number of bytes sent to the program that it has not read yet.
+  /// Returns the number of bytes that were sent to the program and that the program has not read yet.
   std::size_t UnreadBytes() const { return child_->UnreadBytes(); }
 
   /// Returns the folder that holds the folders of attachments. It exists from the first start on.

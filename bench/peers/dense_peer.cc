@@ -32,8 +32,8 @@ inline Vector Cross(Vector a, Vector b) {
 }
 Vector From(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// Returns the dot product of rows, from the start of the SIMD vector that contains row `from`. Eight partial sums hide
-// the latency.
+// Returns the dot product of `a` and `b` over the rows from the SIMD vector that contains row `from` to the end. Eight
+// partial sums hide the latency.
 constexpr int kSums = 8;
 inline double DotRows(const double* a, const double* b, int from = 0) {
   double sums[kSums] = {};

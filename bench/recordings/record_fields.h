@@ -18,8 +18,8 @@ namespace etude {
 template <typename Value>
 void EncodeValue(const Value& value, Json& json);
 
-/// Reads JSON that EncodeValue wrote. An error message says which value was found and which are allowed. It begins with
-/// a colon, or with the index of the faulty entry.
+/// Reads JSON that EncodeValue wrote. An error message says which value was found and which values are allowed. The
+/// message begins with a colon, or with the index of the faulty entry.
 template <typename Value>
 Result<void> DecodeValue(const Json& json, Value& value);
 

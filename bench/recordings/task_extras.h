@@ -56,7 +56,7 @@ struct TransitionExtras {
   std::string why;                      ///< a sentence that says why this transition was chosen
   std::optional<int> request_frame;     ///< frame of the request; negative = before the start of the recording
   std::optional<double> wait_s, threshold, natural_limit_cm;
-  /// The largest distance of any transition point; `partials` has the terms of its square.
+  /// The largest distance of any transition point; `partials` has the terms of this distance's square.
   std::optional<double> distance;
   std::optional<PerFeature> weights, partials;
   std::optional<std::int64_t> pairs_seen, pairs_matched;

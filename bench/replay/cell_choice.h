@@ -18,7 +18,7 @@ struct ReplayOptions;
 struct MethodRows {
   std::string scenario, method;
   std::size_t rows = 0;
-  std::string why_not;       ///< why none of the method's cells can be run again; "" = they can
+  std::string why_not;       ///< why the method's cells cannot be run again; "" = they can
   std::size_t drawable = 0;  ///< number of rows from which the sample is drawn
   /// The number of rows whose status depends on the machine that ran them (DependsOnMachine), by status.
   std::map<std::string, std::size_t> by_machine;

@@ -84,7 +84,7 @@ std::array<std::optional<Interval>, kFigures> FigureIntervals(std::span<const Ag
 
 CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<const std::string> units,
                                 std::uint64_t seed, const std::string& purpose) {
-  // Sum the pairs of each unit, in the order of units.
+  // Add up the sums of all pairs of curves of each unit, in the order of units.
   std::map<std::string, AgreementSums> by_unit;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].count == 0) continue;

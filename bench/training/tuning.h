@@ -12,7 +12,7 @@ namespace etude {
 
 using ClipFrames = std::span<const std::vector<TrainingFrame>>;
 
-/// The parts of the system that are learnt, and the learning method.
+/// The parts of the fuzzy system that are learnt, and the learning method.
 enum class Tuning {
   kAdaptive,            ///< the weights, by logistic regression (engine/fuzzy/weights.h)
   kGenetic,             ///< the weights, by the genetic algorithm (genetic_search.h)

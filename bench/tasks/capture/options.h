@@ -32,7 +32,7 @@ enum class CalibrationTargetKind {
   kBoards,  ///< "boards": a cube of calibration boards, found in the picture
 };
 
-/// One condition of a capture scenario: the studio and its errors.
+/// One condition of a capture scenario: the studio, and the errors of cameras, measurements and annotation.
 struct StudioOptions {
   double duration_s = 2;
   RigOptions rig = {};  ///< the places of the cameras
@@ -103,7 +103,7 @@ struct Oracle {
 enum class Recovery {
   kIk,      ///< "ik": inverse kinematics to limb directions and ends, with known lengths (paper B)
   kEnds,    ///< "ends": each joint is triangulated from the strokes that end there; no body is fitted
-  kBundle,  ///< "bundle": bundle adjustment of one body in smooth motion to all marks of all frames
+  kBundle,  ///< "bundle": one body in smooth motion is fitted to all marks of all frames (bundle adjustment)
   /// "keypoints": the method of `etude capture`. Joints are triangulated robustly, and a body with the median limb
   /// lengths is fitted to all of them (engine/keypoints).
   kKeypoints,

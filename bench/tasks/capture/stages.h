@@ -124,7 +124,7 @@ class CaptureStages {
   std::map<BodyChoice, NearestPoses> nearest_;
 };
 
-/// Returns the true values of the measurements of a frame that the oracles of a method replace.
+/// Returns the true values for those measurements of a frame that the oracles of a method replace.
 KnownMeasurement KnownMeasurementOf(const BodyPose& truth, const Oracle& oracle);
 
 }  // namespace etude

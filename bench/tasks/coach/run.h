@@ -18,7 +18,7 @@ namespace etude {
 /// A prepared method: its coach, and its recogniser, which has been taught the moves of the dance.
 struct ReadyCoach {
   CoachMethod method;
-  /// Transitions, shared by all methods with transitions of this kind.
+  /// The transitions of the dance. All methods that need the same transitions share one object.
   std::shared_ptr<const DanceTransitions> transitions;
   std::unique_ptr<Recogniser> recogniser;
   std::unique_ptr<Coach> coach;

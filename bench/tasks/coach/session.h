@@ -41,7 +41,7 @@ class Player {
 
 /// A performance that the coach asked for: how it was danced and how it was judged.
 struct LoggedPerformance {
-  int repetition = 0;  ///< the repetition of the dance
+  int repetition = 0;  ///< index of the repetition in the dance
   int move = 0;
   CoachedPerformance judged;
   std::string faults;
@@ -65,7 +65,7 @@ struct SessionLog {
   std::vector<CoachMode> modes;  ///< the mode in each frame
   std::vector<LoggedPerformance> performances;
   std::vector<GivenCorrection> corrections;
-  std::vector<CoachRecord> records;  ///< records whose frames count from the session's first frame
+  std::vector<CoachRecord> records;  ///< the coach's decisions; their frames count from the session's first frame
   std::vector<LoggedTransition> transitions;
   std::vector<LoggedWords> words;     ///< one entry per change of the words
   std::vector<double> beat_errors_s;  ///< timing errors in the frames danced to music
