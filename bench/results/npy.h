@@ -49,7 +49,7 @@ class NpyWriter {
   std::size_t count_ = 0;
 };
 
-/// Installs a handler of SIGBUS for the process. If another program cuts a mapped file short, reading the missing part
+/// Installs a handler of SIGBUS for the process. If another program truncates a mapped file, reading the missing part
 /// then ends the process with a sentence on standard error and exit code 3, instead of a crash.
 void EndWhenMappedFilesAreCut();
 

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// The position of a line in one of the files.
+/// The position of a line in one of the files with rows, curves or times.
 struct LinePlace {
   std::uint32_t file = 0, bytes = 0;
   off_t begin = 0;

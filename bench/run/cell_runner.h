@@ -17,7 +17,7 @@ struct FinishedCell {
   CellUsage usage;
   /// False if the method has answered, but outside metric programs must still measure the answer (CellRunner::Measure).
   bool is_measured = true;
-  /// Why this machine could not run the method; such a cell gets no row. "" if it ran.
+  /// Why this machine could not run the method; such a cell gets no row. "" if the method ran.
   std::string why_not_run = {};
 };
 

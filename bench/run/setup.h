@@ -98,8 +98,8 @@ class PreparedScenario {
   /// Returns a cell's row, still without a result.
   Row IdentityOf(int condition, int trial, std::size_t method) const;
   Row EndedRow(int condition, int trial, std::size_t method, Status status, const std::string& reason) const;
-  /// Adds the metrics that `row` lacks. Each gets the value that the task defines for failed cells. If the task defines
-  /// none, the metric is missing, with the row's reason.
+  /// Adds the metrics that `row` lacks. Each added metric gets the value that the task defines for failed cells. If the
+  /// task defines none, the metric is missing, with the row's reason.
   void CompleteMetrics(int condition, Row& row) const;
 
  private:

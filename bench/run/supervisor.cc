@@ -29,7 +29,7 @@ constexpr double kAheadS = 0.05;       // seconds of work that a worker gets at 
 // A longer world counts as long: begun last, it would delay the run more than preparing its condition on two workers.
 constexpr double kLongWorldS = 1;
 constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if no worker is idle
-// Number of deaths in a row that end the run; a single death may be chance (a shortage of memory, a stray kill).
+// Number of successive worker deaths in set-up that end the run; one death may be chance (short memory, a stray kill).
 constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which the worker loads clips
 constexpr double kClockPerLimit = 20;   // maximum wall time of a step, as a multiple of the processor-time limit

@@ -60,11 +60,12 @@ struct MethodEntry {
   std::string name;
   std::string against;            ///< the method with which this method is compared; the first method is compared with
                                   ///< itself
-  Node node;                      ///< the mapping that its task reads; not used for an outside method without a seat
+  Node node;                      ///< the mapping that the task reads; not used for an outside method without a seat
   std::vector<std::string> exec;  ///< an outside method's program and arguments; empty = built in
   std::string options_json;       ///< an outside method's `options`, sent to it unchanged
   std::optional<double> time_s;   ///< an outside method's own limit per problem or step, instead of Limits::time_s
-  std::string seat = {};          ///< an outside method's seat in the task's loop; "" = it is asked once per world
+  std::string seat = {};          ///< an outside method's seat in the task's loop; "" = the method is asked once per
+                                  ///< world
   std::vector<std::string> files = {};  ///< files that a sandbox shows to the program; empty = the program's own folder
   std::string description = {};         ///< a sentence about the method, for readers of the results; "" = not described
 
@@ -89,7 +90,8 @@ struct OutsideMetric {
   std::vector<MetricExample> vectors;
 };
 
-/// The time and memory that one cell, or the building of one world, may use. If it uses more, it is ended.
+/// The time and memory that one cell, or the building of one world, may use. A cell or building that uses more is
+/// ended.
 struct Limits {
   double time_s = 300;
   double memory_mb = 4096;  ///< limit of the resident memory of the worker, and of each outside method

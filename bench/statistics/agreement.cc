@@ -132,7 +132,7 @@ std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
       collected[at->second].units.push_back(row.units.empty() ? row.clip : row.units.front());
     }
   });
-  // Measure the agreement of each angle, with one random stream for each.
+  // Measure the agreement of each angle, each with a random stream of its own.
   for (const auto& [key, at] : places) {
     found[at].agreement = MeasureAgreement(collected[at].pairs, collected[at].units, run.seed, "agreement/" + key);
   }

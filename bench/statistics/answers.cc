@@ -14,8 +14,8 @@ namespace {
 
 bool IsDecided(Verdict verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
 
-/// Returns the metric by which a step of an answer is judged: a share of worlds whose practical threshold is
-/// Study::success_matters.
+/// Returns the metric by which a step of an answer is judged. The metric is a share of worlds; its practical threshold
+/// is Study::success_matters.
 MetricInfo ShareMetric(const Study& study, const std::string& id) {
   MetricInfo metric = *FindMetric(id);
   metric.direction = Direction::kHigherIsBetter;

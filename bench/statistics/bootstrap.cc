@@ -194,7 +194,7 @@ Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span
   const double tail = (1 - confidence) / 2;
   const Interval percentile{AtLevel(replicates, tail), AtLevel(replicates, 1 - tail), IntervalKind::kPercentile};
   if (share_below <= 0 || share_below >= 1) return percentile;
-  // Correct both ends for bias and acceleration.
+  // Correct both ends of the interval for bias and acceleration.
   const double bias = NormalQuantile(share_below);
   const auto acceleration = Acceleration(jackknife);
   if (!acceleration) return percentile;

@@ -134,9 +134,9 @@ class FlippedSample {
     return sum / static_cast<double>(sizes_.size());
   }
 
-  /// Returns the median under the given signs. In sorted order the negative values come first, from the largest size to
-  /// the smallest, then the positive values from the smallest size to the largest. The middle value has a small size,
-  /// so a short walk over the bits finds it.
+  /// Returns the median under the given signs. In sorted order the negative values come first, from the largest |d| to
+  /// the smallest, then the positive values from the smallest |d| to the largest. The middle value has a small |d|, so
+  /// a short walk over the bits finds it.
   double MedianUnder(const Signs& signs) const {
     std::size_t negatives = 0;
     for (std::uint64_t bits : signs) negatives += static_cast<std::size_t>(std::popcount(bits));
@@ -189,7 +189,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
                         const std::string& purpose) {
   if (differences.empty()) return {};
   std::vector<double> ordered(differences.begin(), differences.end());
-  // Sort by size, and separate the sizes from the signs.
+  // Sort the differences by |d|, and separate |d| from the signs.
   std::sort(ordered.begin(), ordered.end(),
             [](double a, double b) { return std::abs(a) != std::abs(b) ? std::abs(a) < std::abs(b) : a < b; });
   std::vector<double> sizes;

@@ -19,7 +19,7 @@ constexpr double kSettled = 1e-12;
 constexpr std::size_t kRaterResamples = 1999;
 constexpr double kOneSided = 0.01;
 
-/// One rater's answers as wins of methods, and as counts of sides.
+/// The answers of one rater, counted as wins of methods and as choices of the left and the right side.
 struct Rater {
   WinTable wins;
   int left = 0, decided = 0;

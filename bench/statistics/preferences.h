@@ -33,7 +33,8 @@ struct PreferredMethod {
 struct MetricAgreement {
   std::string metric;
   int agreed = 0, decided = 0;
-  int equal = 0, missing = 0;             ///< pairs on which the raters decided, but not the metric
+  int equal = 0, missing = 0;             ///< pairs in which the raters prefer one film, but the metric's values are
+                                          ///< equal or missing
   std::optional<Interval> interval = {};  ///< Wilson interval over pairs
 };
 

@@ -111,7 +111,7 @@ std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>
 struct Rival {
   std::array<std::string, 2> of_half;  ///< the rival in worlds of even units, then the rival in worlds of odd units
 
-  std::string Name() const;  ///< the rival's name: "a", or "a or b" if the two halves chose differently
+  std::string Name() const;  ///< the rival's name: "a", or "a or b" if the two halves have different rivals
   std::string Note() const;  ///< says how the two rivals were chosen; "" if they are the same
 };
 

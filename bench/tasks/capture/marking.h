@@ -56,7 +56,8 @@ class Marking {
 /// every pose and is measured beforehand.
 double HeadBelowCrown(const Figure& figure, const BodyPose& body);
 
-/// Returns the mean of both marks for each stroke and disc, or the single mark if only one annotator drew it.
+/// Returns the mean of the two annotators' marks for each stroke and disc, or the single mark if only one annotator
+/// drew it.
 Marks MeanMarks(const Marks& first, const Marks& second);
 
 }  // namespace etude

@@ -22,7 +22,7 @@ LimbObservation Observed(const BodyPose& truth) {
   return seen;
 }
 
-/// Returns a copy of the body with a joint at its root that turns freely.
+/// Returns a copy of the body with a freely turning joint at its root.
 CaptureBody OnTurningRoot(CaptureBody body) {
   std::vector<TreeJoint>& joints = body.tree.joints;
   joints.insert(joints.begin() + 1,
