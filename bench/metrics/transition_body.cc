@@ -107,8 +107,7 @@ struct BodyFrame {
   std::optional<double> zmp_cm, slip_mps2;  // nullopt if no joint supports the body
   double glide_cm = 0;                      // distance that the slowest supporting joint moves in this frame
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
-  std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each foot, radians; nullopt if
-                                                    // the foot moves
+  std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each resting foot, radians
 };
 
 /// A motion, its mass centre and its velocities.

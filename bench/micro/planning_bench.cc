@@ -1,6 +1,6 @@
 // Times the planning of one transition by every choice, with clips of 1,000 frames (33 s) and an allowed wait of one
 // second. The point-cloud choice is also timed in the form of its paper, which computes the distance of every pair of
-// frames. Before measuring, the program checks that both implementations find the same frames.
+// frames. Before measuring, the program checks that both forms of the point-cloud choice find the same frames.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -22,7 +22,7 @@ enum class Clothes {
 };
 
 enum class PerformerFigure {
-  kStaged,  ///< "staged": the stage's own people; `clothes` and `scene` choose their clothes
+  kStaged,  ///< "staged": the stage's own people; `clothes` and `scene` choose the people's clothes
   kOwn,     ///< "own": the meshes and textures of the clip's file
 };
 
@@ -105,7 +105,7 @@ enum class Recovery {
   kEnds,    ///< "ends": each joint is triangulated from the strokes that end there; no body is fitted
   kBundle,  ///< "bundle": one body in smooth motion is fitted to all marks of all frames (bundle adjustment)
   /// "keypoints": the method of `etude capture`. Joints are triangulated robustly, and a body with the median limb
-  /// lengths is fitted to all of them (engine/keypoints).
+  /// lengths is fitted to all joints (engine/keypoints).
   kKeypoints,
   /// "silhouettes": no marks. A body is fitted to the masks and tracked from frame to frame (engine/silhouettes).
   kSilhouettes,
@@ -124,8 +124,8 @@ enum class LengthSource {
 
 /// The way in which a method that tracks silhouettes finds its first pose.
 enum class SilhouetteStart {
-  kCold,  ///< "cold": it uses the pictures alone
-  kNear,  ///< "near": it starts from the first true pose, with errors of up to 10° in every angle
+  kCold,  ///< "cold": the method uses the pictures alone
+  kNear,  ///< "near": the method starts from the first true pose, with errors of up to 10° in every angle
   /// "keypoints": as kCold; in addition, in every picture the marks give the positions of joints, like the keypoints of
   /// a pose estimator.
   kKeypoints,

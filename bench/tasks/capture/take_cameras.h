@@ -24,7 +24,8 @@ class SeatedSegmenter {
   /// `program` must outlive this object.
   explicit SeatedSegmenter(LiveProgram& program) : program_(program) {}
 
-  /// Begins the session of a camera and sends its picture of the empty room. The camera's pictures must follow.
+  /// Begins the session of a camera and sends the camera's picture of the empty room. The camera's other pictures must
+  /// follow.
   void Begin(std::size_t camera, const ColourImage& background);
   /// Sends the next picture and returns the mask in the program's answer. If the program has failed or an answer was
   /// invalid, the mask is all zero, and the program is not asked again.

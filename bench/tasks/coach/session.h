@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// The truth of a performance, which only its player knows.
+/// The truth of a performance. Only the player of the performance knows it.
 struct PlayedPerformance {
   PerformanceTruth truth = PerformanceTruth::kRight;
   std::string faults = "none";  ///< names of the faults, e.g. "amplitude+late"

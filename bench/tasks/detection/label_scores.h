@@ -23,8 +23,8 @@ std::optional<double> Accuracy(std::span<const Classified> verdicts);
 struct LeaveOneOut {
   std::vector<std::string> people;   ///< names, sorted
   std::vector<Classified> verdicts;  ///< the right performances whose labels give a beginning and an end
-  /// The same performances, classified by the nearest whole performance of any other person. This is a baseline for
-  /// comparison.
+  /// The performances of `verdicts`, classified by the nearest whole performance of any other person. This is a
+  /// baseline for comparison.
   std::vector<Classified> nearest;
   std::vector<Moment> points, detections;  ///< times of action points and of detections, in recordings with action
                                            ///< points, on one time axis

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// A joint that both motions have, by its index in each.
+/// A joint that both motions have, by the joint's index in each motion.
 struct CommonJoint {
   std::string name;
   int truth = -1, answer = -1;

@@ -14,8 +14,8 @@
 
 namespace etude {
 
-/// Measurements of a whole file, with which each of its windows is judged. Bodies are scaled so that their hips stand
-/// at 0.90 m.
+/// Measurements of a whole file, used to judge each window of the file. Bodies are scaled so that their hips stand at
+/// 0.90 m.
 struct JudgedFile {
   double floor_m = 0;  ///< the 5th percentile, over the frames, of the lowest joint's height (hands do not count)
   double scale = 1;    ///< factor from the size of the file's body to that of the judged body
@@ -42,7 +42,7 @@ std::vector<std::string> InbetweenMetrics();
 std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole);
 
 /// Measures a window after its hidden frames are replaced by `filled`, which has one pose per hidden frame. With
-/// `keeps_motion`, the result's recording contains this window and the true one.
+/// `keeps_motion`, the result's recording contains this window and the true window.
 CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> filled, bool keeps_motion);
 
 }  // namespace etude

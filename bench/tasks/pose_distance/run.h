@@ -28,7 +28,7 @@ struct PoseDistanceMethod {
   PoseDistance distance = PoseDistance::kFuzzy;
   WeightSource weights = WeightSource::kFixed;  ///< the source of the fuzzy distance's weights
   /// Poses are called alike if their distance is below this threshold. It has no unit for the fuzzy distance, and is in
-  /// centimetres for the others.
+  /// centimetres for the other distances.
   double threshold = kPaperThreshold;
 };
 

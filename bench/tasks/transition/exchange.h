@@ -66,7 +66,7 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 struct TransitionAnswer {
   std::optional<std::string> unsolved;  ///< why there is no transition; the other members are then empty
   std::vector<Segment> segments;        ///< the segments, in the form of a TransitionRecord
-  const JoinKind* join = nullptr;       ///< the join; not null if there are segments; it has default settings
+  const JoinKind* join = nullptr;       ///< the join, with default settings; not null if there are segments
   bool matched = false;
 };
 
