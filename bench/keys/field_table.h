@@ -60,7 +60,7 @@ struct Field {
   KeyInfo info;
   std::function<void(Fields&, Options&)> read;
 
-  /// A number: a double, an int (integers only), or a std::optional of one of these.
+  /// Makes a field for a number: a double, an int (integers only), or a std::optional of one of these.
   template <typename Member>
   static Field Number(const std::string& key, Member member, Range range, std::string meaning) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;
@@ -69,7 +69,7 @@ struct Field {
             [=](Fields& fields, Options& options) { ReadNumber(fields, key, range, std::invoke(member, options)); }};
   }
 
-  /// An angle: degrees in the file, radians in memory.
+  /// Makes a field for an angle: degrees in the file, radians in memory.
   template <typename Member>
   static Field Angle(const std::string& key, Member member, Range range, std::string meaning) {
     return {{key, NumberKind(range), DegreesText(Default(member)), std::move(meaning)},
@@ -80,7 +80,7 @@ struct Field {
             }};
   }
 
-  /// A list of `count` numbers. `allowed` describes the values to users.
+  /// Makes a field for a list of `count` numbers. `allowed` describes the values to users.
   template <typename Member>
   static Field Numbers(const std::string& key, Member member, Count count, std::string allowed, Range range,
                        std::string meaning) {
@@ -102,7 +102,7 @@ struct Field {
             }};
   }
 
-  /// A text without restrictions. `allowed` describes it to users.
+  /// Makes a field for a text without restrictions. `allowed` describes the text to users.
   template <typename Member>
   static Field Text(const std::string& key, Member member, std::string allowed, std::string meaning) {
     return {{key, TextKind(std::move(allowed)), Default(member), std::move(meaning)},
@@ -118,7 +118,7 @@ struct Field {
             [=](Fields& fields, Options& options) { std::invoke(member, options) = fields.Texts(key); }};
   }
 
-  /// A value chosen by its name from a list.
+  /// Makes a field for a value that is chosen by its name from a list.
   template <typename Member, typename Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>>
   static Field Name(const std::string& key, Member member, const NamedValues<Value>& values, std::string meaning) {
     std::vector<std::string> names;
@@ -135,7 +135,7 @@ struct Field {
             }};
   }
 
-  /// A value chosen by its name. `find` returns the value of a name, or a pointer to it.
+  /// Makes a field for a value that is chosen by its name. `find` returns the value of a name, or a pointer to it.
   template <typename Member, typename Find>
   static Field Name(const std::string& key, Member member, const std::vector<std::string>& names, Find find,
                     std::string meaning) {
@@ -151,7 +151,7 @@ struct Field {
     return Name(key, member, values, std::move(meaning));
   }
 
-  /// A list of names. Each name sets one bool of `Options`.
+  /// Makes a field for a list of names. Each name sets one bool of `Options`.
   static Field Flags(const std::string& key, const NamedValues<std::function<bool&(Options&)>>& flags,
                      std::string meaning) {
     std::vector<std::string> names;

@@ -33,7 +33,7 @@ constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if n
 constexpr int kMaxDeathsInSetup = 3;
 constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which the worker loads clips
 constexpr double kClockPerLimit = 20;   // maximum wall time of a step, as a multiple of the processor-time limit
-constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and say so
+constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report this
 constexpr int kShutdownGraceMs = 3000;  // time in which an ending worker can end all its outside methods
 
 Clock::time_point After(double seconds) {

@@ -135,7 +135,7 @@ struct TaskKind {
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
   /// The metric that says how well a cell reached the task's goal (solved, recovered, clean, …).
   std::string success;
-  std::vector<std::string> metrics;          ///< all metrics that the task's cells report, by a value or by a reason
+  std::vector<std::string> metrics;  ///< all metrics that the task's cells report, by a value or by a reason
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< the keys that the task adds to a scenario
   std::vector<KeyInfo> method_keys;     ///< the keys that the task adds to a method, except `name`

@@ -48,7 +48,7 @@ struct CaptureWorld {
   Room room;                       ///< the empty room; `brightness` is that of the background pictures
   StageOptions stage_options;
   StagedRoom stage;                ///< the room and people that `scene` adds
-  std::vector<double> brightness;  ///< brightness of each frame
+  std::vector<double> brightness;  ///< brightness of the lamp in each frame
 };
 
 /// The person who will be filmed, and the number of frames.

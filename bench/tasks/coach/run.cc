@@ -84,7 +84,7 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
 
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program) {
-  // If there is a program, let it take its part of the loop: recogniser, policy or learner.
+  // If there is a program, let it replace its part of the loop: recogniser, policy or learner.
   const Seat seat = program != nullptr ? ready.method.seat : Seat::kNone;
   std::optional<SeatedCoachProgram> seated;
   if (program != nullptr) seated.emplace(*program, stage);

@@ -21,7 +21,7 @@ std::optional<double> Accuracy(std::span<const Classified> verdicts);
 
 /// The result of leave-one-person-out: each person is recognised with moves taught by all others.
 struct LeaveOneOut {
-  std::vector<std::string> people;   ///< names, sorted
+  std::vector<std::string> people;   ///< names of the people, sorted
   std::vector<Classified> verdicts;  ///< the right performances whose labels give a beginning and an end
   /// The performances of `verdicts`, classified by the nearest whole performance of any other person. This is a
   /// baseline for comparison.

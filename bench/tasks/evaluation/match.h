@@ -21,8 +21,7 @@ struct MatchedMotions {
   std::vector<std::string> lacking;  ///< joints of the set that the truth or the answer lacks
   /// Knees and elbows: the joint above, the joint itself, the joint below.
   std::vector<std::array<std::size_t, 3>> bends;
-  AngleTracks true_angles, found_angles;  ///< the angles that both motions have, by name; empty if a motion has no
-                                          ///< rotations
+  AngleTracks true_angles, found_angles;  ///< the angles that both motions have; empty if a motion has no rotations
   std::size_t uncovered = 0;              ///< number of frames of the truth that the answer does not cover
   std::optional<TimeShift> lag;           ///< the time shift that was found and removed
   std::string note;                       ///< a note on the match, in one line
