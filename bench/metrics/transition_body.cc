@@ -110,7 +110,7 @@ struct BodyFrame {
   std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each resting foot, radians
 };
 
-/// A motion, its mass centre and its velocities.
+/// A motion, with the centre of mass and the joint velocities of every frame.
 struct Moving {
   Moving(std::span<const BodyPose> motion, double rate)
       : poses(motion), rate_hz(rate), velocities(JointVelocities(motion, rate)) {

@@ -62,7 +62,7 @@ struct LoggedWords {
 
 /// The record of a session.
 struct SessionLog {
-  std::vector<CoachMode> modes;  ///< the mode in each frame
+  std::vector<CoachMode> modes;  ///< the coach's mode in each frame
   std::vector<LoggedPerformance> performances;
   std::vector<GivenCorrection> corrections;
   std::vector<CoachRecord> records;  ///< the coach's decisions; their frames count from the session's first frame

@@ -25,7 +25,7 @@ IkTargetParts AskedOf(const IkProblem& problem);
 struct IkAccount {
   std::optional<int> iterations, fk_evaluations;  ///< costs; empty if the method does not report them
   int max_steps = 0;
-  std::string why_not_met;  ///< the reason if the targets are not met
+  std::string why_not_met;  ///< why the targets are not met, if they are not
 };
 
 /// Scores the final angles of a solver or of an outside method: metrics, and the series of the final pose that

@@ -14,8 +14,8 @@ namespace etude {
 /// A definition of the distance of two poses.
 enum class PoseDistance {
   kFuzzy,           ///< paper A's d, equation 1
-  kPointCloud,      ///< Kovar's distance: RMS over the joints after the best alignment on the floor, cm
-  kJointPositions,  ///< mean over the joints after aligning heading and hip centre, cm
+  kPointCloud,      ///< Kovar's distance: RMS joint distance after the best alignment on the floor, cm
+  kJointPositions,  ///< mean joint distance after aligning heading and hip centre, cm
 };
 
 /// Returns the names "fuzzy", "point-cloud", "joint-positions".
