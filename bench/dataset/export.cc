@@ -110,7 +110,7 @@ class NewFolder {
   /// Returns the temporary folder. Writing below it never follows a link, even if a link replaces the folder.
   FilePath partial() const { return Inside(partial_.parent_path()) / partial_.filename(); }
 
-  /// Syncs the folder's contents to disk and gives it its final name.
+  /// Syncs the folder's contents to disk, then renames the folder to its final name.
   Result<void> Finish() {
     RETURN_IF_ERROR(SyncTree(partial_));
     if (!IsOurs(partial_)) return Fail({partial_.string()}, "was replaced by something else while it was filled");

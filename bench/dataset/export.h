@@ -12,11 +12,11 @@
 namespace etude {
 
 struct ExportOptions {
-  std::vector<std::string> scenarios;  ///< paths of files, or of folders with *.yaml files
-  std::optional<std::uint64_t> seed;   ///< seed of the worlds; nullopt = each scenario's own, else 1
+  std::vector<std::string> scenarios;  ///< paths of scenario files, or of folders with such files (*.yaml)
+  std::optional<std::uint64_t> seed;   ///< seed of the worlds; nullopt = each scenario's own seed, else 1
   std::optional<SecretKey> key = {};   ///< the key of secret worlds, instead of a seed
   bool reuse_key = false;              ///< true: the key may have been used before (used_keys.h)
-  std::optional<int> trials;           ///< trials per condition; nullopt = each scenario's own
+  std::optional<int> trials;           ///< trials per condition; nullopt = each scenario's own number
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
   std::string joint_map;               ///< if not empty, replaces the scenarios' joint maps
   std::string clip_facts = {};         ///< additional lines of the joint map (RunOptions::clip_facts)
@@ -28,7 +28,7 @@ struct ExportOptions {
 
 struct ExportOutcome {
   std::size_t problems = 0;
-  std::size_t skipped = 0;  ///< worlds in which no method can run; the index gives the reason
+  std::size_t skipped = 0;  ///< number of worlds in which no method can run; the index of the data set gives the reason
 };
 
 /// Writes the problems of all worlds and, separately, their truths (docs/datasets.md):

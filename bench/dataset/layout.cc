@@ -85,7 +85,7 @@ std::string WorldName(const PreparedScenario& scenario, int condition, int trial
 
 Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan, PredictionFaults& faults) {
   ASSIGN_OR_RETURN(const auto files, AnswersBelow(folder, faults));
-  // Map each world's folder "SCENARIO/CONDITION" and its name to its index in the plan.
+  // Map each world, by its folder "SCENARIO/CONDITION" and its name, to its index in the plan.
   std::map<std::pair<std::string, std::string>, std::size_t> worlds;
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     const Scenario& scenario = plan.scenario_of(w).scenario();

@@ -18,8 +18,8 @@ namespace etude {
 /// letters, digits and "._=,+-" become "_"; equal names then get "~2", "~3", … in order.
 std::vector<std::string> ConditionFolders(const Scenario& scenario);
 
-/// Returns a world's name in its condition's folder: its trial ("007"). A secret world has 16 hexadecimal digits
-/// instead, from which the trial cannot be found without the key.
+/// Returns the name of a world in the folder of its condition: the trial number ("007"). A secret world has 16
+/// hexadecimal digits instead, from which the trial cannot be found without the key.
 std::string WorldName(const PreparedScenario& scenario, int condition, int trial);
 
 /// The faults found in a folder of predictions. Each entry names a file or a world.

@@ -72,7 +72,7 @@ std::string NameOf(const Plan& plan, std::size_t w) {
                      WorldName(plan.scenario_of(w), world.condition, world.trial));
 }
 
-// The limit of kMaxReplyBytes; 60 s of poses take 3 MB.
+// Largest size of an answer file, bytes; equal to kMaxReplyBytes. An answer with 60 s of poses takes 3 MB.
 constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;
 
 Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
@@ -93,7 +93,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
   const auto ended = [&](Status status, const std::string& reason) {
     return FinishedCell{scenario.EndedRow(world.condition, world.trial, method, status, reason), {}};
   };
-  // Make the world. Outside metrics and films need its recording.
+  // Make the world. Outside metrics and films need a recording of the motion.
   const bool has_programs = !scenario.scenario().outside_metrics.empty();
   const bool is_filmed = scenario.scenario().recordings.KeepsTrial(world.trial);
   const auto built =
@@ -112,7 +112,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
     faults.broken.push_back(ToString(judged.error()));
     return ended(Status::kBadOutput, judged.error().message);
   }
-  // Make the row. If the scenario has outside metrics, they are added to the row after they have run.
+  // Make the row. If the scenario has outside metrics, their values are added to the row later.
   FinishedCell cell{scenario.IdentityOf(world.condition, world.trial, method), {}};
   cell.row.result = *std::move(judged);
   cell.is_measured = !has_programs || !cell.row.result.recording;

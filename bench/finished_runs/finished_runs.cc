@@ -97,8 +97,8 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
 }
 
 /// Returns the name of each world made of files and the digest of its truth; the digest is "" if it has no truth.
-/// `digests` are the manifest's digests of files, in the order of the worlds. For each world they hold the truth first,
-/// if there is one, and then all answers.
+/// `digests` are the manifest's digests of files, in the order of the worlds. The list holds, for each world, the truth
+/// first, if there is one, and then all answers.
 Result<NamedDigests> TruthsOf(const ScenarioSetup& setup, std::span<const std::string> digests, const Place& place) {
   NamedDigests truths;
   std::size_t at = 0;
@@ -117,7 +117,7 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
   const Place place{path.string(), 0, 0};
   ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
   RETURN_IF_ERROR(CheckMetricVersions(manifest, place));
-  // Parse each scenario. The manifest contains the digests of its clips.
+  // Parse each scenario. The manifest contains the digests of the scenario's clips.
   std::vector<FinishedScenario> finished;
   ParsedSuite parsed(suite);
   for (std::size_t s = 0; s < suite.scenarios.size(); ++s) {

@@ -30,7 +30,7 @@ Json EncodeScenario(const SnapshotScenario& scenario) {
             {"metrics", std::move(metrics)},
             {"worlds", EncodePairs(scenario.worlds)},
             {"methods", EncodePairs(scenario.methods)}};
-  // The order of files is kept.
+  // The files are a list of pairs, because a list keeps their order.
   for (const auto& [name, truth] : scenario.files) json["files"].push_back({name, truth});
   return json;
 }
@@ -65,7 +65,7 @@ class Lines {
 // made of a run with such a cell.
 constexpr std::string_view kLetters = "oufbs";
 constexpr std::string_view kAnswers = "ou";     // letters of the statuses that have an answer
-constexpr std::int64_t kMaxTrials = 1'000'000;  // the limit of a scenario file
+constexpr std::int64_t kMaxTrials = 1'000'000;  // the largest number of trials that a scenario file may state
 constexpr std::int64_t kMaxVersions = 1'000'000;
 
 /// Returns the seal of a baseline: the digest of its JSON values without the key `seal`. White space does not affect
@@ -76,12 +76,12 @@ Result<std::string> SealOf(Json baseline) {
   return Digest().Add(std::string_view(text)).Hex();
 }
 
-/// The cells that one line of statuses or values fills: those of one scenario, condition and method.
+/// The cells of one scenario, condition and method. One line of statuses or values in the file fills them.
 struct Slot {
   std::size_t trials = 0;
   SnapshotCells* cells = nullptr;
 };
-/// Slots by the text "scenario, condition, method".
+/// Slots, keyed by the text "scenario, condition, method".
 using Slots = std::map<std::string, Slot>;
 
 class BaselineReader {

@@ -12,7 +12,7 @@ namespace etude {
 /// The comparison of two snapshots. It lists every entry of either snapshot, including entries that only one of them
 /// has.
 struct SnapshotComparison {
-  /// One move for every metric that both snapshots have, even if nothing changed.
+  /// The change of each metric that both snapshots have, even if no value changed.
   std::vector<MetricMove> moves;
   /// Entries of one snapshot only, e.g. "ik-weights, joint_noise_deg=5, fixed, iterations".
   std::vector<std::string> only_before, only_after;

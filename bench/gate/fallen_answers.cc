@@ -29,8 +29,8 @@ bool KeepsAnswers(const Study& study, const SnapshotScenario& snapshot) {
 ScenarioSummary SummaryOf(Study study, const SnapshotScenario& snapshot) {
   study.unit = SamplingUnit::kWorld;
   study.expectations.clear();
-  // The comparison with the strongest other method is not needed. It leaves out methods with oracles, so all methods
-  // are marked as such.
+  // The comparison with the strongest other method is not needed. That comparison leaves out methods with oracles, so
+  // all methods are marked as having one.
   for (ComparedMethod& method : study.methods) method.has_oracle = true;
   ScenarioTable table(study);
   Row row;

@@ -20,7 +20,7 @@ struct FinishedScenario {
   Study study;
   std::uint64_t seed = 1;
   NamedDigests worlds;   ///< by condition (CompactLabel): digest of the task's parameters and the clips
-  NamedDigests methods;  ///< by method: digest of its settings
+  NamedDigests methods;  ///< by method: digest of the method's settings
   /// For a task that judges files: the name of each world and the digest of its ground truth, by trial. Empty for other
   /// tasks.
   NamedDigests files = {};
@@ -60,7 +60,7 @@ struct SnapshotScenario {
   std::uint64_t seed = 1;
   int trials = 1;
   NamedDigests worlds;                               ///< by condition: digest of the task's parameters and the clips
-  NamedDigests methods;                              ///< by method: digest of its settings
+  NamedDigests methods;                              ///< by method: digest of the method's settings
   std::vector<std::pair<std::string, int>> metrics;  ///< the metrics in the snapshot, with their versions
   std::vector<SnapshotCells> cells;                  ///< one entry for each condition and method
   NamedDigests files = {};  ///< as in FinishedScenario::files: name of each world and digest of its ground truth
@@ -71,7 +71,7 @@ struct Snapshot {
   std::string suite;
   std::string program_version;
   std::vector<SnapshotScenario> scenarios;
-  std::string unsealed = {};  ///< why its seal does not match, if it was read from a file; else ""
+  std::string unsealed = {};  ///< why the file's seal does not match; "" = it matches, or no file was read
 };
 
 /// Returns the letter of a status: 'o' ok, 'u' unsolved, 'f' failed, 't' timeout, 'c' crashed, 'm' out of memory, 'b'

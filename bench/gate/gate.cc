@@ -12,7 +12,7 @@ namespace etude {
 namespace {
 
 /// Returns the processor times of one method's cells, seconds, by world (condition, trial). A cell is left out if its
-/// status depends on the machine (DependsOnMachine), or if it took less time than the clock can resolve.
+/// status depends on the machine (DependsOnMachine), or if the cell took less time than the clock can resolve.
 std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, const std::string& scenario,
                                                         const std::string& method) {
   std::map<std::pair<std::string, int>, double> seconds;

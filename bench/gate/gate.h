@@ -17,8 +17,8 @@ struct RatioResult {
   int pairs = 0;
   /// Median over worlds of the ratio of processor times, and its 95 % interval.
   std::optional<double> median, ci_low, ci_high;
-  /// Unmet if the whole interval is above the limit. Undecided if only the median is above the limit (times vary on a
-  /// busy machine), or if too few worlds have the times of both methods. Otherwise met.
+  /// Unmet if the whole interval of the ratio is above the limit. Undecided if only the median is above the limit
+  /// (times vary on a busy machine), or if too few worlds have the times of both methods. Otherwise met.
   ClaimOutcome outcome = ClaimOutcome::kUndecided;
 };
 
@@ -33,7 +33,7 @@ struct GateExpectation {
   ExpectationResult result;
 };
 
-/// The run's own answer about a method (summary.json). The report shows it next to the changes since the baseline.
+/// A verdict on a method, from the run's own summary.json. The report shows it next to the changes since the baseline.
 struct GateAnswer {
   std::string scenario, condition;
   Answer answer;

@@ -37,7 +37,7 @@ Movement MovementOf(const Comparison& comparison, const MetricInfo& metric) {
   return Movement::kUnclear;
 }
 
-/// Combines two results about the same metric: returns the one that comes first in the order worse, better, unclear.
+/// Returns the result that comes first in the order worse, better, unclear. Both results are about the same metric.
 /// Returns kNoMatter if neither is one of these.
 Movement MoreImportant(Movement a, Movement b) {
   for (Movement movement : {Movement::kWorse, Movement::kBetter, Movement::kUnclear}) {

@@ -21,7 +21,7 @@ constexpr const char* kOkShare = "ok_share";
 const MetricInfo* FindGateMetric(std::string_view id);
 
 enum class Movement {
-  kSame,      ///< all values are equal
+  kSame,      ///< all values are the same in both snapshots
   kBetter,    ///< the value is clearly better, by at least the practical threshold
   kWorse,     ///< the value is clearly worse, by at least the practical threshold
   kNoMatter,  ///< the difference is clearly below the practical threshold
@@ -48,7 +48,7 @@ struct MetricMove {
   MoveIdentity identity;
   Movement movement = Movement::kSame;
   int worlds = 0;     ///< number of worlds in which no cell timed out, crashed or ran out of memory
-  int differing = 0;  ///< number of these worlds in which the value differs, or exists in one snapshot only
+  int differing = 0;  ///< number of compared worlds in which the value differs, or exists in one snapshot only
   int lost = 0;       ///< number of worlds with a value in the first snapshot only
   int gained = 0;     ///< number of worlds with a value in the second snapshot only
   std::optional<double> before, after;  ///< the metric's aggregate over the values in each snapshot
@@ -74,10 +74,10 @@ struct MoveColumns {
 /// `seed` seeds the random numbers of the bootstrap and of the tests.
 MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed);
 
-/// Judges each move. In a scenario that `exact` names, any difference is kChanged. In other scenarios, three
-/// comparisons are judged: the metric's own aggregate; the mean, because a median does not show a change in fewer than
-/// half of the worlds; and the share of worlds with a value. If one of the three is worse, the move is worse. Holm's
-/// correction covers all comparisons of `moves` in which a world differs.
+/// Judges each change of a metric (move). In a scenario that `exact` names, any difference is kChanged. In other
+/// scenarios, three comparisons are judged: the metric's own aggregate; the mean, because a median does not show a
+/// change in fewer than half of the worlds; and the share of worlds with a value. If one of the three is worse, the
+/// change is kWorse. Holm's correction covers all comparisons of `moves` in which a world differs.
 ///
 /// The correction stays valid although comparisons without a difference are left out: the tests flip the signs of the
 /// differences, and whether there is a difference does not depend on signs.
@@ -87,13 +87,13 @@ void JudgeMoves(std::span<MetricMove> moves, const std::set<std::string>& exact)
 using TailRules = std::map<std::string, TailRule>;
 
 /// Returns the worlds that became far worse: by more than `rule.times` practical thresholds, or because their value was
-/// lost. For kOkShare, a world is far worse if it was `ok` and no longer is; it counts as lost unless it is now
+/// lost. For kOkShare, a world is far worse if it was `ok` and no longer is; the world counts as lost unless it is now
 /// `unsolved`. If the metric has no direction, only lost values count. Lost worlds come first, then the others from the
 /// worst on.
 std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);
 
 /// Returns the smallest number of far worse worlds, among `compared` worlds, that counts as a regression; 0 if no
-/// number of worlds counts as one.
+/// number does.
 int WorldsThatFail(int compared, const TailRule& rule);
 bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule);
 

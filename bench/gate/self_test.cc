@@ -42,8 +42,8 @@ Snapshot WithMethodAsFirst(Snapshot snapshot, const std::string& method) {
   return snapshot;
 }
 
-/// Returns the values of the first median metric with a direction, into which differences can be injected; null if
-/// there is none.
+/// Finds the values into which differences can be injected: the values of the first metric that has a direction and is
+/// aggregated by the median. Returns null if there is no such metric.
 SnapshotValues* FindTarget(Snapshot& snapshot) {
   for (SnapshotValues& values : snapshot.scenarios.front().cells.front().metrics) {
     const MetricInfo& metric = *FindMetric(values.metric);
@@ -126,7 +126,7 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
     }
     tails.Try(first, target, first_seed, rules.at(name));
 
-    // Replace the first method by each other method, and count the gates that notice.
+    // Replace the first method by each other method, and count the gates that report a regression.
     methods = first.scenarios.front().methods;
     real.resize(methods.size());
     const Snapshot before = WithMethodAsFirst(first, methods.front().first);
@@ -164,8 +164,8 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   const auto worse_by = [&](double times) { return [=](std::optional<double>& value) { *value += times * worse; }; };
   const auto present = static_cast<int>(DrawTrials(TargetOf(first, target), SIZE_MAX, seed).size());
   const int needed = WorldsThatFail(present, rule);
-  // Make worlds worse by 2 × `rule.times` practical thresholds. The gate must report a regression exactly if the tail
-  // rule counts that many worlds as one.
+  // Make worlds worse by 2 × `rule.times` practical thresholds. The gate must report a regression exactly if that many
+  // worlds are a regression by the tail rule.
   std::set<int> counts = {1, 2, 3, 5, 10};
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {

@@ -31,9 +31,9 @@ struct SelfTestReport {
   Rate tail_rerun_alarms;
   /// Rate of gates that report a regression although the methods are the same and only the seeds differ.
   Rate false_alarms;
-  Rate false_alarm_comparisons;       ///< rate of comparisons in these gates that report a regression
+  Rate false_alarm_comparisons;       ///< share of regressions among all comparisons in the gates of `false_alarms`
   std::vector<PowerResult> injected;  ///< power for random differences of known mean, added to one metric of one method
-  /// Power for the same metric, made far worse in a few worlds, or with values removed.
+  /// Power for a few worlds that become far worse or lose a value, in the metric of `injected`.
   std::vector<PowerResult> tails;
   std::vector<PowerResult> real;  ///< power for another method in place of the first one; one entry for each method
 
@@ -68,7 +68,8 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
 /// if the tail rule counts it as a regression.
 class InjectedTails {
  public:
-  /// Changes the metric `target` of the first scenario and cells in copies of `first`, one change a copy:
+  /// Makes copies of `first`. Each copy has one change, to the values of metric `target` in the first cells of the
+  /// first scenario:
   /// - n worlds become worse by 2 × `rule.times`; n = 1, 2, 3, 5, 10 and the smallest number that is a regression;
   /// - that smallest number of worlds becomes worse by 0.9 × `rule.times`;
   /// - one value is lost.

@@ -49,17 +49,18 @@ void ReadNumbers(Fields& fields, const std::string& key, Count count, Range rang
 /// Reads a list of names. An unknown name is an error in `fields`.
 std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const std::vector<std::string>& known);
 
-/// Returns the items of a list; empty if the key is absent.
+/// Returns the items of the list at `key`; empty if the key is absent.
 std::span<const Node> ReadItems(Fields& fields, const std::string& key);
 
-/// One key of a mapping that is read into `Options`. It is declared once for the reader, the reference page and the
-/// schema. A `member` is a pointer to member, or a Path to a nested member; its value in `Options{}` is the default.
+/// A key of a mapping, and the member of `Options` into which the key's value is read. It is declared once for the
+/// reader, the reference page and the schema. A `member` is a pointer to member, or a Path to a nested member; its
+/// value in `Options{}` is the default.
 template <typename Options>
 struct Field {
   KeyInfo info;
   std::function<void(Fields&, Options&)> read;
 
-  /// A number: a double, an int (integers only), or a std::optional of one of these.
+  /// Makes a field for a number: a double, an int (integers only), or a std::optional of one of these.
   template <typename Member>
   static Field Number(const std::string& key, Member member, Range range, std::string meaning) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;
@@ -68,7 +69,7 @@ struct Field {
             [=](Fields& fields, Options& options) { ReadNumber(fields, key, range, std::invoke(member, options)); }};
   }
 
-  /// An angle: degrees in the file, radians in memory.
+  /// Makes a field for an angle: degrees in the file, radians in memory.
   template <typename Member>
   static Field Angle(const std::string& key, Member member, Range range, std::string meaning) {
     return {{key, NumberKind(range), DegreesText(Default(member)), std::move(meaning)},
@@ -79,7 +80,7 @@ struct Field {
             }};
   }
 
-  /// A list of `count` numbers. `allowed` describes the values to users.
+  /// Makes a field for a list of `count` numbers. `allowed` describes the values to users.
   template <typename Member>
   static Field Numbers(const std::string& key, Member member, Count count, std::string allowed, Range range,
                        std::string meaning) {
@@ -101,7 +102,7 @@ struct Field {
             }};
   }
 
-  /// A text without restrictions. `allowed` describes it to users.
+  /// Makes a field for a text without restrictions. `allowed` describes the text to users.
   template <typename Member>
   static Field Text(const std::string& key, Member member, std::string allowed, std::string meaning) {
     return {{key, TextKind(std::move(allowed)), Default(member), std::move(meaning)},
@@ -117,7 +118,7 @@ struct Field {
             [=](Fields& fields, Options& options) { std::invoke(member, options) = fields.Texts(key); }};
   }
 
-  /// A value chosen by its name from a list.
+  /// Makes a field for a value that is chosen by its name from a list.
   template <typename Member, typename Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>>
   static Field Name(const std::string& key, Member member, const NamedValues<Value>& values, std::string meaning) {
     std::vector<std::string> names;
@@ -134,7 +135,7 @@ struct Field {
             }};
   }
 
-  /// A value chosen by its name. `find` returns the value of a name, or a pointer to it.
+  /// Makes a field for a value that is chosen by its name. `find` returns the value of a name, or a pointer to it.
   template <typename Member, typename Find>
   static Field Name(const std::string& key, Member member, const std::vector<std::string>& names, Find find,
                     std::string meaning) {
@@ -150,7 +151,7 @@ struct Field {
     return Name(key, member, values, std::move(meaning));
   }
 
-  /// A list of names. Each name sets one bool of `Options`.
+  /// Makes a field for a list of names. Each name sets one bool of `Options`.
   static Field Flags(const std::string& key, const NamedValues<std::function<bool&(Options&)>>& flags,
                      std::string meaning) {
     std::vector<std::string> names;
@@ -166,7 +167,7 @@ struct Field {
             }};
   }
 
-  /// Adds the unit. It is needed only if the key's name does not state the whole unit.
+  /// Adds the unit of the values. It is needed only if the key's name does not state the whole unit.
   Field Unit(const std::string& unit) const {
     Field field = *this;
     field.info.value.allowed += " (" + unit + ")";
@@ -201,7 +202,7 @@ struct Field {
 };
 
 /// All keys of a mapping, in the order in which they are read and documented. A key may occur several times, because
-/// two solvers may have settings of the same name, but at most one of its conditions may hold at once.
+/// two solvers may have settings of the same name, but at most one of the key's conditions may hold at once.
 template <typename Options>
 struct FieldTable {
   std::vector<Field<Options>> fields;

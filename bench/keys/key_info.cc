@@ -21,7 +21,7 @@ std::string ValueOf(const std::string& key, std::span<const KeyInfo> keys, const
   return chooser == keys.end() ? "" : chooser->fallback;
 }
 
-/// Returns the key on which `key` depends if that key is itself not allowed; else null.
+/// Returns the key on which `key` depends, if that other key is itself not allowed; else null.
 const KeyInfo* MisplacedChooser(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping) {
   const auto chooser = std::ranges::find(keys, key.only_with.key, &KeyInfo::key);
   return chooser == keys.end() || MayStand(*chooser, keys, mapping) ? nullptr : &*chooser;
@@ -109,7 +109,7 @@ void RefuseMisplacedKeys(Fields& mapping, std::span<const KeyInfo> keys) {
   for (const KeyInfo& key : keys) {
     const Node* written = mapping.Raw(key.key);
     if (written == nullptr) continue;
-    std::vector<std::string> allowed;  // the values that any key of this name allows
+    std::vector<std::string> allowed;  // the values that keys of this name allow, all such keys together
     const bool may_stand = std::ranges::any_of(keys, [&](const KeyInfo& other) {
       if (other.key != key.key) return false;
       allowed.insert(allowed.end(), other.only_with.values.begin(), other.only_with.values.end());

@@ -49,7 +49,8 @@ struct KeyCondition {
 struct KeyInfo {
   std::string key;
   ValueKind value;
-  std::string fallback;  ///< the default as in a file, or its meaning in (parentheses); "" = required
+  std::string fallback;  ///< the default as a file would state it, or a description of it in (parentheses); "" =
+                         ///< required
   std::string meaning;   ///< one sentence about the key
   KeyCondition only_with = {};
 

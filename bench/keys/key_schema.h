@@ -24,8 +24,8 @@ Json MappingSchema(std::span<const KeyInfo> keys);
 /// lines.
 std::string SchemaText(const Json& schema, const std::string& indent = {});
 
-/// Returns the schema rules that tie a key to other keys' values, as `dependencies`. If `says_all` is true, an absent
-/// key has its default; if it is false, the key may be in another part of the file.
+/// Returns the schema rules by which a key depends on the values of other keys, as `dependencies`. If `says_all` is
+/// true, an absent key has its default; if it is false, the key may be in another part of the file.
 Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);
 
 }  // namespace etude

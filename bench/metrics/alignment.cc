@@ -14,11 +14,11 @@ constexpr double kMinFitted = 3;  // fewer points do not determine a rotation
 
 bool BothSeen(const glm::dvec3& a, const glm::dvec3& b) { return !std::isnan(a.x) && !std::isnan(b.x); }
 
-/// Returns the similarity of AlignSimilarity without a singular value decomposition, or nothing if rounding could spoil
-/// it. The rotation is the eigenvector of the largest eigenvalue of Horn's 4 × 4 matrix (Horn 1987). Newton's method
-/// finds that eigenvalue as a root of the characteristic polynomial (Theobald 2005).
+/// Returns the similarity of AlignSimilarity without a singular value decomposition, or nothing if rounding could make
+/// the result inaccurate. The rotation is the eigenvector of the largest eigenvalue of Horn's 4 × 4 matrix (Horn 1987).
+/// Newton's method finds that eigenvalue as a root of the characteristic polynomial (Theobald 2005).
 std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
-  const glm::dmat3& s = moments.covariance;  // s[a][b] = Σ point_a target_b
+  const glm::dmat3& s = moments.covariance;  // s[a][b] = Σ over points of point[a] · target[b]
   const glm::dvec3 skew(s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]);
   const double xy = s[0][1] + s[1][0], yz = s[1][2] + s[2][1], zx = s[2][0] + s[0][2];
   const double trace = s[0][0] + s[1][1] + s[2][2];
@@ -51,7 +51,7 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   }
   for (int i = 0; i < 4; ++i) rows[i][i] -= lambda;
   const glm::dvec4 vector = cofactors();
-  // If the cofactors are small, another rotation fits nearly as well, or this one turns by nearly 180°.
+  // If the cofactors are small, another rotation fits nearly as well, or the rotation is by nearly 180°.
   constexpr double kSafe = 0.01;
   const double length = glm::length(vector);
   if (!(length > kSafe * lambda * lambda * lambda)) return std::nullopt;
@@ -62,7 +62,7 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   return similarity;
 }
 
-/// Returns `fit`, or without scale the rigid transformation with the same rotation. `fit` has a scale.
+/// Returns `fit`, which has a scale. If `with_scale` is false, returns the rigid transformation with the same rotation.
 std::optional<Similarity> WithScale(const std::optional<Similarity>& fit, const PointMoments& moments,
                                     bool with_scale) {
   if (!fit || with_scale) return fit;
@@ -118,7 +118,7 @@ FrameFits PairFits::Of(Alignment alignment) const {
     case kFrameScaled:
       break;
   }
-  // Each frame has a fit of its own. For kFrame, replace it by the rigid fit.
+  // Each frame has a similarity of its own. For kFrame, replace the similarity by the rigid fit.
   FrameFits found{each_frame_};
   if (alignment == kFrameScaled) return found;
   for (std::size_t f = 0; f < frames; ++f) found.fits[f] = WithScale(found.fits[f], moments_[f], false);

@@ -10,12 +10,13 @@
 namespace etude {
 
 /// The way in which the answer is aligned with the truth before the comparison. The transformation is rigid, or a
-/// similarity for names that end in `Scaled`. It is fitted to the joints seen in both, and is never a reflection.
+/// similarity for names that end in `Scaled`. It is fitted to the joints seen in answer and truth, and is never a
+/// reflection.
 enum class Alignment {
   kNone,
   kRoot,         ///< each frame is moved so that the roots coincide
   kRootScaled,   ///< as kRoot; each frame is also scaled for the least squared error (N-MPJPE)
-  kFirst,        ///< all frames have the best fit of the first frame with three joints seen in both
+  kFirst,        ///< all frames share the fit of the first frame in which answer and truth show three joints
   kFirstScaled,  ///< as kFirst, but the fit is a similarity
   kTake,         ///< all frames have the best fit of the whole take
   kTakeScaled,   ///< as kTake, but the fit is a similarity
@@ -48,12 +49,12 @@ class PairFits {
   FrameFits ByRoot(bool with_scale) const;
 
   const EvaluatedPair& pair_;
-  std::vector<PointMoments> moments_;  // the sums of each frame
+  std::vector<PointMoments> moments_;  // the sums over the joints of each frame
   std::vector<std::optional<Similarity>> each_frame_;
 };
 
-/// Returns the similarity with the least squared error, or without scale the best rigid transformation. Returns nothing
-/// for fewer than three points.
+/// Returns the similarity with the least squared error; if `with_scale` is false, the rigid transformation with the
+/// least squared error. Returns nothing for fewer than three points.
 std::optional<Similarity> Fit(const PointMoments& moments, bool with_scale);
 
 /// Returns the distance of each joint from its truth after the alignment, frames × joints, millimetres. It is NaN where

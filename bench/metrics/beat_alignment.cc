@@ -110,7 +110,7 @@ std::optional<double> BeatAlignmentOfMusic(const PointTracks& found, double rate
 }
 
 std::optional<double> BeatAlignmentOfMotion(const PointTracks& found, double rate_hz, std::span<const double> beats_s) {
-  constexpr std::ptrdiff_t kOrder = 10;  // frames on either side of a minimum
+  constexpr std::ptrdiff_t kOrder = 10;  // number of frames on either side with which a minimum is compared
   const auto lengths = StepLengths(found);
   if (!lengths || lengths->empty()) return std::nullopt;
   // The speed at a frame is taken over the step before it; the first frame has speed 0.

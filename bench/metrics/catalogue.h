@@ -23,8 +23,8 @@ enum class Aggregate { kMedian, kMean };
 /// their differences in percentage points.
 enum class Reading {
   kAmount,  ///< an amount in the metric's unit, or a count
-  kYesNo,   ///< 1 or 0; a run has the share of cells with 1
-  kShare,   ///< a share of something within the cell, 0…1; a run has the mean of shares
+  kYesNo,   ///< 1 or 0; the value of a run is the share of cells with 1
+  kShare,   ///< a share of something within the cell, 0…1; the value of a run is the mean
   kScore,   ///< a quantity from 0 to 1 with a name of its own: F1, recall
 };
 
@@ -36,9 +36,9 @@ struct MetricInput {
 
 /// A test vector: an input and the metric's known value for it. Every implementation must agree with it.
 struct MetricVector {
-  std::string_view title;          ///< the case that it tests, e.g. "one joint of twenty jumps"
+  std::string_view title;          ///< the tested case, e.g. "one joint of twenty jumps"
   std::string_view input_json;     ///< one JSON object, with the keys of MetricInfo::inputs
-  std::optional<double> expected;  ///< the known value; nullopt: the metric has no value here
+  std::optional<double> expected;  ///< the known value; nullopt: the metric has no value for this input
   std::string_view null_reason;    ///< why the metric has no value; "" if it has one
   double tolerance = 0;            ///< absolute tolerance, in the metric's unit
   std::string_view source;         ///< origin of the known value: "derived: …" or "published: …"
@@ -60,9 +60,9 @@ struct MetricInfo {
 
   std::string practical_reason;     ///< why a smaller difference than `practical` does not matter
   std::string formula;              ///< the exact definition: frames, denominators, edge cases
-  std::string null_rule;            ///< the cases in which it has no value although the method answered
+  std::string null_rule;            ///< the cases in which the metric has no value although the method answered
   std::string source;               ///< the origin of the definition
-  std::vector<MetricInput> inputs;  ///< the inputs of its test vectors
+  std::vector<MetricInput> inputs;  ///< the inputs of the metric's test vectors
   std::span<const MetricVector> vectors = {};
   std::string domain = {};  ///< the metric's heading on the reference page, e.g. "Inverse kinematics"
 };

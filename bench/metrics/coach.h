@@ -22,7 +22,8 @@ struct CoachedPerformance {
 /// A correction that the coach decided to give.
 struct GivenCorrection {
   int decided_frame = 0;
-  std::optional<int> act_frame;  ///< first frame of the act, without its transition; empty if the session ended first
+  std::optional<int> act_frame;  ///< first frame of the correcting act, without its transition; empty if the session
+                                 ///< ended first
 };
 
 /// A coached session (docs/reference/metrics.md, Coach). Performances and corrections are in order of time.
@@ -49,9 +50,9 @@ CorrectionTally TallyCorrections(const CoachedSession& session);
 /// no performance was wrong.
 std::optional<double> AnsweredShare(const CorrectionTally& tally);
 
-/// Returns `decision_delay_s`: the time from the first frame of a wrong performance until the coach judges it wrong.
-/// The time is censored at the end of the window if the coach never does. Kaplan–Meier median; empty if the survival
-/// curve never falls to one half.
+/// Returns `decision_delay_s`: the time from the first frame of a wrong performance until the coach judges it wrong. If
+/// the coach never judges it wrong, the time is censored at the end of the window. Kaplan–Meier median; empty if the
+/// survival curve never falls to one half.
 std::optional<double> DecisionDelaySeconds(const CoachedSession& session);
 /// Returns `feedback_delay_s`: the time from the decision to correct until the first frame of the correcting act,
 /// censored at the session's end. Kaplan–Meier median; empty if the survival curve never falls to one half.
@@ -71,7 +72,7 @@ std::optional<double> RepetitionsUntilRight(std::span<const std::vector<Performa
 std::optional<double> Retention(std::span<const double> chances);
 
 /// Returns `beat_error_ms`: the 95th percentile of the absolute times by which the dance is early or late. The input is
-/// in seconds, the result in milliseconds. The result is empty if there are no errors.
+/// in seconds, the result in milliseconds. The result is empty if `errors_s` is empty.
 std::optional<double> BeatErrorMs(std::span<const double> errors_s);
 
 /// Returns the median of `values`; `transition_jump_cm` uses it. The result is empty if there are no values.

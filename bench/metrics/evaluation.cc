@@ -28,7 +28,7 @@ void SeenMean::Add(std::span<const double> values) {
     }
   };
   add_seen(std::min((kSums - next_) % kSums, values.size()));
-  // Add groups of kSums values at a time without testing each for NaN, because a NaN shows in the sum.
+  // Add kSums values at a time without testing each value for NaN: a NaN makes the sum NaN, which is tested.
   const std::size_t rounds = (values.size() - i) / kSums;
   double sums[kSums];
   std::copy_n(sums_, kSums, sums);
@@ -69,7 +69,7 @@ std::optional<double> ShareBelow(std::span<const double> values, double limit_mm
 std::optional<double> AucTo150(std::span<const double> values) {
   constexpr int kThresholds = 31;
   constexpr double kStep_mm = 5;
-  std::size_t below = 0, count = 0;  // counts over all thresholds
+  std::size_t below = 0, count = 0;  // below: pairs of a value and a threshold above the value; count: number of values
   for (const double value : values) {
     if (std::isnan(value)) continue;
     ++count;

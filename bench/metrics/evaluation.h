@@ -62,7 +62,7 @@ std::optional<double> AucTo150(std::span<const double> values);
 std::optional<double> SeenShare(const EvaluatedPair& pair);
 
 /// Returns the mean length of the difference between the answer's and the truth's second differences, metres per
-/// frame². The mean is over all joints and all groups of three frames in which the joint is seen in both.
+/// frame². The mean is over all joints and all groups of three frames in which the joint is seen in answer and truth.
 std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth);
 /// Returns AccelerationError after the answer's root is moved onto the true root in each frame (WHAM). The first and
 /// the last frame are left out.
@@ -85,23 +85,23 @@ std::optional<double> SkateFromContacts(const PointTracks& feet, const std::vect
 std::optional<double> ContactF1(const std::vector<bool>& found, const std::vector<bool>& truth);
 /// Returns PFC (physical foot contact) as EDGE's code computes it, but with Y up and at the motion's own rate.
 std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<const glm::dvec3> root, double rate_hz);
-/// The mean depth of the answer's lowest joint below height 0, and its mean height above 0, millimetres.
+/// The mean depth of the answer's lowest joint below height 0, and the mean height of this joint above 0, millimetres.
 struct FloorErrors {
   std::optional<double> penetration_mm, floating_mm;
 };
 FloorErrors MeasureFloor(const PointTracks& found);
 
 /// The global rotations of answer and truth as channels (QuaternionChannels). Each quaternion of the answer has the
-/// sign that is nearer to the truth's quaternion. A value is NaN where a joint is not seen in both motions. There are
-/// no channels if answer or truth has no rotations.
+/// sign that is nearer to the truth's quaternion. A value is NaN unless the joint is seen in both motions. There are no
+/// channels if answer or truth has no rotations.
 struct RotationChannels {
   ChannelTracks found, truth;
 };
 std::optional<RotationChannels> RotationsOf(const EvaluatedPair& pair);
 
 /// Returns the mean absolute error of the bend angles, degrees. Each entry of `bends` holds three points (hip, knee,
-/// ankle; or shoulder, elbow, wrist), and its angle is at the middle point. Returns nothing if no three points are seen
-/// in both.
+/// ankle; or shoulder, elbow, wrist); the bend angle is at the middle point. Returns nothing if no three points are
+/// seen in both motions.
 std::optional<double> BendErrorDeg(const PointTracks& found, const PointTracks& truth,
                                    std::span<const std::array<std::size_t, 3>> bends);
 

@@ -101,8 +101,8 @@ std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<con
   double largest = 0;
   for (const double a : accelerations) largest = std::max(largest, std::isnan(a) ? 0 : a);
   if (largest == 0) return std::nullopt;
-  // Multiply each acceleration by the steps of both feet after its middle frame. The slower joint of a foot gives the
-  // foot's step.
+  // Multiply each acceleration of the root by the distances that the two feet move after the acceleration's middle
+  // frame. The slower joint of a foot gives the foot's distance.
   std::vector<double> products;
   for (std::size_t f = 0; f < accelerations.size(); ++f) {
     const double left = std::min(FloorStep(feet, f + 1, kLeftAnkleAt), FloorStep(feet, f + 1, kLeftToesAt));

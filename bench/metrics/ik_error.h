@@ -60,8 +60,8 @@ struct TrackedFrame {
 /// and all angles are within their limits.
 bool IsFrameSolved(const TrackedFrame& frame);
 
-/// Returns `frames_solved` (Practically) or `frames_solved_tight` (Tightly): the share of solved frames. At least one
-/// frame is required.
+/// ShareSolvedPractically returns `frames_solved`, ShareSolvedTightly returns `frames_solved_tight`: the share of
+/// solved frames. At least one frame is required.
 double ShareSolvedPractically(std::span<const TrackedFrame> frames);
 double ShareSolvedTightly(std::span<const TrackedFrame> frames);
 

@@ -13,8 +13,8 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr glm::dvec3 kDown(0, -1, 0);
 
-/// A body segment: the index of the joint that carries its rotation, and its rotation from the rest pose to the neutral
-/// pose.
+/// A body segment: the index of the joint that carries the segment's rotation, and the segment's rotation from the rest
+/// pose to the neutral pose.
 struct Segment {
   int joint = -1;
   glm::dquat neutral{1, 0, 0, 0};
@@ -81,9 +81,9 @@ class AngleReader {
     return true;
   }
 
-  /// Returns the segment of a joint whose neutral pose is the rest pose.
+  /// Returns the segment of `joint`, with the rest pose as the segment's neutral pose.
   static Segment AsAtRest(int joint) { return {joint}; }
-  /// Returns the segment from `joint` to `next`, which hangs down in the neutral pose.
+  /// Returns the segment from `joint` to `next`. The segment hangs down in the neutral pose.
   Segment Hanging(int joint, int next) const {
     if (joint < 0 || next < 0) return {joint};
     const glm::dvec3 direction = motion_.rest_positions[next] - motion_.rest_positions[joint];

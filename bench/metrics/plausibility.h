@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Returns the share of a motion's duration in which it shows a fault of this kind. Overlapping faults count once.
-/// `duration_s` must be positive.
+/// Returns the share of a motion's duration in which the motion shows a fault of this kind. Overlapping faults count
+/// once. `duration_s` must be positive.
 double FaultyShare(std::span<const MotionFault> faults, FaultKind kind, double duration_s);
 /// Returns the largest size of the faults of this kind, in the kind's unit; 0 if there are none.
 double LargestFault(std::span<const MotionFault> faults, FaultKind kind);

@@ -46,8 +46,8 @@ double FramePaMpjpeMm(const BodyPose& found, const BodyPose& truth);
 struct PoseErrors {
   double mpjpe_mm = 0;
   double pa_mpjpe_mm = 0;
-  double pck_50mm = 0;  ///< share of joints nearer than 50 mm
-  /// Mean, over thresholds from 0 to 200 mm, of the share of joints nearer than the threshold.
+  double pck_50mm = 0;  ///< share of joints nearer than 50 mm to their true position
+  /// Mean, over thresholds from 0 to 200 mm, of the share of joints whose error is below the threshold.
   double auc_200mm = 0;
   double bone_length_error_cm = 0;   ///< mean absolute difference of the limb lengths, over nineteen limbs
   double joint_angle_error_deg = 0;  ///< mean absolute difference of the angles between successive limbs

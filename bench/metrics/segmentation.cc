@@ -33,7 +33,7 @@ MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow) {
   assert(found.pixels.size() == truth.pixels.size() && found.pixels.size() == shadow.pixels.size());
   // Count in runs short enough for 8-bit counters, because the compiler vectorises these.
   std::int64_t both = 0, found_count = 0, true_count = 0, shadow_found = 0, shadow_count = 0;
-  // The largest multiple of 16, the bytes of a SIMD register, to which an 8-bit counter can count.
+  // The largest multiple of 16 (the bytes of a SIMD register) that an 8-bit counter can hold.
   constexpr std::size_t kRun = 240;
   for (std::size_t first = 0; first < found.pixels.size(); first += kRun) {
     const std::size_t end = std::min(first + kRun, found.pixels.size());

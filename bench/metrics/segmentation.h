@@ -19,7 +19,7 @@ struct MaskScore {
 };
 
 /// Scores a mask against the true mask. `shadow` marks the pixels of the room that lie in the person's shadow. All
-/// three have the same size.
+/// three masks have the same size.
 MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow);
 
 /// Returns the mean of each score over the images that have this score.

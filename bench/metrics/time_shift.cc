@@ -40,7 +40,8 @@ struct Distances {
 struct Line {
   double slope = 0, mean_truth = 0, mean_found = 0;
   double square_truth = 0;
-  double explained = 0, all = 0;  ///< sums of squares of the answer: explained by the line, and total
+  double explained = 0, all = 0;  ///< sums of squares of the answer's distances: the part that the line explains, and
+                                  ///< the total
 };
 
 Line FitLine(const Distances& pair) {
@@ -194,8 +195,8 @@ class ShiftFinder {
   /// Returns half the width of the jackknife interval over equal parts of the motion; nothing if the motion is too
   /// short.
   static std::optional<double> HalfWidth(const Step& step) {
-    constexpr std::size_t kParts = 10, kMinPart = 3;  // kMinPart is in frames
-    constexpr double kStudent = 2.2621571628;         // t, 97.5 %, nine degrees of freedom
+    constexpr std::size_t kParts = 10, kMinPart = 3;  // number of parts; smallest part, frames
+    constexpr double kStudent = 2.2621571628;         // 97.5 % quantile of Student's t with nine degrees of freedom
     const std::size_t frames = step.products.size();
     if (frames < kParts * kMinPart) return std::nullopt;
     std::array<double, kParts> parts{};

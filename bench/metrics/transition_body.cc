@@ -35,7 +35,7 @@ std::optional<double> HeadingOf(const glm::dvec3& from, const glm::dvec3& to) {
 /// Returns the turn from one heading to another, radians, in [−π, π].
 double Turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
 
-/// Returns the heading of the hips: perpendicular to the line between them, radians about +Y.
+/// Returns the heading of the hips: perpendicular to the line between the hips, radians about +Y.
 std::optional<double> HipHeading(const BodyPose& pose) {
   const auto line = HeadingOf(pose[kRightHip], pose[kLeftHip]);
   return line ? std::optional(*line - 0.5 * kPi) : std::nullopt;
@@ -107,10 +107,10 @@ struct BodyFrame {
   std::optional<double> zmp_cm, slip_mps2;  // nullopt if no joint supports the body
   double glide_cm = 0;                      // distance that the slowest supporting joint moves in this frame
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
-  std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each foot at rest, radians
+  std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each resting foot, radians
 };
 
-/// A motion, its mass centre and its velocities.
+/// A motion, with the centre of mass and the joint velocities of every frame.
 struct Moving {
   Moving(std::span<const BodyPose> motion, double rate)
       : poses(motion), rate_hz(rate), velocities(JointVelocities(motion, rate)) {
@@ -124,7 +124,7 @@ struct Moving {
   std::vector<glm::dvec3> centres = {}, accelerations = {};
 };
 
-/// Measures everything in a frame that does not depend on the clips; glide_cm and sunk_cm stay 0.
+/// Measures a frame, apart from the values that depend on the clips: glide_cm and sunk_cm stay 0.
 BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   constexpr double kFriction = 1, kCarried = 0.5, kRest = 0.3;
   const BodyPose &pose = moving.poses[f], &velocity = moving.velocities[f];
@@ -254,7 +254,7 @@ class BesideClip {
     return std::span(frames_).subspan(from, to - from + 1);
   }
 
-  /// Returns the height of the clip's lowest joint within a third of a second of a shown frame, metres.
+  /// Returns the height of the clip's lowest joint in the frames within a third of a second of a shown frame, metres.
   double Floor(int frame) const {
     constexpr int kWindow = 10;
     const auto [from, to] = Indices(frame, kWindow);
@@ -265,7 +265,7 @@ class BesideClip {
 
   std::span<const BodyPose> poses() const { return poses_; }
   /// Returns the index in poses() of a shown frame, if this joint supports the clip's body in that frame, or if no
-  /// joint supports it. Returns nullopt otherwise.
+  /// joint does. Returns nullopt otherwise.
   std::optional<int> BearsAt(int frame, std::size_t joint) const {
     const int now = frame - begin_;
     if (now < 0 || now >= static_cast<int>(poses_.size())) return std::nullopt;
@@ -323,8 +323,8 @@ double SlowestOf(const JointSet& joints, const Speed& speed) {
   return slowest.value_or(0);
 }
 
-/// Sets a measurement of a frame to 0 if it is at most 1.25 times the largest value that the clips themselves reach
-/// within three frames of it.
+/// Sets each measurement of a frame to 0 if the measurement is at most 1.25 times the largest value that the clips
+/// themselves reach within three frames of this frame.
 void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame) {
   constexpr int kReach = 3;
   constexpr double kAllowance = 1.25;
@@ -370,8 +370,8 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
     BodyFrame frame = FrameOf(moving, f - from, held);
     Excuse(clips, f, frame);
     // Glide is the distance moved by the slowest supporting joint or, without support, by the slowest joint of the
-    // feet. If this joint also supports the body in a clip, the shorter of two distances is taken: its own movement, or
-    // its movement relative to the clip.
+    // feet. If this joint also supports the body in a clip, the joint's own movement or its movement relative to the
+    // clip is taken, whichever is shorter.
     if (!held.flight) {
       frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
         double slowest = TravelOf(view.shown, f, j).value_or(0);
@@ -382,7 +382,7 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
         return slowest;
       });
     }
-    // Measure the depth below the lowest joint of the clips.
+    // Measure how far the body is below the lowest joint of the clips.
     double floor = clips.front().Floor(f);
     for (const BesideClip& clip : clips) floor = std::min(floor, clip.Floor(f));
     frame.sunk_cm = kToCm * std::max(floor - LowestOf(view.shown[f]), 0.0);

@@ -18,7 +18,7 @@ namespace etude {
 struct BodyRule {
   std::string_view metric;
   double limit = 0;        ///< largest value of a clean transition, in the unit of `metric`
-  std::string_view unmet;  ///< why a value may be missing; empty if it is never missing
+  std::string_view unmet;  ///< why a value may be missing; empty if no value is ever missing
 };
 
 /// The rules of clean_share since version 4. BodyMeasures holds its values in this order.
@@ -34,9 +34,9 @@ constexpr std::array kBodyRules = {
 /// The measured values, one for each of kBodyRules; nullopt if a value is missing.
 using BodyMeasures = std::array<std::optional<double>, kBodyRules.size()>;
 
-/// Measures how far the body of a join departs from possible motion. `support` is the result of JoinSupport: one entry
-/// per frame from `view.first` on. A value does not count against the join if a clip itself reaches it at that time.
-/// docs/reference/metrics.md gives the rule of each measure.
+/// Measures by how much the body's motion during a join is impossible. `support` is the result of JoinSupport: one
+/// entry per frame from `view.first` on. A value does not count against the join if a clip itself reaches it at that
+/// time. docs/reference/metrics.md gives the rule of each measure.
 BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support);
 
 /// Returns true if no value exceeds its limit by more than rounding. A missing value exceeds no limit.

@@ -104,8 +104,8 @@ double Liveness(const JoinView& view) {
 }
 
 RealFrames::Row RealFrames::RowOf(const BodyPose& before, const BodyPose& now, double rate_hz) {
-  // Hands and feet come first because they differ most. For a frame that differs much, the sum of squares then soon
-  // exceeds the best sum, and the summation stops.
+  // Hands and feet come first because their positions differ most between frames. For a frame that differs much, the
+  // sum of squares then soon exceeds the best sum, and the summation stops.
   using enum Role;
   static constexpr std::array kOrder = {kLeftHand,       kRightHand,    kLeftFoot,      kRightFoot, kHead,
                                         kLeftElbow,      kRightElbow,   kLeftKnee,      kRightKnee, kHipCentre,

@@ -14,7 +14,7 @@ namespace etude {
 /// motions have the rate at which joins are judged and are in metres.
 struct JoinView {
   std::span<const BodyPose> shown;  ///< the spliced motion
-  /// The old clip, continued. left[f] is its own frame at the time of shown[f]; the first index is 0.
+  /// The old clip, continued. left[f] is the old clip's frame at the time of shown[f]; the first index is 0.
   std::span<const BodyPose> left;
   /// The wanted clip, placed where it is shown. The frame wanted[k] belongs to shown[last + k].
   std::span<const BodyPose> wanted;
@@ -54,7 +54,7 @@ bool IsCalmlyNatural(const JoinView& view, double limit_cm);
 /// too few frames.
 double Liveness(const JoinView& view);
 
-/// All frames of a library's clips. Finds the distance from a given frame to the nearest of them.
+/// All frames of a library's clips. Finds the distance from a given frame to the nearest frame of the library.
 class RealFrames {
  public:
   RealFrames() = default;
@@ -83,7 +83,8 @@ double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
 /// s if the motion is that long. Support is found from the clips, never from the shown frames (FindSupport).
 std::vector<Support> JoinSupport(const JoinView& view);
 
-/// A transition floats if the body is unsupported for at least this many frames in a row. Shorter gaps are not visible.
+/// A transition counts as floating if the body is unsupported for at least this many frames in a row. Shorter gaps are
+/// not visible.
 constexpr int kFloatingFrames = 4;
 /// Returns `unsupported_frames`: the largest number of unsupported frames in a row.
 int UnsupportedFrames(std::span<const Support> support);
@@ -117,7 +118,7 @@ struct CleanMeasures {
   double own_slide_cmps = 0;  ///< foot slide of the clip that slides more, measured over the whole clip
   double skipped_share = 0;
   std::optional<double> settle_s;
-  bool possible = false;  ///< all measures of its body are within their limits (transition_body.h)
+  bool possible = false;  ///< all measures of the shown body are within their limits (transition_body.h)
 };
 /// Returns true if the transition is clean by `clean_share_v3`: `natural`, `calmly_natural` and `supported` are true;
 /// `slide_cmps` is at most 6 or at most `own_slide_cmps`; the motion settles within 1.5 s; `strange_cm_s` is at most 10

@@ -14,7 +14,7 @@ namespace etude {
 /// The unevenness of a motion near its transition points.
 struct TransitionSmoothness {
   double jump_cm = 0;             ///< largest second difference of any joint
-  double mean_joint_jump_cm = 0;  ///< largest mean, over the joints, of the second differences in a frame
+  double mean_joint_jump_cm = 0;  ///< largest value, over the frames, of the joints' mean second difference
   double rotation_step_change_deg = 0;
   double jerk_peak_mps3 = 0;  ///< largest third difference of any joint × 30³
 };

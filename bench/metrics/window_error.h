@@ -40,7 +40,7 @@ enum class PowerOf {
   kRealPart,   ///< the squared real part, as LAFAN1's code computes it
 };
 
-/// The NPSS of some windows, and its weight in the average with other windows: the truth's total power.
+/// The NPSS of some windows, and the weight of this value in an average with other windows: the truth's total power.
 struct PowerSpectrumError {
   double value = 0;
   double power = 0;

@@ -1,6 +1,6 @@
 // Times the planning of one transition by every choice, with clips of 1,000 frames (33 s) and an allowed wait of one
 // second. The point-cloud choice is also timed in the form of its paper, which computes the distance of every pair of
-// frames. Before measuring, the program checks that both implementations find the same frames.
+// frames. Before measuring, the program checks that both forms of the point-cloud choice find the same frames.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -103,7 +103,7 @@ void CompareAnswers(const MotionLibrary& library) {
   }
 }
 
-/// Registers a benchmark that plans all transitions in turn. The reported time is the mean over them.
+/// Registers a benchmark that plans all transitions in turn. The reported time is the mean over all transitions.
 void RegisterPlanning(const MotionLibrary& library, const std::string& name, auto plan) {
   benchmark::RegisterBenchmark(("plan/" + name).c_str(), [=, &library](benchmark::State& state) {
     const std::vector<TransitionRequest> requests = Requests(library);

@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// One kind of reason why cells have their status, and the number of cells with such a reason.
+/// A kind of reason for the status of cells, and the number of cells with such a reason.
 struct CountedReason {
   std::string reason = {};  ///< the reason of the first cell that was counted
   int cells = 0;

@@ -45,7 +45,7 @@ std::optional<Status> FindStatus(std::string_view name);
 struct MetricValue {
   std::string id;  ///< id of a metric in bench/metrics; the id names the unit
   std::optional<double> value;
-  std::string null_reason;  ///< why the value is missing; "" if it is not
+  std::string null_reason;  ///< why the value is missing; "" = the value exists
 };
 
 /// A curve of a cell: one value per frame or iteration, e.g. the error in each frame.
@@ -53,7 +53,7 @@ struct Series {
   std::string name;  ///< name of the curve, e.g. "mpjpe_mm"
   std::string axis;  ///< what the values are indexed by: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
-  std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into them
+  std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into these names
 };
 
 struct Track;  // Forward declaration: bench/model/recording.h defines Track and includes the headers of motions.

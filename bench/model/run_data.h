@@ -20,8 +20,8 @@ class RowSource {
  public:
   virtual ~RowSource() = default;
   virtual std::size_t size() const = 0;
-  /// Chooses evenly spaced worlds and returns the indices of all their rows. The result has about `rows` indices, or
-  /// those of all rows if the run has fewer.
+  /// Chooses evenly spaced worlds and returns the indices of all their rows. The result has about `rows` indices. If
+  /// the run has fewer rows, the result has the indices of all rows.
   virtual std::vector<std::size_t> SampleRowIndices(std::size_t rows) const = 0;
   /// Replaces `row` by the row at index `place`, reusing its memory. Series and recording are not read.
   virtual void Read(std::size_t place, Row& row) const = 0;
@@ -54,7 +54,7 @@ struct RunSystem {
 /// `source` then reads all rows one by one.
 struct RunData {
   std::string suite;
-  std::uint64_t seed = 1;  ///< seed of the worlds; for secret worlds, a number derived from the digest of their key
+  std::uint64_t seed = 1;  ///< seed of the worlds; for secret worlds, a number derived from the key's digest
   std::string key_digest;  ///< digest of the key of secret worlds; "" if worlds are not secret
   std::string fence;       ///< description of the sandbox in which outside methods ran; "" = there were none
   std::string program_version;
@@ -69,7 +69,7 @@ struct RunData {
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;
-  std::string seal;      ///< the text of the folder's seal; "" = it has none, or the seal was not loaded
+  std::string seal;      ///< the text of the folder's seal; "" = no seal exists, or the seal was not loaded
   std::string unsealed;  ///< why the seal does not match, if the folder was read nevertheless; else ""
   /// Processor times of cells, by Row::Id(); empty if the result folder does not record them.
   std::map<std::string, double> cpu_seconds;

@@ -39,8 +39,8 @@ struct TailRule {
   double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
   /// A comparison with at least this many far worse worlds is a regression; 0 = never.
   int worlds = 4;
-  /// The minimum share of the compared worlds that must be far worse, in addition to their number. In a large number of
-  /// worlds, rounding may change a few.
+  /// The smallest share of the compared worlds that must be far worse for a regression. It applies in addition to
+  /// `worlds`: in a large number of worlds, rounding may change a few.
   double share = 0.05;
   /// A comparison in which at least this many worlds lost their value or answer is a regression; 0 = never.
   int lost = 1;
@@ -48,7 +48,7 @@ struct TailRule {
 
 /// The rules by which `etude gate` compares one scenario with a baseline.
 struct GateRules {
-  /// Metrics to compare; if the scenario names none, success and the headline metrics.
+  /// Metrics to compare; if the scenario names none, the success metric and the headline metrics.
   std::vector<std::string> metrics;
   bool exact = false;  ///< true: every difference is a regression, even below the practical threshold
   TailRule tail;
@@ -57,11 +57,12 @@ struct GateRules {
 
 struct ComparedMethod {
   std::string name;
-  std::string against;  ///< the method with which this one is compared; the first method names itself
+  std::string against;  ///< the method with which this method is compared; the first method names itself
   /// True: ground truth replaces some processing stages, so the method is an upper bound and no competitor.
   bool has_oracle = false;
   std::vector<std::string> oracle = {};  ///< the processing stages whose output ground truth replaces
-  std::string settings = {};             ///< its other settings as text; equal settings have equal texts; "" = outside
+  std::string settings = {};             ///< the method's settings besides `oracle`, as text; equal settings have equal
+                                         ///< texts; "" = outside method
   std::string description = {};          ///< a sentence about the method, or the method's settings
 };
 
@@ -71,13 +72,13 @@ struct Study {
   std::string scenario;
   std::string task;
   std::string question;
-  std::string description = {};  ///< a sentence about its worlds; "" = not described
+  std::string description = {};  ///< a sentence about the study's worlds; "" = not described
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 1;
   std::vector<ComparedMethod> methods;              ///< at least one method
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one condition
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
-  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
+  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
   /// The metric that says whether the task's goal was reached; answers compare it before the value metric. "" = the
   /// task has none.
   std::string success;

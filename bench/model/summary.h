@@ -32,7 +32,7 @@ inline constexpr std::array<Named<IntervalKind>, 7> kIntervalKinds = {
      {"order statistics", IntervalKind::kOrderStatistics}}};
 std::string_view IntervalKindName(IntervalKind kind);
 
-/// The values of one metric of one method over the trials of one condition, summarised.
+/// The summary of one metric's values for one method, over the trials of one condition.
 struct MetricSummary {
   std::string id;
   int present = 0;
@@ -75,7 +75,7 @@ struct LeftOut {
 /// not run (bench/statistics/beyond.h). If every world is its own unit, the result equals the result on the worlds.
 struct Beyond {
   int units = 0;      ///< number of sampling units with at least one pair (a world with values of both methods)
-  int differing = 0;  ///< number of these units whose mean difference is not zero
+  int differing = 0;  ///< number of units whose mean difference is not zero
   /// The pseudo-median (Hodges–Lehmann) of the units' mean differences, and its 95 % interval, which decides the
   /// verdict.
   std::optional<double> difference, low, high;
@@ -83,7 +83,7 @@ struct Beyond {
   PairedTest test;                 ///< the test of the units' mean differences that decides the verdict
   std::optional<double> p_holm;    ///< p-value of `test` after Holm's correction over the scenario's comparisons
   std::optional<Verdict> verdict;  ///< verdict for units that were not run; nullopt = too few units in this run
-  std::string why_open;            ///< why there is no verdict, or why it is inconclusive
+  std::string why_open;            ///< why there is no verdict, or why the verdict is inconclusive
   std::vector<LeftOut> left_out;   ///< one entry per unit, in the order of names; empty if every world is its own unit
 };
 
@@ -104,13 +104,13 @@ struct Comparison {
   std::optional<double> mean, mean_low, mean_high;
   PairedTest signed_rank;  ///< Wilcoxon's signed-rank test; it decides the verdict if `difference` is a median
   PairedTest sign_flip;    ///< the sign-flip (permutation) test; it decides the verdict if `difference` is a mean
-  /// p-value of the deciding test after Holm's correction over the scenario's comparisons.
+  /// p-value of the test that decides the verdict, after Holm's correction over the scenario's comparisons.
   std::optional<double> p_holm;
   /// The numbers of pairs in which the method is better, or worse, by at least the practical threshold.
   int better = 0, worse = 0;
   double share_better = 0;  ///< share of the pairs in which the method is better; ties count half
-  /// Rank-biserial correlation, −1…1. It is positive if `method` is better or, for a metric without a direction, if its
-  /// values are larger.
+  /// Rank-biserial correlation, −1…1. It is positive if `method` is better or, for a metric without a direction, if the
+  /// method's values are larger.
   std::optional<double> effect_size;
   Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
   std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
@@ -130,12 +130,12 @@ inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", Answ
 /// table and program that shows a run uses this verdict.
 struct Answer {
   std::string method;
-  /// The method with which the method is compared: the scenario's baseline, or the strongest other method.
+  /// The other method of the comparison: the scenario's baseline, or the strongest other method.
   std::string baseline = {};
   std::string value_metric = {};             ///< the metric that ValueMetricOf returns; "" if there is none
   Verdict verdict = Verdict::kInconclusive;  ///< the verdict on the worlds of this run
   AnswerStep decided_by = AnswerStep::kNone;
-  /// The verdict of the deciding comparison, generalised to other sampling units; nullopt = too few units.
+  /// The verdict of the comparison that decided, generalised to other sampling units; nullopt = too few units.
   std::optional<Verdict> beyond = {};
   /// The comparison of the success metric (Study::success), in which failed cells count 0; nullopt if no cell has a
   /// value.
@@ -153,15 +153,15 @@ struct Answer {
 struct BudgetShare {
   std::string stage;  ///< the processing stage, or several stages that were replaced together
   double mean = 0;
-  std::optional<double> ci_low = {}, ci_high = {};  ///< 95 % interval of the mean
+  std::optional<double> ci_low = {}, ci_high = {};  ///< 95 % interval of the mean reduction
 };
 
 /// The error of one method, split into the costs of its processing stages (bench/statistics/summary.h).
 struct ErrorBudget {
   std::string metric;
   std::string method;  ///< the method in which ground truth replaces no stage, or the fewest stages
-  /// True: each cost is a mean over all orders of replacing the stages (Shapley value); false: the costs follow one
-  /// order.
+  /// True: each cost is a mean over all orders in which the stages can be replaced (Shapley value); false: the costs
+  /// follow one order.
   bool is_shapley = false;
   int worlds = 0;
   /// Mean error of `method`, and of the method in which ground truth replaces the most stages.
@@ -182,14 +182,14 @@ struct ConditionSummary {
 };
 
 /// The verdict of one comparison under every value of the parameters that `across` names. If the verdict depends on a
-/// parameter of the simulation itself, e.g. the law of learning, it says nothing about the methods.
+/// parameter of the simulation itself, e.g. the law of learning, the verdict says nothing about the methods.
 struct AcrossVerdict {
-  std::vector<SweptValue> condition;  ///< the values of the other swept parameters
+  std::vector<SweptValue> condition;  ///< the values of the swept parameters that `across` does not name
   std::string metric;
   std::string baseline;
   std::string method;
   struct Each {
-    std::string value;  ///< the parameters' values, e.g. "learning=power"
+    std::string value;  ///< the values of the parameters that `across` names, e.g. "learning=power"
     Verdict verdict = Verdict::kInconclusive;
     std::optional<double> difference;
   };
@@ -223,8 +223,9 @@ struct ScenarioSummary {
   std::vector<ExpectationResult> expectations;
   /// Number of comparisons, over all conditions and headline metrics, to which Holm's correction applies together.
   int family = 0;
-  std::vector<AcrossVerdict> across = {};  ///< verdicts across parameters; empty if the scenario has no key `across`
-  std::string description = {};            ///< a sentence about its worlds; "" = not described
+  std::vector<AcrossVerdict> across = {};  ///< verdicts under all values of the parameters in `across`; empty without
+                                           ///< this key
+  std::string description = {};            ///< a sentence about the scenario's worlds; "" = not described
   /// One sentence about each method; empty if the scenario describes no method.
   std::vector<std::string> descriptions = {};
 };

@@ -24,7 +24,7 @@ inline constexpr std::array<Named<SamplingUnit>, 5> kSamplingUnits = {{{"world",
                                                                        {"library", SamplingUnit::kLibrary}}};
 std::string_view SamplingUnitName(SamplingUnit unit);
 
-/// Returns a number of units with its noun, e.g. "6 clips" or "1 person". For kClipPair the noun is "clip".
+/// Returns a number of units as text, e.g. "6 clips" or "1 person". For kClipPair the noun is "clip".
 std::string CountUnits(int count, SamplingUnit unit);
 
 /// Returns true if every world is its own sampling unit, that is, no two worlds share a unit.

@@ -22,12 +22,13 @@ namespace {
 
 constexpr int kProblems = 3;
 
-/// The data from which a task's specimens are made. The two conditions are an easy and a harder one.
+/// The data from which a task's specimens (small worlds for tests) are made, with an easy and a harder condition.
 struct Recipe {
   const char* task;
   std::vector<std::string> clips;
   std::array<const char*, 2> conditions;
-  const char* plain_method = "";  ///< a built-in method that solves the worlds, if some methods do not
+  const char* plain_method = "";  ///< a built-in method that solves the worlds; "" if every method of the task solves
+                                  ///< some
 };
 
 const std::vector<Recipe>& Recipes() {
@@ -129,7 +130,8 @@ Json WithAngles(const Json& answer, double factor, bool is_angle = false) {
   return changed;
 }
 
-/// A program in a seat that receives additional keys, which the protocol does not define.
+/// A program that replaces a part of a world's loop (its seat). It receives additional keys, which the protocol does
+/// not define.
 class ProgramWithUnknownKeys final : public SeatedProgram {
  public:
   using SeatedProgram::SeatedProgram;
@@ -196,8 +198,8 @@ class ConformanceTest {
     return attempt;
   }
 
-  /// Runs a whole session in which the program takes its seat (TaskKind::seats). The result contains the digest of the
-  /// program's answers.
+  /// Runs a whole session in which the program does its part of the world's loop (TaskKind::seats). The result contains
+  /// the digest of the program's answers.
   template <typename Program>
   Attempt Play(const SpecimenProblem& problem, const std::string& id) {
     const auto start = Clock::now();

@@ -24,13 +24,13 @@ struct Specimen {
   std::unique_ptr<ClipLibrary> clips;  ///< the clips, which must outlive the task
   std::unique_ptr<Task> task;
   std::vector<SpecimenProblem> problems;
-  bool has_plain_method = false;  ///< method 0 of its worlds is a built-in method that solves them
+  bool has_plain_method = false;  ///< true: method 0 of the specimen's worlds is a built-in method that solves them
 };
 
 /// Makes two settings of a task with three problems each. The problems are the same in every call. Fails if there is no
 /// such task, if its worlds cannot be made on this machine (no renderer), or if `seat` is not one of the task's seats
 /// ("" if the task has no seats). With `recordings`, the worlds are the recorded people, with one problem for each of
-/// the first three; only task detection has such worlds. `recordings` must outlive the result.
+/// the first three people; only task detection has such worlds. `recordings` must outlive the result.
 Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat,
                                             const LabelledStreams* recordings = nullptr);
 

@@ -83,14 +83,14 @@ struct OutsideMethod::State {
   struct Session {
     std::string id;
     AttachmentFolder files;
-    int steps = 0;  ///< number of steps sent so far
+    int steps = 0;  ///< number of steps sent in the session in progress
   };
   std::optional<Session> session;  ///< the session in progress
   std::set<std::string> answered;  ///< ids of the questions that the running program was asked before
-  int repeated = 0;                ///< lines ignored since the problem was sent
+  int repeated = 0;                ///< number of lines ignored since the problem was sent
 
   struct Failures {
-    int times = 0;  ///< number of failures in a row
+    int times = 0;  ///< number of successive failures of one step
     OutsideFailure last;
   };
   std::map<std::string, Failures> failures;  ///< failures by the name of the step
@@ -182,7 +182,7 @@ Outcome<void> OutsideMethod::State::Start() {
   answered.clear();
   auto reply = Exchange(*hello, StartSeconds(), ReadHello);
   const bool ended = !reply && (reply.error().status == Status::kCrashed || reply.error().status == Status::kFailed);
-  if (ended) {  // the sandbox may be the cause
+  if (ended) {  // the program has ended; the sandbox may be the cause
     if (auto tried = options.fence.Try(); !tried) return NotAsked(tried.error());
     const std::string cure = program.CureOfStart();
     reply.error().reason += cure.empty() ? kHint : cure;
@@ -207,8 +207,8 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
   return {};
 }
 
-/// Reads the lines that came since the last reply. Repeated answers are ignored. Any other line is an error, because
-/// its question has not been sent yet.
+/// Reads the lines that came since the last reply. Repeated answers are ignored. Any other line is an error, because no
+/// question is open.
 template <typename Read>
 Outcome<void> OutsideMethod::State::ReadPendingLines(Read read) {
   program.Receive();

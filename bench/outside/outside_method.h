@@ -21,7 +21,8 @@ struct OutsideOptions {
   std::string options_json = {};     ///< an object sent in the handshake; "" = {}
   double time_s = 300;               ///< time limit per problem, or per step of a session
   double memory_mb = 4096;           ///< limit of resident memory of the program with all its processes
-  std::string error_file = {};       ///< file for its standard error, up to 1 MiB; "" = it shares Etude's
+  std::string error_file = {};       ///< file for the program's standard error, up to 1 MiB; "" = the program shares
+                                     ///< Etude's standard error
   /// The shortest time limit, in seconds, of the handshake and of each setting; `time_s` applies if it is longer.
   /// During these steps, programs load libraries and models.
   double start_s = 30;
@@ -52,7 +53,7 @@ struct OutsideReply {
 
 /// A program that answers problems over its standard input and output. It is started for the first problem, kept for
 /// the next ones, and restarted after a failure. Repeated answers are always ignored. If the start or a setting fails
-/// three times in a row, it is not tried again, and every further reply equals the third.
+/// three times in a row, this step is not tried again, and every further reply equals the third.
 class OutsideMethod {
  public:
   explicit OutsideMethod(OutsideOptions options);
@@ -76,7 +77,7 @@ class OutsideMethod {
   /// handshake.
   std::string ProgramName() const;
   /// Closes the program's input, waits up to `patience_ms`, and returns how the program ended: "exit code 0", "signal 9
-  /// (Killed)" if it had to be killed, or "not running". The next problem starts it again.
+  /// (Killed)" if it had to be killed, or "not running". The next problem starts the program again.
   std::string End(int patience_ms);
 
  private:

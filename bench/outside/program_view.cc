@@ -38,9 +38,9 @@ bool IsTooWide(const fs::path& folder) {
   return above == "/" || above == "/home" || folder == "/" || Fence::HoldsScratch(folder);
 }
 
-/// Returns the folder of the installation that contains `path`, which the sandbox does not show. If the path is below
-/// the program's folder or the folder above it, this is that folder. Otherwise it is the folder above the path's `bin`
-/// folder, or else the folder that contains the path. Returns the path itself if the folder is too wide.
+/// Returns the installation folder that contains `path`, a path that the sandbox does not show. This is the first of
+/// these folders that fits: the program's folder, or the folder above it, if `path` lies below it; the folder above the
+/// path's `bin` folder; the folder that contains `path`. Returns `path` itself if the folder is too wide (IsTooWide).
 fs::path InstallationOf(const fs::path& path, const fs::path& program) {
   fs::path common;
   for (auto [a, b] = std::pair(path.begin(), program.begin()); a != path.end() && b != program.end() && *a == *b;) {

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// The command of a program, which is the same with and without a sandbox, and the files that a sandbox shows the
-/// program in addition to the system's.
+/// The command of a program, and the files that a sandbox shows the program in addition to the system's files. The
+/// command is the same with and without a sandbox.
 struct ProgramView {
   std::vector<std::string> command;          ///< program and arguments; files are absolute paths
   std::vector<std::filesystem::path> shown;  ///< absolute paths of the files and folders that the sandbox shows

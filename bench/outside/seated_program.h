@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// An outside method that replaces one part of a world's loop (its seat). After its first failure it is not asked
-/// again.
+/// An outside method that replaces one part of a world's loop (its seat). After its first failure, the program is not
+/// asked again.
 class SeatedProgram : public LiveProgram {
  public:
   /// `id` names the program's sessions. `method` and `setting` must outlive this object.

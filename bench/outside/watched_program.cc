@@ -22,7 +22,7 @@
 namespace etude {
 namespace {
 
-constexpr long kTailBytes = 4096;  // size of the end of the output in which the last line is searched
+constexpr long kTailBytes = 4096;  // number of bytes at the end of the output in which the last line is searched
 
 /// Opens a log file for appending, and creates its folder. Links are not followed, because a resumed run may come from
 /// somebody else.
@@ -206,7 +206,7 @@ OutsideOutcome<void> WatchedProgram::Measure() {
   errors_.Trim();
   const TreeLoad load = meter_->Count();
   const ScratchUse scratch = options_.fence.MeasureScratch(child_->FirstStarted());
-  // The reported peak has a tolerance of 10 % + 4 MB. Within it, an upper bound is good enough.
+  // The reported peak has a tolerance of 10 % + 4 MB. Within this tolerance, an upper bound is good enough.
   const double held_mb = group_.IsUp() ? group_.HeldMb() + scratch.names_mb
                                        : meter_->HeldMb(scratch.Mb(), std::min(options_.memory_mb, 1.1 * peak_mb_ + 4));
   cpu_s_ = std::max(cpu_s_, load.cpu_s);  // load.cpu_s is smaller if a process has ended meanwhile

@@ -30,11 +30,11 @@ class ErrorLog {
   /// Returns the path that must be opened as the program's standard error; "" if the program shares Etude's standard
   /// error.
   std::string path() const;
-  /// Discards the part of the collected output that exceeds the limit, but keeps its end.
+  /// Shortens the collected output to the limit. The end of the output is kept.
   void Trim();
   /// Returns the last non-empty line since the last Save; "" if there is none.
   std::string LastLine() const;
-  /// Appends the collected output to the file, up to kMaxBytes, and clears it. Creates the file's folder.
+  /// Appends the collected output to the file, up to kMaxBytes, and then discards it. Creates the file's folder.
   void Save();
 
  private:
@@ -43,7 +43,7 @@ class ErrorLog {
 
   std::string file_;
   int memory_ = -1;
-  Descriptor unbuffered_;  ///< the file itself, if the system cannot make a memory file
+  Descriptor unbuffered_;  ///< the log file itself, if the system cannot make a memory file
 };
 
 /// The reason why a program gave no answer.
@@ -66,7 +66,8 @@ class WatchedProgram {
   /// Starts the program. Fails if this machine cannot start it.
   OutsideOutcome<void> Start();
   bool IsRunning() const { return child_.has_value(); }
-  /// Closes the program's input, waits `patience_ms`, then kills the program. Returns how it ended, or "not running".
+  /// Closes the program's input, waits `patience_ms`, then kills the program. Returns how the program ended, or "not
+  /// running".
   std::string Stop(int patience_ms);
 
   /// Sends a line. If the program has closed its input, the next WaitForLine fails. Send and the next five functions
@@ -82,7 +83,7 @@ class WatchedProgram {
   /// since the last sample.
   OutsideOutcome<void> Measure();
   OutsideOutcome<void> MeasureIfDue();
-  /// Returns the number of bytes sent to the program that it has not read yet.
+  /// Returns the number of bytes that were sent to the program and that the program has not read yet.
   std::size_t UnreadBytes() const { return child_->UnreadBytes(); }
 
   /// Returns the folder that holds the folders of attachments. It exists from the first start on.
@@ -91,7 +92,7 @@ class WatchedProgram {
   /// run.
   std::string WithoutFolder(std::string text) const;
 
-  /// Returns the processor time since the previous call, measured at the last sample before each call, seconds.
+  /// Returns the program's processor time since the previous call, seconds. Each call uses the last sample before it.
   double TakeCpuSeconds();
   /// Returns the largest memory measured since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }
@@ -111,10 +112,10 @@ class WatchedProgram {
   const OutsideOptions& options_;
   ErrorLog errors_;
   std::optional<TemporaryFolder> attachment_root_;
-  ProgramView view_;    ///< the view of the child, without attachments and the Python package
+  ProgramView view_;    ///< what the sandbox shows the child, apart from attachments and the Python package
   ControlGroup group_;  ///< the child's group; if this machine provides none, `meter_` measures the memory
   std::optional<ChildProcess> child_;
-  std::optional<TreeMeter> meter_;  ///< measures the child and its processes
+  std::optional<TreeMeter> meter_;  ///< measures the child and the child's own processes
   Clock::time_point last_measured_{};
   double cpu_s_ = 0;          ///< processor time of the running program at the last sample
   double cpu_charged_s_ = 0;  ///< the part of cpu_s_ that TakeCpuSeconds has already returned

@@ -10,8 +10,8 @@
 namespace etude {
 
 /// A baseline for the drawing times of sim/render. It draws the same capsules and shadows with the same shaders into
-/// one framebuffer (colour and labels) and reads it back. It stores only the picture of the empty room, and does no
-/// tiling or culling.
+/// one framebuffer (colour and labels) and reads the framebuffer back. It stores only the picture of the empty room,
+/// and does no tiling or culling.
 class BareDraw {
  public:
   static Result<std::unique_ptr<BareDraw>> Create(const Room& room, const Camera& camera);

@@ -66,7 +66,7 @@ void OpenCv(benchmark::State& state) {
   const Intrinsics &a = ours->cameras[0].intrinsics, &b = theirs->intrinsics;
   const double apart =
       std::max({std::abs(a.fx - b.fx), std::abs(a.fy - b.fy), std::abs(a.cx - b.cx), std::abs(a.cy - b.cy)});
-  constexpr double kMaxApartPx = 0.01;  // pixels: OpenCV takes points as floats
+  constexpr double kMaxApartPx = 0.01;  // pixels; not smaller, because OpenCV takes points as floats
   if (apart > kMaxApartPx || std::abs(ours->rms_px - theirs->rms_px) > 1e-4) {
     std::fprintf(stderr, "the answers differ by %g px, RMS %.6f and %.6f\n", apart, ours->rms_px, theirs->rms_px);
     std::exit(1);

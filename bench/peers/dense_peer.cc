@@ -32,8 +32,8 @@ inline Vector Cross(Vector a, Vector b) {
 }
 Vector From(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// Returns the dot product of rows, from the start of the SIMD vector that contains row `from`. Eight partial sums hide
-// the latency.
+// Returns the dot product of `a` and `b` over the rows from the SIMD vector that contains row `from` to the end. Eight
+// partial sums hide the latency.
 constexpr int kSums = 8;
 inline double DotRows(const double* a, const double* b, int from = 0) {
   double sums[kSums] = {};
@@ -57,7 +57,8 @@ struct Joint {
 
 struct Goal {
   Vector axes[3], position;
-  double scale, axis_scale;  // square roots of the weights of rows, per kPositionScale of length and per radian
+  double scale, axis_scale;  // square roots of the weights of position rows (per kPositionScale of length) and axis
+                             // rows (per radian)
 };
 
 struct Pose {
@@ -264,7 +265,7 @@ class DensePeer final : public IkPeer {
     return true;
   }
 
-  // Computes the step and returns its largest change of an angle, radians; 0 on failure.
+  // Computes the step and returns the largest change of an angle in the step, radians; 0 on failure.
   double FindStep(double mu) {
     // Active-set passes: solve with some angles fixed at their limits, until the set of fixed angles stays the same.
     std::memset(sides_, 0, sizeof(sides_));

@@ -26,7 +26,7 @@ BENDS = [(4, 5, 6), (8, 9, 10), (12, 13, 14), (16, 17, 18)]
 
 
 def similarity(a, b):
-    """Fits a similarity (Umeyama) to each pair of point sets in a and b. Returns rotations, scales and both means."""
+    """Fits a similarity (Umeyama) to each pair of point sets. Returns rotations, scales, means of a and means of b."""
     mean_a, mean_b = a.mean(1, keepdims=True), b.mean(1, keepdims=True)
     x, y = a - mean_a, b - mean_b
     u, s, vt = np.linalg.svd(y.transpose(0, 2, 1) @ x)
@@ -112,7 +112,7 @@ def bends(p):
 
 
 def make_pairs(etude, folder, count, ending):
-    """Writes the pairs. For BVH, all of them are one pair under many names."""
+    """Writes `count` pairs of files into `folder`. BVH pairs are all copies of one pair."""
     for side in "t", "m":
         (folder / side).mkdir(parents=True, exist_ok=True)
     if not (folder / "groove.npz").exists():

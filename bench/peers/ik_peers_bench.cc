@@ -97,7 +97,7 @@ Method Ours(const std::string& solver, int max_iterations, const SolverSettings&
   });
 }
 
-// Returns Etude's plain version, without SIMD.
+// Returns the method of Etude's plain Gauss–Newton solver, without SIMD.
 Method Plain() {
   return OneByOne(kCompared, [options = Tightly(200)](const IkProblem& problem) {
     IkSolution solution = SolveGaussNewtonPlainly(Body(), problem, options);

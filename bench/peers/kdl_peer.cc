@@ -29,7 +29,7 @@ std::string SegmentName(int joint, int axis) { return std::to_string(joint) + "x
 KDL::Tree ToKdl(const KinematicTree& tree) {
   KDL::Tree made("root");
   const TreeState rest = StandingState(tree);
-  std::vector<std::string> limb_names(tree.joints.size(), "root");  // the last segment of each joint
+  std::vector<std::string> limb_names(tree.joints.size(), "root");  // name of each joint's last segment
   // Frame of each joint's limb relative to the joint's last segment.
   std::vector<KDL::Frame> offsets(tree.joints.size());
   for (std::size_t n = 0; n < tree.joints.size(); ++n) {

@@ -14,7 +14,7 @@ class OpenCvPerson {
  public:
   enum class Kind {
     kSameHue,      ///< the paper's hue by OpenCV's arithmetic on whole pictures; gives the same masks as Etude's
-    kHsv,          ///< the hue of cvtColor, in 180 steps; it is faster
+    kHsv,          ///< the hue of cvtColor, in 180 steps; faster than kSameHue
     kHsvContours,  ///< kHsv, but the largest piece is found by contours instead of labels
   };
   OpenCvPerson(const ColourImage& background, double hue_threshold, int max_hole_px, Kind kind);

@@ -34,7 +34,7 @@ struct SimbodyModel::Parts {
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter{system};
   std::vector<SimTK::MobilizedBody> limbs;  // the body of each joint
-  std::vector<SimTK::Transform> in_body;    // the joint's frame in its body
+  std::vector<SimTK::Transform> in_body;    // the frame of each joint in that joint's body
   std::vector<Angle> angles;
   std::vector<Effector> effectors;
   SimTK::State state;

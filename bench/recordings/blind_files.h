@@ -11,7 +11,7 @@ namespace etude {
 /// The key of a page on which people compare films without knowing the methods. It says which side shows which method,
 /// and is kept apart from the page.
 struct BlindKey {
-  /// A metric's values in both cells of a pair. Only metrics with a better direction are kept.
+  /// The values of one metric in the two cells of a pair. Metrics without a direction are left out.
   struct Metric {
     std::string id;
     bool higher_is_better = false;

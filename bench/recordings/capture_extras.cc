@@ -125,7 +125,7 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     }
     extras.views.push_back(std::move(view));
   }
-  // Read the moments. Each moment names one of these frames and has marks for every camera.
+  // Read the moments, the frames whose intermediate results were kept. Each moment has marks for every camera.
   for (const SortedJson& json_moment : json.value("moments", SortedJson::array())) {
     extras.moments.push_back(ToMoment(json_moment));
     const CaptureExtras::Moment& moment = extras.moments.back();

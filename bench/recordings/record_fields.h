@@ -18,14 +18,14 @@ namespace etude {
 template <typename Value>
 void EncodeValue(const Value& value, Json& json);
 
-/// Reads JSON that EncodeValue wrote. An error message says which value was found and which are allowed. It begins with
-/// a colon, or with the index of the faulty entry.
+/// Reads JSON that EncodeValue wrote. An error message says which value was found and which values are allowed. The
+/// message begins with a colon, or with the index of the faulty entry.
 template <typename Value>
 Result<void> DecodeValue(const Json& json, Value& value);
 
 /// The keys of one JSON object of a recording. Each format is declared once, as a function `Describe(RecordFields&,
-/// Record&)`. The function names every key, its member and its meaning, in the order of writing. It is used to write a
-/// record, to read one, and to make its reference page. Unknown keys are ignored on reading.
+/// Record&)`. The function names every key, its member and its meaning, in the order of writing. It is used to write
+/// and read records, and to make the reference page. Unknown keys are ignored on reading.
 class RecordFields {
  public:
   template <typename Record>

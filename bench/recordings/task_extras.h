@@ -33,7 +33,7 @@ struct TransitionExtras {
     std::string from, to;  ///< names of the clips; "in-between" for the method's own frames
     std::optional<int> from_frame = {}, to_frame = {};
     std::optional<double> distance = {};
-    /// Partial distances S_k Δ_k² of the features; their sum is the squared distance.
+    /// The term S_k Δ_k² of each feature k; the sum of the terms is the squared distance.
     std::optional<PerFeature> partials = {};
   };
   /// A pair of frames that was considered as a transition point. Frame numbers are those of the clips.
@@ -54,9 +54,9 @@ struct TransitionExtras {
   std::string from, to;                 ///< the clip that is left, and the wanted clip
   std::string branch;                   ///< the kind of transition, e.g. "front half", "in-between"
   std::string why;                      ///< a sentence that says why this transition was chosen
-  std::optional<int> request_frame;     ///< frame of the request; negative if it was before the start of the recording
+  std::optional<int> request_frame;     ///< frame of the request; negative = before the start of the recording
   std::optional<double> wait_s, threshold, natural_limit_cm;
-  /// The largest distance of any transition point; `partials` has the terms of its square.
+  /// The largest distance of any transition point; `partials` has the terms of this distance's square.
   std::optional<double> distance;
   std::optional<PerFeature> weights, partials;
   std::optional<std::int64_t> pairs_seen, pairs_matched;
@@ -77,7 +77,7 @@ struct DetectionExtras {
     std::string name;
     std::vector<std::vector<Target>> key_poses;
   };
-  /// A performance for which the learner was asked.
+  /// A performance that the learner was asked to give.
   struct Event {
     std::string move, truth, fault;  ///< truth: right, grey or wrong; fault: "none", or the names of faults
     std::string danced;              ///< the move that was performed; "" if none was
@@ -107,7 +107,7 @@ struct CoachExtras {
     std::string mode;
     int begin_frame = 0;
   };
-  /// A performance for which the learner was asked.
+  /// A performance that the learner was asked to give.
   struct Performance {
     std::string move, truth, called;  ///< truth: right, grey, wrong; called: right, wrong, unjudged
     int begin_frame = 0, end_frame = 0;

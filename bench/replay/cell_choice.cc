@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// Returns the methods of a run, each with the reason why its cells cannot be run again.
+/// Returns the methods of a run. Each entry says why the method's cells cannot be run again, or that they can.
 std::vector<MethodRows> MethodsOf(const ReplayOptions& options, const PreparedRun& prepared) {
   const std::optional<ScoredMethod>& scored = prepared.suite.scored;
   std::vector<MethodRows> methods;

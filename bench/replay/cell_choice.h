@@ -18,8 +18,8 @@ struct ReplayOptions;
 struct MethodRows {
   std::string scenario, method;
   std::size_t rows = 0;
-  std::string why_not;       ///< why none of the method's cells can be run again; "" = they can
-  std::size_t drawable = 0;  ///< number of rows that a sample may contain
+  std::string why_not;       ///< why the method's cells cannot be run again; "" = they can
+  std::size_t drawable = 0;  ///< number of rows from which the sample is drawn
   /// The number of rows whose status depends on the machine that ran them (DependsOnMachine), by status.
   std::map<std::string, std::size_t> by_machine;
 };
@@ -36,8 +36,8 @@ struct CellChoice {
 /// is equally likely. Fails if a named cell does not exist or cannot be run again.
 Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
 
-/// Returns the probability that a random choice of `drawn` out of `cells` cells contains none of the `forged` forged
-/// cells (hypergeometric distribution).
+/// Returns the probability that `drawn` cells, drawn at random from `cells` cells, include none of the `forged` cells
+/// (hypergeometric distribution).
 double ChanceOfMissing(std::size_t cells, std::size_t drawn, std::size_t forged);
 
 /// A way to forge some of the cells from which the sample was drawn, and the probability that the sample contains none

@@ -63,7 +63,8 @@ class CurvesOfRun {
 
 std::string Fingerprint(std::string_view text) { return Digest().Add(text).Hex(); }
 
-/// Compares a row's curves and recording with those of the second run. Both are stored in files of their own.
+/// Compares the curves and the recording of a cell with those of its second run. Curves and recordings are not stored
+/// in the rows, but in separate files.
 Result<void> CompareKept(const fs::path& folder, const std::vector<Series>& then, const Row& now, CellCheck& check) {
   ASSIGN_OR_RETURN(const auto curves_then, WriteJson(EncodeSeries(then)));
   ASSIGN_OR_RETURN(const auto curves_now, WriteJson(EncodeSeries(now.result.series)));

@@ -30,7 +30,7 @@ struct CellCheck {
   std::optional<Row> row = std::nullopt;
 };
 
-/// Compares the identities of two rows: their world and method.
+/// Compares the cells of two rows: world and method.
 CellCheck CompareIdentity(const Row& then, const Row& now);
 /// Compares a row with the row of the second run: identity, stages, status, reason, metrics.
 CellCheck CompareRows(const Row& then, const Row& now);
@@ -39,8 +39,8 @@ struct ReplayOptions {
   std::string folder;
   std::vector<std::string> cells;          ///< identities of cells, as in cells.jsonl; empty = a sample
   std::optional<std::size_t> sample = {};  ///< the size of the sample; nullopt = all cells
-  /// The seed of the sample; nullopt = the seed of the suite. The maker of the run knows the suite's seed and thus its
-  /// sample.
+  /// The seed of the sample; nullopt = the seed of the suite. The maker of the run knows the suite's seed, and thus the
+  /// cells that this seed draws.
   std::optional<std::uint64_t> dice = {};
   bool recorded_too = false;      ///< true: all cells with a recording are chosen in addition to the sample
   bool without_programs = false;  ///< true: cells that need outside programs are left out
@@ -53,7 +53,8 @@ struct ReplayOptions {
 };
 
 struct ReplayOutcome {
-  std::vector<CellCheck> checks;  ///< checks in canonical order; if the replay was stopped, those of the finished cells
+  std::vector<CellCheck> checks;  ///< one check per cell, in canonical order; if the replay was stopped, finished cells
+                                  ///< only
   CellChoice choice;
 };
 
@@ -70,7 +71,7 @@ Result<void> NoteKey(const std::string& target, const SuiteSetup& suite, std::sp
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file,
                       Sealing sealing = Sealing::kRequired);
 
-/// Runs the cell in a file of PackCell again, and compares the results. Returns nothing if the user stops it.
+/// Runs the cell in a file of PackCell again, and compares the results. Returns nothing if the user stops the run.
 Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const OutsideRules& outside = {},
                                             const std::optional<SecretKey>& key = {},
                                             const std::atomic<bool>* stop = nullptr);

@@ -140,7 +140,7 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   });
 }
 
-/// Compares the lines of timings.jsonl with those of the cells, except their times and memory, which no run repeats.
+/// Compares the lines of timings.jsonl with the cells. Times and memory are not compared, because no run repeats them.
 Result<void> CompareTimings(const FilePath& file, std::span<const std::string> cells, Verified& verified) {
   std::size_t row = 0;
   const auto line_of = [&](std::string_view line) -> Result<std::string> {
@@ -198,7 +198,8 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
     RETURN_IF_ERROR(CompareLines(
         file,
         [&](std::string_view) -> Result<std::string> {
-          // Expect the curves of the next row that has any; a line of another row, or a duplicate, differs from them.
+          // Expect the curves of the next row that has curves. A line of another row, or a duplicate line, differs from
+          // these curves.
           std::vector<Series> series;
           while (of_row < cells.size() && (series = run.data.source->SeriesOf(of_row)).empty()) ++of_row;
           if (of_row == cells.size()) return std::string();

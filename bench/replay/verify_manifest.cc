@@ -80,7 +80,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   Verified verified{"manifest.json: as such a run writes it", {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
-  // Copy the values that may differ from the old manifest to the new one.
+  // Some values may differ: copy them from the old manifest to the new manifest.
   const auto keep = [](const Json& from, Json& to, const char* key) {
     if (to.contains(key) && from.contains(key) && IsTextOrTexts(from.at(key)) &&
         from.at(key).is_object() == to.at(key).is_object())
@@ -111,7 +111,8 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   for (const auto& [name, _] : suite.sources) {
     if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
   }
-  // `now` also contains the metrics that were read from this manifest itself. Report those that no scenario defines.
+  // `now` also contains the metrics that were read from this manifest itself. Report the metrics that no scenario
+  // defines.
   ASSIGN_OR_RETURN(const auto parsed, ScenariosOf(folder));
   std::set<std::string> own;
   for (const Scenario& scenario : parsed) {

@@ -22,7 +22,7 @@ namespace etude {
 /// read the folder.
 constexpr int kResultSchema = 4;
 
-/// The names of the files with the rows and with their times, one line of text per row.
+/// The names of the files with the rows and with the times of the cells, one line of text per row.
 constexpr const char *kCellsFile = "cells.jsonl", *kTimingsFile = "timings.jsonl";
 /// The name of a file that exists in a result folder while its run is in progress, and after an interruption.
 constexpr const char* kJournalFile = "journal.jsonl";
@@ -33,7 +33,7 @@ constexpr const char* kOtherLibrariesFile = "other_libraries.json";
 /// The largest number of cells that a run stores as lines of text. Runs with more cells store them as columns
 /// (columns.h).
 constexpr std::size_t kMaxRowsAsText = 100'000;
-/// The approximate number of rows that LoadRun loads of a run stored as columns.
+/// The approximate number of rows that LoadRun loads if the run is stored as columns.
 constexpr std::size_t kMaxRowsHeld = 20'000;
 
 /// Writes a run's results row by row. All files except the times have the same bytes for any number of workers.

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The NumPy names of the types of number that columns contain.
+/// NumPy's names for the number types that columns contain.
 template <typename Number>
 constexpr std::string_view kNpyType = {};
 template <>
@@ -37,7 +37,8 @@ class NpyWriter {
     return file_.Write({reinterpret_cast<const char*>(&number), sizeof number});
   }
   std::size_t count() const { return count_; }
-  /// Ends the file as an array of this shape. The product of the shape is count(); an empty shape = one dimension.
+  /// Ends the file as an array of this shape. The lengths in the shape must multiply to count(); an empty shape = one
+  /// dimension.
   Result<void> Finish(std::vector<std::size_t> shape = {});
 
  private:
@@ -48,7 +49,7 @@ class NpyWriter {
   std::size_t count_ = 0;
 };
 
-/// Installs a handler of SIGBUS for the process. If another program cuts a mapped file short, reading the missing part
+/// Installs a handler of SIGBUS for the process. If another program truncates a mapped file, reading the missing part
 /// then ends the process with a sentence on standard error and exit code 3, instead of a crash.
 void EndWhenMappedFilesAreCut();
 

@@ -13,7 +13,7 @@ namespace etude {
 constexpr const char* kSealFile = "seal.json";
 /// The names of the files that exist if the owner has signed the run (signature.h).
 constexpr const char *kSignedFile = "signed.b2", *kSignatureFile = "signed.b2.minisig";
-/// The name of the file that the process writing into the folder locks. It is not a result.
+/// The name of the lock file, which is locked by the process that writes into the folder. It is not a result.
 constexpr const char* kLockFile = "lock";
 
 /// Returns true if a part of a result folder is made from results and therefore not sealed: `report`, `video`.

@@ -172,7 +172,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
     return Fail({path.string()}, "was made with key {}, but the given key is {}",
                 NumberOf(std::span(signature).subspan(2, kNumber)), NumberOf(number));
   }
-  // Both signatures must be valid.
+  // The signatures of signed.b2 and of the trusted comment must be valid.
   ASSIGN_OR_RETURN(const auto signed_text, ReadWholeFile(Inside(folder) / kSignedFile));
   const Blake digest = DigestOf(signed_text);
   const Bytes all = Concat(std::span(signature).subspan(2 + kNumber), lines[2].substr(kTrusted.size()));

@@ -12,7 +12,8 @@ namespace {
 
 enum class When { kAlways, kIfAny };
 
-/// A key of a record in the JSON, and the member that holds its value. With kIfAny, an empty value is not written.
+/// A key of a record in the JSON, and the member that holds the key's value. With kIfAny, an empty value is not
+/// written.
 template <typename Record, typename Value>
 struct Key {
   constexpr Key(const char* key, Value Record::*held, When stands = When::kAlways)

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// The position of a line in one of the files.
+/// The position of a line in one of the files with rows, curves or times.
 struct LinePlace {
   std::uint32_t file = 0, bytes = 0;
   off_t begin = 0;
@@ -20,7 +20,7 @@ struct LinePlace {
 
 class TextRows final : public RowSource {
  public:
-  /// Finds the lines of the rows, then those of their curves and times.
+  /// Finds the lines of the rows, then the lines of the rows' curves and times.
   Result<void> Index(const FilePath& folder, const std::vector<std::string>& scenarios) {
     std::map<std::string, std::size_t, std::less<>> places;  // index of each row, by Row::Id()
     RETURN_IF_ERROR(ForEachJson(folder / kCellsFile, "rows", [&](const Json& json, const Place& at, LinePlace line) {

@@ -77,8 +77,8 @@ std::optional<CellLineHead> HeadOf(const Json& line) {
   return CellLineHead{cell.get<std::size_t>(), *known, is_measured};
 }
 
-/// Returns the id of the metric that a line names: by an index in the catalogue, or by the id if it is a scenario's own
-/// metric.
+/// Returns the id of a metric. A line names the metric by an index in the catalogue, or by the id if it is a scenario's
+/// own metric.
 std::optional<std::string> MetricNamed(const Json& name) {
   if (name.is_string()) {
     auto id = name.get<std::string>();

@@ -17,7 +17,7 @@ struct FinishedCell {
   CellUsage usage;
   /// False if the method has answered, but outside metric programs must still measure the answer (CellRunner::Measure).
   bool is_measured = true;
-  /// Why this machine could not run the method; such a cell gets no row. "" if it ran.
+  /// Why this machine could not run the method; such a cell gets no row. "" if the method ran.
   std::string why_not_run = {};
 };
 
@@ -25,8 +25,7 @@ struct FinishedCell {
 /// TaskWorld::Judge fails.
 Result<CellResult> JudgeAnswer(TaskWorld& world, const Json& answer);
 
-/// Runs the cells of one world after the cells of another. Each world is built once. Outside methods keep running
-/// between worlds.
+/// Runs cells, world by world. Each world is built once. Outside methods keep running between worlds.
 class CellRunner {
  public:
   /// Outside methods run in the sandbox `fence`. Their standard error goes to files in `error_folder`, or to Etude's
@@ -46,8 +45,8 @@ class CellRunner {
   FinishedCell Measure(int condition, FinishedCell answered);
 
  private:
-  /// Measures the peak resident size of this process. Reading it takes as long as running a short cell, so the value is
-  /// cached for 5 ms.
+  /// Measures the peak resident size of this process. Reading the size takes as long as running a short cell, so the
+  /// value is cached for 5 ms.
   class PeakMemory {
    public:
     void Begin();

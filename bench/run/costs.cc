@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kFormat = "etude-costs";
 constexpr int kVersion = 1;
 
-/// Keys of a scenario that do not affect the cost of its worlds and methods.
+/// Keys of a scenario that do not affect the cost of the scenario's worlds and methods.
 constexpr std::array kNoWork = {"scenario", "question", "description", "trials", "seed",  "unit", "methods", "metrics",
                                 "expect",   "across",   "rival",       "gate",   "video", "name", "against"};
 

@@ -21,7 +21,7 @@ struct KeptCost {
   double once = 0;
   double trial = 0;   ///< cost of one trial: one world of every condition, with all methods
   double spread = 0;  ///< standard deviation of paired differences (ScenarioForecast::spread); 0 = not measured
-  /// The number of sampling units (ScenarioForecast::units) for this number of trials and this seed. 0 = not stored,
+  /// The number of sampling units (ScenarioForecast::units) with `trials` trials and the seed `seed`. 0 = not stored,
   /// because each world is its own unit.
   int units = 0;
   int trials = 0;

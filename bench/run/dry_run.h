@@ -36,7 +36,7 @@ struct ScenarioForecast {
 struct Forecast {
   std::vector<ScenarioForecast> scenarios;
   std::size_t cells = 0;  ///< number of cells in the shard, or in the whole run
-  double seconds = 0;     ///< wall time of these cells with `workers` workers, seconds
+  double seconds = 0;     ///< wall time of `cells` cells with `workers` workers, seconds
   int workers = 1;
   Pace pace;
 };

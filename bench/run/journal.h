@@ -42,7 +42,8 @@ class CellTable {
     std::uint32_t length = 0;  ///< length of the line, bytes; 0 = the cell has no line
     std::uint32_t file = 0;
   };
-  /// A file, and the cached part of it that was read last. This part begins at offset `begin` of the file.
+  /// A file, and the part of this file that was read last and is cached. This part begins at offset `begin` of the
+  /// file.
   struct Source {
     FilePath file;
     std::uint64_t begin = 0;

@@ -29,8 +29,8 @@ struct PreparedRun {
   std::vector<PreparedScenario> scenarios;
 };
 
-/// Prepares the run that a manifest describes. Fails if the run's clips have changed (CheckClips). A run in secret
-/// worlds needs its key.
+/// Prepares the run that a manifest describes. Fails if the run's clips have changed (CheckClips). If the worlds are
+/// secret, the key is needed.
 Result<PreparedRun> PrepareRun(const FilePath& manifest, const std::optional<SecretKey>& key = {});
 
 /// A value that differs between two manifests.

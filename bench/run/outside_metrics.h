@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The metrics of a scenario that outside programs measure. A program is started when it must measure its first cell,
+/// Those metrics of a scenario that outside programs measure. A program is started when it must measure its first cell,
 /// and keeps running. It receives the recording of the cell, including the ground truth, which outside methods never
 /// receive.
 class OutsideMetrics {

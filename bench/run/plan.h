@@ -32,7 +32,7 @@ struct Shard {
 Result<Shard> ParseShard(const std::string& text);
 std::string ToString(const Shard& shard);
 
-/// A piece of work for a worker: a world, and the ascending indices of those of its methods that must be run.
+/// A piece of work for a worker: a world, and the ascending indices of the methods to be run in it.
 struct Order {
   std::size_t world = 0;
   std::vector<std::size_t> methods;
@@ -58,7 +58,7 @@ class Plan {
   bool IsIn(const Shard& shard, std::size_t world) const {
     return world % static_cast<std::size_t>(shard.count) == static_cast<std::size_t>(shard.index - 1);
   }
-  /// Returns orders for all cells of a shard that are not done. `done` has one flag per cell.
+  /// Returns orders for those cells of a shard that are not done. `done` has one flag per cell.
   std::vector<Order> OrdersFor(const Shard& shard, const std::vector<bool>& done) const;
 
  private:
@@ -70,9 +70,10 @@ class Plan {
 
 /// The orders that no worker has taken yet, by condition. The worlds of a condition share data (thresholds, tuned
 /// weights), which every worker must prepare for itself. A worker therefore stays with its condition until no orders of
-/// it are left. Then it begins the next condition that no worker has begun. If every condition has been begun, it joins
-/// the condition with the most orders left. If a begun condition has long worlds, the worker joins this condition even
-/// before it begins another one, because a long world that is begun last leaves all other workers idle.
+/// this condition are left. Then the worker begins the next condition that no worker has begun. If every condition has
+/// been begun, the worker joins the condition with the most orders left. If a begun condition has long worlds, the
+/// worker joins it even before it begins another one, because a long world that is begun last leaves all other workers
+/// idle.
 class OrderQueue {
  public:
   /// The condition of a worker that has not had an order yet.
@@ -86,7 +87,7 @@ class OrderQueue {
   /// Removes and returns the next order; there must be one. `condition` is the worker's condition, which this function
   /// updates.
   Order Take(std::size_t& condition);
-  /// Puts back an order that a worker did not finish: it becomes the first one of its condition again.
+  /// Puts back an order that a worker did not finish: the order becomes the first one of its condition again.
   void PutBack(Order order);
 
  private:

@@ -106,7 +106,7 @@ class JournalRecorder {
     return journal_.IsSyncDue() ? Sync() : Result<void>();
   }
 
-  /// Synchronises the journal to the disk, then reports how many cells are safe there.
+  /// Synchronises the journal to the disk, then reports how many cells are on the disk.
   Result<void> Sync() {
     RETURN_IF_ERROR(journal_.Sync());
     progress_ = unsynced_;

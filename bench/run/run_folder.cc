@@ -121,8 +121,8 @@ Result<bool> RunFolder::TakeUp() {
   for (TemporaryFolder& one : left) {
     std::error_code error;
     const fs::path old = one.path() / kOldRun, exchanged = one.path() / kNewRun;
-    // Undo half an exchange: the process was killed between the two renames of `Exchange`, so the old run has the name
-    // of the new folder.
+    // Undo an interrupted exchange: the process was killed between the two renames of `Exchange`, so the old run has
+    // the name of the new folder.
     if (!fs::exists(old, error) && HoldsMoreThanLock(exchanged)) fs::rename(exchanged, old, error);
     if (!HoldsMoreThanLock(old)) continue;
     aside_ = std::move(one);

@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// Returns the texts of the files that a condition names, by the condition's key.
+/// Returns the texts of the files that a condition names, by the key that names the file.
 Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& condition, const TaskKind& kind,
                                                         const SourceTexts& texts) {
   std::map<std::string, std::string> named_texts;

@@ -48,7 +48,8 @@ struct ScenarioSetup {
 /// A method whose answers are read from files and scored; it is not run (etude score).
 struct ScoredMethod {
   std::string name;
-  bool alone = false;  ///< true: the scored method replaces the scenarios' own methods; false: it is compared with them
+  bool alone = false;  ///< true: the scored method replaces the scenarios' own methods; false: it is added to these
+                       ///< methods
 };
 
 /// The version of the rule by which secret worlds are made. Version 2 introduced disguised clips
@@ -64,7 +65,7 @@ struct SuiteSetup {
   std::optional<ScoredMethod> scored;  ///< a method with answers from files, added to every scenario; nullopt = none
   /// Version of the rule by which secret worlds are made; matters only if the seed is secret.
   int secret_worlds = kSecretWorldsVersion;
-  /// The manifest's names of the texts in `sources`, by their names here. Only names that differ are listed
+  /// Maps the names of texts in `sources` to their names in the manifest. Only names that differ are listed
   /// (CanonicalNames). Error messages show the names that the user gave.
   std::map<std::string, std::string> canonical = {};
   /// A cache of the scenarios that have been parsed, by file name in `sources`.
@@ -97,8 +98,8 @@ class PreparedScenario {
   /// Returns a cell's row, still without a result.
   Row IdentityOf(int condition, int trial, std::size_t method) const;
   Row EndedRow(int condition, int trial, std::size_t method, Status status, const std::string& reason) const;
-  /// Adds the metrics that `row` lacks. Each gets the value that the task defines for failed cells. If the task defines
-  /// none, the metric is missing, with the row's reason.
+  /// Adds the metrics that `row` lacks. Each added metric gets the value that the task defines for failed cells. If the
+  /// task defines none, the metric is missing, with the row's reason.
   void CompleteMetrics(int condition, Row& row) const;
 
  private:
@@ -153,9 +154,9 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
 /// Prepares all scenarios of a suite. Fails if there are more than kMaxCells cells.
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite);
 
-/// Adds a method with answers from files after the scenario's own methods; it is compared with the first of them. If
-/// `method.alone` is true, it replaces all methods, and the expectations are dropped. Fails if its name is in use or is
-/// not a plain name.
+/// Adds a method with answers from files after the scenario's own methods; it is compared with the scenario's first
+/// method. If `method.alone` is true, it replaces all methods, and the expectations are dropped. Fails if its name is
+/// in use or is not a plain name.
 Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario);
 
 }  // namespace etude

@@ -25,7 +25,7 @@ fs::path TopOf(const fs::path& folder) {
   for (fs::path above = folder; above != above.parent_path(); above = above.parent_path()) {
     if (std::error_code none; fs::exists(above / ".git", none)) return above;
   }
-  // A shipped file has its name in the repository, wherever the program is installed.
+  // The name of a shipped file is its path in the repository, wherever the program is installed.
   const fs::path shipped = ShippedFolder();
   const fs::path inside = folder.lexically_relative(shipped);
   return shipped.empty() || inside.empty() || *inside.begin() == ".." ? fs::path() : shipped;
@@ -40,7 +40,7 @@ std::string SuiteName(const std::vector<std::string>& paths) {
   return name.empty() || name == "." ? "suite" : name;
 }
 
-/// Adds the text of a file that a scenario names to `texts`, so that the manifest suffices to repeat the run.
+/// Adds to `texts` the text of a file that a scenario names, so that the manifest suffices to repeat the run.
 Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   if (file.empty() || texts.contains(file)) return {};
   ASSIGN_OR_RETURN(auto text, ReadWholeFile(file));
@@ -48,7 +48,7 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Adds the texts of the files that a scenario's conditions name to `texts`. The tasks check their content later.
+/// Adds to `texts` the texts of the files that a scenario's conditions name. The tasks check their content later.
 Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
     for (const NamedFile& file : FilesNamedBy(condition, *FindTaskKind(scenario.task))) {
@@ -60,7 +60,7 @@ Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   return {};
 }
 
-/// Adds the text of a joint map, followed by the lines `more`, to `texts`. Returns the map's name in `texts`.
+/// Adds to `texts` the text of a joint map, followed by the lines `more`. Returns the map's name in `texts`.
 Result<std::string> KeepJointMap(const std::string& file, const std::string& more, SourceTexts& texts) {
   RETURN_IF_ERROR(KeepText(file, texts));
   if (more.empty()) return file;
@@ -112,7 +112,7 @@ Result<void> LeaveOutRefused(ScenarioSetup& setup, const SourceTexts& texts) {
   return {};
 }
 
-/// Adds the texts of label files to `texts`. Returns the files' names in `texts`.
+/// Adds to `texts` the texts of label files. Returns the files' names in `texts`.
 Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts& texts) {
   if (path.empty()) return std::vector<std::string>{};
   ASSIGN_OR_RETURN(auto files, LabelFiles(path));
@@ -159,8 +159,8 @@ std::optional<Seed> SeedOf(const RunOptions& options) {
   return options.seed ? std::optional<Seed>(*options.seed) : std::nullopt;
 }
 
-/// Applies the command line's options to a scenario. Adds the texts that the scenario names to `sources`, and the
-/// scenario's file to `users`.
+/// Applies the command line's options to a scenario. Adds to `sources` the texts that the scenario names, and to
+/// `users` the scenario's file.
 Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const std::string& digest, int trials,
                             const RunOptions& options, SourceTexts& sources, UsersOfFiles& users) {
   const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
@@ -263,7 +263,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   UsersOfFiles users;
   std::size_t cells = 0;
   for (const std::string& file : files) {
-    // Read the file and the files that it includes. Compute their digest, in the order of their canonical names.
+    // Read the file and the files that it includes. Compute one digest of all these files, in the order of their
+    // canonical names.
     SourceTexts texts;
     if (!options.text.empty()) texts[file] = options.text;
     ASSIGN_OR_RETURN(auto scenarios, options.text.empty() ? ReadScenarios(file, texts) : ParseScenarios(file, texts));

@@ -29,11 +29,11 @@ constexpr double kAheadS = 0.05;       // seconds of work that a worker gets at 
 // A longer world counts as long: begun last, it would delay the run more than preparing its condition on two workers.
 constexpr double kLongWorldS = 1;
 constexpr int kGatherMicroseconds = 2000;  // pause to collect more results if no worker is idle
-// Number of deaths in a row that end the run; a single death may be chance (a shortage of memory, a stray kill).
+// Number of successive worker deaths in set-up that end the run; one death may be chance (short memory, a stray kill).
 constexpr int kMaxDeathsInSetup = 3;
-constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which it loads clips
-constexpr double kClockPerLimit = 20;   // maximum wall time, as a multiple of the scenario's limit on processor time
-constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report it
+constexpr double kMaxSetupS = 600;      // maximum duration of a worker's set-up, in which the worker loads clips
+constexpr double kClockPerLimit = 20;   // maximum wall time of a step, as a multiple of the processor-time limit
+constexpr double kGraceS = 10;          // additional time in which a worker can end an outside method and report this
 constexpr int kShutdownGraceMs = 3000;  // time in which an ending worker can end all its outside methods
 
 Clock::time_point After(double seconds) {
@@ -51,7 +51,7 @@ struct Worker {
   double cpu_s = 0;            ///< processor time of the worker at the last measurement
   double cpu_began = 0;        ///< processor time of the worker when it began its present step
   bool ready = false;          ///< true: the worker has finished its set-up
-  /// The worker's orders; the first one is in progress and lists the methods that have no answer yet.
+  /// The worker's orders (pieces of work); the first one is in progress and lists the methods that have no answer yet.
   std::deque<Order> orders;
   bool built = false;               ///< true: the worker has built the world of its first order
   bool dismissed = false;           ///< true: the worker has ended and is not replaced
@@ -60,7 +60,7 @@ struct Worker {
   std::size_t condition = OrderQueue::kNowhere;
 };
 
-/// The wall time of a scenario's worlds that have been run so far, and their number.
+/// The wall time of the worlds of a scenario that have been run so far, and their number.
 struct Pace {
   double seconds = 0;
   int worlds = 0;
@@ -159,13 +159,13 @@ class Supervisor {
 
   static ProcessUsage Measure(Worker& worker) {
     worker.measured = Clock::now();
-    // This leaves out the outside methods, because the worker itself measures them.
+    // MeasureAlone leaves out the outside methods, because the worker itself measures them.
     const ProcessUsage usage = worker.process.MeasureAlone();
     worker.cpu_s = usage.own_cpu_s;
     return usage;
   }
 
-  /// Starts the time limits of the worker's next step; its wall time may be at most `clock_s` seconds.
+  /// Starts the time limits of the worker's next step; the step's wall time may be at most `clock_s` seconds.
   static void Begin(Worker& worker, double clock_s) {
     constexpr auto kStale = std::chrono::milliseconds(100);
     if (Clock::now() - worker.measured > kStale) Measure(worker);
@@ -233,7 +233,7 @@ class Supervisor {
 
   Result<void> WatchOver(Worker& worker, bool has_input) {
     if (worker.process.broken_by() != 0) return ReplaceEnded(worker);  // the worker may not have received its orders
-    // Handle the lines that the worker wrote, and its end if it ended.
+    // Handle the lines that the worker wrote and, if the worker has ended, its end.
     if (has_input) {
       const bool alive = worker.process.Receive();
       for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
@@ -321,7 +321,7 @@ class Supervisor {
     return Replace(worker, Status::kCrashed, "its worker ended with " + end);
   }
 
-  /// Ends a worker, reports what it was doing as lost, and starts another worker if orders are left. If `status` is
+  /// Ends a worker, reports its work in progress as lost, and starts another worker if orders are left. If `status` is
   /// nullopt, this machine is the cause, and the lost cells get no rows.
   Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
@@ -331,7 +331,7 @@ class Supervisor {
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());
       worker.orders.pop_front();
-      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // returns the orders that were not begun
+      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // puts back the orders that were not begun
         orders_.PutBack(std::move(worker.orders.back()));
       }
       RETURN_IF_ERROR(GiveUp(std::move(order), worker.built, status, reason));
@@ -346,8 +346,8 @@ class Supervisor {
     return {};
   }
 
-  /// Delivers the cell in progress as lost; if the world was still being built, delivers all its cells as lost. Returns
-  /// the other methods to the queue. If `status` is nullopt, the lost cells get no rows and are only counted.
+  /// Delivers the cell in progress as lost, or all cells of the world if it was still being built. Puts back the other
+  /// methods. If `status` is nullopt, the lost cells get no rows and are only counted.
   Result<void> GiveUp(Order order, bool built, std::optional<Status> status, const std::string& reason) {
     const World& world = plan_.world(order.world);
     const std::size_t lost = built ? 1 : order.methods.size();
@@ -373,9 +373,9 @@ class Supervisor {
   std::string setup_line_;
   std::vector<Worker> workers_;
   std::vector<Pace> paces_;  ///< wall time of the worlds so far, by scenario
-  int deaths_in_setup_ = 0;  ///< deaths of workers during their set-up since a worker last finished its own
+  int deaths_in_setup_ = 0;  ///< number of workers that died during set-up since a worker last finished its set-up
   std::size_t not_run_ = 0;  ///< number of cells that could not be run
-  std::string why_not_run_;  ///< why the first such cell could not be run
+  std::string why_not_run_;  ///< why a cell could not be run; the reason of the first such cell
 };
 
 /// Returns the part of the orders whose cells are answered, or the part whose cells are not.

@@ -16,12 +16,12 @@ namespace etude {
 
 struct SupervisorOptions {
   std::string program;  ///< path of this program; a worker is started as `PROGRAM worker`
-  /// Folder for the standard error of outside methods; "" = they share Etude's.
+  /// Folder for the standard error of outside methods; "" = they share Etude's standard error.
   std::string error_folder;
   Fence fence = {};                         ///< sandbox in which outside methods run
   int jobs = 0;                             ///< number of worker processes; 0 = one per processor
   const std::atomic<bool>* stop = nullptr;  ///< the run ends early when this becomes true (Ctrl-C)
-  /// The cells that are answered but not yet measured: those of an earlier attempt, and those that Deliver adds. If
+  /// The cells that are answered but not yet measured: cells of an earlier attempt, and cells that Deliver adds. If
   /// null, answered cells are stored in a temporary file, and Deliver receives measured cells only.
   CellTable* answered = nullptr;
   /// Called many times a second while the run waits for workers.
@@ -47,8 +47,9 @@ using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
 /// and a new worker runs the world's other methods. If the worker was still building the world, all cells of the world
 /// get such a row. A worker that dies during its set-up costs no cell. Programs that measure learn the truth. They are
 /// therefore started only after all methods have answered and these workers, with the methods' programs, have ended.
-/// Returns false if the user stopped it early. Fails with an error of this machine (machine.h) if no worker can start,
-/// if several in a row die during their set-up, or, at the end, if cells could not be run and were not delivered.
+/// Returns false if the user stopped the run early. Fails with an error of this machine (machine.h) if no worker can
+/// start, if several in a row die during their set-up, or, at the end, if cells could not be run and were not
+/// delivered.
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver);
 

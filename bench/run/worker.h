@@ -19,8 +19,8 @@ constexpr int kCannotGoOn = 75;
 /// "…", "fence": …}`; the worker replies with kWorkerReady. Each further line is an order or an answered cell. An order
 /// is `{"world": [scenario, condition, trial], "first_cell": 12, "methods": [0, 2]}`, where `first_cell` is the number
 /// of the world's first cell. The worker replies with kWorldBuilt, then with one line per method (cell_line.h, or
-/// kNotRun). For an answered cell, it asks the metric programs and replies with the cell's new line. Returns the exit
-/// code: 2 if a line is invalid, kCannotGoOn if this machine has a fault.
+/// kNotRun). For an answered cell, the worker asks the metric programs and replies with the cell's new line. Returns
+/// the exit code: 2 if a line is invalid, kCannotGoOn if this machine has a fault.
 int RunWorker(std::istream& in, std::ostream& out);
 
 }  // namespace etude

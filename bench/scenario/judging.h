@@ -11,7 +11,7 @@ std::vector<std::string> MetricsOf(const TaskKind& kind);
 /// Returns the ids of the task's metrics and of the metrics that the scenario defines itself.
 std::vector<std::string> MetricsOf(const TaskKind& kind, const Scenario& scenario);
 
-/// Returns the metrics of a scenario that may be its success: shares and scores for which higher is better.
+/// Returns the metrics that a scenario may name as `success`: shares and scores for which higher is better.
 std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& scenario);
 
 /// Adds a metric to `metrics`. Adds an error to `fields` if the metric is not in `known`, or is already in the list.

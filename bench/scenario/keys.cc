@@ -178,7 +178,7 @@ Json ScenarioSchema() {
     if (key.IsRequired()) required.push_back(key.key);
   }
   const Json has_defaults{{"anyOf", {Has("defaults"), Has("include")}}};
-  // The schema of a scenario in a list, which does not have the keys of the file.
+  // The schema of a scenario in a list. Such a scenario does not have the keys of a file.
   Json listed{{"allOf", {Ref("scenario"), Has("scenario")}}, {"properties", Json::object()}};
   Json tops = Json::array();
   for (const KeyInfo& key : FileKeys()) listed["properties"][key.key] = false;

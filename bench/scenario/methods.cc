@@ -57,8 +57,8 @@ Result<MethodEntry> ReadBuiltIn(const Node& node, const TaskKind& kind) {
   return entry;
 }
 
-/// Reads a program that takes one seat of its task's loop. Its mapping also has keys of the task; the task reads their
-/// values.
+/// Reads a method that is a program in a seat (a part of the task's loop that a program replaces). The mapping of the
+/// method also has keys of the task; the task reads their values.
 Result<MethodEntry> ReadSeated(const Node& node, const TaskKind& kind) {
   Fields method(node, "a method of task " + kind.name + " with 'exec'");
   MethodEntry entry;

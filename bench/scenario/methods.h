@@ -11,8 +11,8 @@ bool IsPlainName(const std::string& name);
 ValueKind PlainNameKind();
 std::string ReadPlainName(Fields& fields, std::string_view key);
 
-/// Returns the keys of an outside method. A built-in method has only `name`, `against` and `description` of these; its
-/// other keys are keys of its task.
+/// Returns the keys of an outside method. A built-in method has only `name`, `against` and `description` of these keys;
+/// its other keys are keys of its task.
 const FieldTable<MethodEntry>& OutsideMethodFields();
 
 /// Reads `methods`: the keys that every method has, and all keys of outside methods. Errors are collected in `fields`.

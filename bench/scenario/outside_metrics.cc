@@ -48,7 +48,7 @@ Result<void> SpellOut(Json& track, const Place& place) {
     return Fail(place, "a track needs 'poses', or 'frames', from 1 to {}, and 'joints_m'; found {}", kMaxExampleFrames,
                 ShowJson(track));
   }
-  // Fill in the positions of those joints.
+  // Fill in the positions of the joints that the track lists.
   const std::size_t roles = AllRoles().size();
   Json poses(frames.get<std::size_t>(), Json(3 * roles, 0.0));
   const Json joints = track.value("joints_m", Json::object());
@@ -163,7 +163,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
              .WhenAbsent("(`name`)"),
          Key::Text("definition", info(&MetricInfo::definition), "a text", "What it measures, in one sentence.")
              .WhenAbsent("(none)"),
-         // Add the key of its test vectors.
+         // Add the key of the metric's test vectors.
          {{"vectors", ListKind("a list of test vectors", MappingKind("", MetricExampleFields().Describe())), "[]",
            "Cells whose value is known; the program must reproduce these values before the first cell is run."},
           [](Fields& metric, OutsideMetric& own) {

@@ -16,8 +16,9 @@ const FieldTable<MetricExample>& MetricExampleFields();
 /// Describes the values of the key `metrics`: names, and mappings of OutsideMetricFields.
 ValueKind HeadlineKind();
 
-/// Reads `metrics` and returns the headline metrics; these are the task's if the file names none. Metrics that the
-/// scenario defines are also added to `own` and to the catalogue (AddMetric). Errors are collected in `fields`.
+/// Reads `metrics` and returns the headline metrics; if the file names none, these are the task's headline metrics.
+/// Metrics that the scenario defines are also added to `own` and to the catalogue (AddMetric). Errors are collected in
+/// `fields`.
 std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std::vector<OutsideMetric>& own);
 
 }  // namespace etude

@@ -256,7 +256,7 @@ std::span<const KeyInfo> CommonScenarioKeys() {
 }
 
 void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario) {
-  std::vector<Condition> once;  // each condition once: those of the first library, without the library's name
+  std::vector<Condition> once;  // each condition once: the conditions of the first library, without its name
   for (Condition condition : scenario.conditions) {
     if (condition.library != scenario.conditions.front().library) continue;
     if (!condition.library.empty()) condition.swept.erase(condition.swept.begin());

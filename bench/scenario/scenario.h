@@ -36,7 +36,7 @@ struct Condition {
   /// The swept parameters, after the library's name if there are libraries; empty if nothing is swept.
   std::vector<SweptValue> swept;
   Node node;
-  std::string library = {};  ///< the library of its worlds; "" = the scenario's `clips`
+  std::string library = {};  ///< the library of the condition's worlds; "" = the scenario's `clips`
 };
 
 /// A value of a condition that is the name of a file.
@@ -58,12 +58,14 @@ struct RecordingSelection {
 
 struct MethodEntry {
   std::string name;
-  std::string against;            ///< the method with which it is compared; the first method is compared with itself
-  Node node;                      ///< the mapping that its task reads; not used for an outside method without a seat
+  std::string against;            ///< the method with which this method is compared; the first method is compared with
+                                  ///< itself
+  Node node;                      ///< the mapping that the task reads; not used for an outside method without a seat
   std::vector<std::string> exec;  ///< an outside method's program and arguments; empty = built in
   std::string options_json;       ///< an outside method's `options`, sent to it unchanged
   std::optional<double> time_s;   ///< an outside method's own limit per problem or step, instead of Limits::time_s
-  std::string seat = {};          ///< an outside method's seat in the task's loop; "" = it is asked once per world
+  std::string seat = {};          ///< an outside method's seat in the task's loop; "" = the method is asked once per
+                                  ///< world
   std::vector<std::string> files = {};  ///< files that a sandbox shows to the program; empty = the program's own folder
   std::string description = {};         ///< a sentence about the method, for readers of the results; "" = not described
 
@@ -88,7 +90,8 @@ struct OutsideMetric {
   std::vector<MetricExample> vectors;
 };
 
-/// The time and memory that one cell, or the building of one world, may use. If it uses more, it is ended.
+/// The time and memory that one cell, or the building of one world, may use. A cell or building that uses more is
+/// ended.
 struct Limits {
   double time_s = 300;
   double memory_mb = 4096;  ///< limit of the resident memory of the worker, and of each outside method
@@ -100,7 +103,7 @@ struct Scenario {
   std::string file;
   std::string name;
   std::string question;
-  std::string description;  ///< a sentence about its worlds; "" = not described
+  std::string description;  ///< a sentence about the scenario's worlds; "" = not described
   std::string task;
   std::vector<std::string> clips;     ///< references to clips, as the file writes them
   std::vector<NamedClips> libraries;  ///< libraries in place of `clips`; every condition is repeated for each library
@@ -115,7 +118,7 @@ struct Scenario {
   std::string success = {};                         ///< metric of success; the task's default if the file names none
   double success_matters = 0.05;                    ///< the smallest difference of success that matters, as a share
   std::vector<OutsideMetric> outside_metrics = {};  ///< metrics that outside programs measure; also in `metrics`
-  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
+  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
   std::string rival;                ///< the method that others must beat; "" = the best method is found
   std::vector<Expectation> expectations;
   RecordingSelection recordings;
@@ -152,7 +155,7 @@ Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const Sour
 std::span<const KeyInfo> CommonScenarioKeys();
 const FieldTable<Limits>& LimitFields();
 const FieldTable<StreamSource>& ReadingFields();
-/// Returns the keys of `video`. They name methods of `scenario`, which must outlive the table.
+/// Returns the keys of `video`. The values of some keys name methods of `scenario`, which must outlive the table.
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 
 }  // namespace etude

@@ -113,7 +113,7 @@ class Collector {
         for (const Node::Entry& entry : *included) Put(entry, found);
       }
     }
-    // The file's own defaults replace those of included files.
+    // The file's own defaults replace the defaults of included files.
     const Node* own = top.Find("defaults");
     if (own == nullptr) return found;
     if (own->kind != Node::Kind::kMapping) {

@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// Returns the part of a scenario that is needed to judge its rows.
+/// Returns the part of a scenario that is needed to judge the scenario's rows.
 Study StudyOf(const Scenario& scenario);
 
 }  // namespace etude

@@ -47,7 +47,7 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
   if (!std::isfinite(steps.logarithmic ? steps.to / steps.from : steps.to - steps.from)) {
     return Fail(place, "{} and {} are too far apart", steps.from, steps.to);
   }
-  // Take the given number of values, or compute it from the step.
+  // Take the given number of values, or compute the number from the step.
   if (count) {
     steps.count = *count;
     return steps;
@@ -185,7 +185,7 @@ Result<std::vector<Node>> ReadGroups(const Node& together) {
   return groups;
 }
 
-/// Fails if a parameter is not one of the task's, because only these can be swept.
+/// Fails if a parameter is not one of the task's parameters, because only these can be swept.
 Result<void> CheckParameter(const Node::Entry& parameter, const TaskKind& kind, bool in_group) {
   for (const KeyInfo& common : CommonScenarioKeys()) {
     if (common.key != parameter.key) continue;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kFigures = 5;
 constexpr std::size_t kAgreementResamples = 1999;
 
-using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, low, high, ICC
+using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, lower and upper limit of agreement, ICC
 
 /// Returns the standard deviation of a single new difference between the two measurements (Bland and Altman 2007).
 /// Returns nothing for fewer than two units.
@@ -84,7 +84,7 @@ std::array<std::optional<Interval>, kFigures> FigureIntervals(std::span<const Ag
 
 CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<const std::string> units,
                                 std::uint64_t seed, const std::string& purpose) {
-  // Sum the pairs of each unit, in the order of units.
+  // Add up the sums of all pairs of curves of each unit, in the order of units.
   std::map<std::string, AgreementSums> by_unit;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].count == 0) continue;
@@ -132,7 +132,7 @@ std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
       collected[at->second].units.push_back(row.units.empty() ? row.clip : row.units.front());
     }
   });
-  // Measure the agreement of each angle, with one random stream for each.
+  // Measure the agreement of each angle, each with a random stream of its own.
   for (const auto& [key, at] : places) {
     found[at].agreement = MeasureAgreement(collected[at].pairs, collected[at].units, run.seed, "agreement/" + key);
   }

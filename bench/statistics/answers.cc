@@ -14,8 +14,8 @@ namespace {
 
 bool IsDecided(Verdict verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
 
-/// Returns the metric by which a step of an answer is judged: a share of worlds whose practical threshold is
-/// Study::success_matters.
+/// Returns the metric by which a step of an answer is judged. The metric is a share of worlds; its practical threshold
+/// is Study::success_matters.
 MetricInfo ShareMetric(const Study& study, const std::string& id) {
   MetricInfo metric = *FindMetric(id);
   metric.direction = Direction::kHigherIsBetter;
@@ -148,8 +148,8 @@ class Measurer {
   const std::uint64_t seed_;
 };
 
-/// Corrects the p-values of one step over a family of answers (Holm), and sets its verdicts. `metric_of` returns the
-/// metric whose threshold judges an answer's step.
+/// Corrects the p-values of one step over a family of answers (Holm), and sets the verdicts of this step. `metric_of`
+/// returns the metric whose threshold judges an answer's step.
 template <typename MetricOf>
 void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Answer::*step, SamplingUnit unit,
                const MetricOf& metric_of) {

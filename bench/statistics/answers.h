@@ -35,8 +35,8 @@ std::optional<Answer> MeasureAnswerAgainstRival(const Study& study, const Condit
 /// compares success alone.
 std::string ValueMetricOf(const Study& study);
 
-/// Compares the success of two methods under one condition, and judges it as the only comparison. Returns nothing if no
-/// cell has a value of success.
+/// Compares the success of two methods under one condition, and judges this comparison as the only one. Returns nothing
+/// if no cell has a value of the success metric.
 std::optional<Comparison> CompareSuccess(const Study& study, const ConditionTable& table, const std::string& method,
                                          const std::string& other, std::uint64_t seed);
 

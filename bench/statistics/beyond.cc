@@ -117,7 +117,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   // For each unit, compute the mean without all worlds of that unit.
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double rest = one_way ? n - 1 : worlds - sums.worlds[order[i]];
-    if (rest == 0) continue;  // if all worlds share this unit, none is left without it
+    if (rest == 0) continue;  // if all worlds share this unit, no world is left
     const double sum = one_way ? sum_of_means - means[i] : sums.total - sums.sums[order[i]];
     beyond.left_out.push_back({sample.names[order[i]], sum / rest});
   }

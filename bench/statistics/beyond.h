@@ -10,7 +10,7 @@ namespace etude {
 /// The differences of the worlds of one comparison, and the units (clips, libraries) from which each world was drawn.
 struct UnitSample {
   std::vector<double> differences;      ///< method − baseline, one per world
-  std::vector<std::vector<int>> units;  ///< for each world, the indices in `names` of its units; at least one
+  std::vector<std::vector<int>> units;  ///< for each world, the indices in `names` of the world's units; at least one
   std::vector<std::string> names;
   bool yes_or_no = false;  ///< true: the metric is yes or no, so differences are −1, 0 or 1
 

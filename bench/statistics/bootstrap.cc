@@ -51,7 +51,8 @@ class DrawnMedian {
   /// compared.
   double Of(const std::uint64_t* drawn) {
     HalvesWithin found = FindHalvesWithin(drawn, sorted_.size(), low_, last_, near_.data());
-    if (lower_ < found.below || upper_ >= found.below + found.within) {  // not among these: compare all
+    if (lower_ < found.below || upper_ >= found.below + found.within) {  // the middle draws are not near the middle of
+                                                                         // the values: compare all draws
       found = FindHalvesWithin(drawn, sorted_.size(), 0, ~std::uint32_t{0}, near_.data());
     }
     const auto end = near_.begin() + static_cast<std::ptrdiff_t>(found.within);
@@ -67,7 +68,7 @@ class DrawnMedian {
   double ValueOf(std::uint64_t number) const { return sorted_[(number * sorted_.size()) >> 32]; }
 
   std::span<const double> sorted_;
-  std::size_t lower_, upper_;  ///< the ranks of both middle draws
+  std::size_t lower_, upper_;  ///< the ranks of the two middle draws
   std::vector<std::uint32_t> near_;
   std::uint32_t low_ = 0, last_ = 0;
 };
@@ -193,7 +194,7 @@ Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span
   const double tail = (1 - confidence) / 2;
   const Interval percentile{AtLevel(replicates, tail), AtLevel(replicates, 1 - tail), IntervalKind::kPercentile};
   if (share_below <= 0 || share_below >= 1) return percentile;
-  // Correct both ends for bias and acceleration.
+  // Correct both ends of the interval for bias and acceleration.
   const double bias = NormalQuantile(share_below);
   const auto acceleration = Acceleration(jackknife);
   if (!acceleration) return percentile;

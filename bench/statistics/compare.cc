@@ -74,7 +74,8 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
     result.ci_high = own.high;
     result.interval = own.kind;
   }
-  // Compute both tests and the effect size, and judge the comparison as if it were the only one.
+  // Compute the signed-rank test, the sign-flip test and the effect size, and judge the comparison as if it were the
+  // only one.
   result.signed_rank = SignedRankTest(differences);
   result.sign_flip = SignFlipTest(differences, metric.aggregate, seed, purpose);
   // If the metric has no direction, larger values count as better in this share.

@@ -51,8 +51,8 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence = kConfidence);
 
 /// Judges a comparison without and with failures. If `with_failures` is given, the comparison's p becomes the p with
-/// failures counted. The comparison's verdict becomes the verdict on which both agree, or kInconclusive if they differ.
-/// Both inputs must have their own `p_holm`. Returns the verdict without failures.
+/// failures counted. If the verdicts without and with failures are equal, this becomes the comparison's verdict, else
+/// kInconclusive. Both inputs must have their own `p_holm`. Returns the verdict without failures.
 Verdict JudgeBothWays(Comparison& comparison, const std::optional<Comparison>& with_failures, const MetricInfo& metric,
                       double confidence = kConfidence);
 

@@ -249,7 +249,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   const ClaimOutcome outcome = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
                                : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
                                                                          : ClaimOutcome::kUnmet;
-  // Describe the figures that decided.
+  // Describe the figures that decided the outcome.
   const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
   std::string detail = fmt::format(
       "difference {:.4g}{} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}", *found.difference, unit,

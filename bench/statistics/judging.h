@@ -32,12 +32,13 @@ void JudgeFamily(std::span<Question* const> family, SamplingUnit unit = Sampling
 /// `conditions`. Returns no verdicts if Study::across is empty.
 std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<ConditionSummary>& conditions);
 
-/// Judges one expectation over every condition that it names. A comparison (below, above) is met if the paired verdict
-/// at its confidence agrees with it in every such condition. It is unmet if the verdict is the opposite or "no
-/// difference" in one of them, and otherwise undecided. Because every condition must hold, no correction for multiple
-/// conditions is needed (intersection–union test, Berger 1982). A bound (at_most, at_least) is compared with the
-/// statistic itself. If some cells have no value, a bound that the other cells meet is undecided. A comparison of the
-/// value of an answer (ValueMetricOf) is unmet if the method is worse by success.
+/// Judges one expectation over every condition that it names. A comparison (below, above) is met if, in every such
+/// condition, the paired verdict at the expectation's confidence agrees with the expectation. It is unmet if the
+/// verdict is the opposite or "no difference" in one of the conditions, and otherwise undecided. Because every
+/// condition must hold, no correction for multiple conditions is needed (intersection–union test, Berger 1982). A bound
+/// (at_most, at_least) is compared with the statistic itself. If some cells have no value, a bound that the other cells
+/// meet is undecided. A comparison of the value of an answer (ValueMetricOf) is unmet if the method is worse by
+/// success.
 ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed);
 

@@ -75,7 +75,7 @@ double NormalTail(const std::vector<int>& ranks, double w) {
 constexpr std::size_t kMaxEnumerated = 16;
 constexpr int kDraws = 9999;
 
-/// The share of the largest difference that counts as rounding.
+/// Differences up to this share of the largest difference count as rounding errors.
 constexpr double kRounding = 1e-12;
 
 /// The signs of the differences, one bit each: 1 = negative.
@@ -96,8 +96,8 @@ std::size_t IndexOfNth(const Signs& signs, std::size_t n, std::uint64_t flip) {
   }
 }
 
-/// The absolute differences |d| in ascending order, zeros first. It computes the aggregate of the differences under any
-/// signs.
+/// The absolute differences |d| in ascending order, zeros first. The class computes the aggregate of the differences
+/// under any signs.
 class FlippedSample {
  public:
   FlippedSample(std::vector<double> sizes, Aggregate aggregate) : sizes_(std::move(sizes)), aggregate_(aggregate) {
@@ -111,8 +111,8 @@ class FlippedSample {
   }
 
  private:
-  /// Precomputes the sum of each group of eight sizes under all 256 signs. The mean of a draw then needs an eighth of
-  /// the additions.
+  /// Precomputes the sum of each group of eight differences |d| under all 256 signs. The mean of a draw then needs an
+  /// eighth of the additions.
   void SumBytes() {
     byte_sums_.resize((sizes_.size() + 7) / 8);
     for (std::size_t byte = 0; byte < byte_sums_.size(); ++byte) {
@@ -134,9 +134,9 @@ class FlippedSample {
     return sum / static_cast<double>(sizes_.size());
   }
 
-  /// Returns the median under the given signs. In sorted order the negative values come first, from the largest size to
-  /// the smallest, then the positive values from the smallest size to the largest. The middle value has a small size,
-  /// so a short walk over the bits finds it.
+  /// Returns the median under the given signs. In sorted order the negative values come first, from the largest |d| to
+  /// the smallest, then the positive values from the smallest |d| to the largest. The middle value has a small |d|, so
+  /// a short walk over the bits finds it.
   double MedianUnder(const Signs& signs) const {
     std::size_t negatives = 0;
     for (std::uint64_t bits : signs) negatives += static_cast<std::size_t>(std::popcount(bits));
@@ -189,7 +189,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
                         const std::string& purpose) {
   if (differences.empty()) return {};
   std::vector<double> ordered(differences.begin(), differences.end());
-  // Sort by size, and separate the sizes from the signs.
+  // Sort the differences by |d|, and separate |d| from the signs.
   std::sort(ordered.begin(), ordered.end(),
             [](double a, double b) { return std::abs(a) != std::abs(b) ? std::abs(a) < std::abs(b) : a < b; });
   std::vector<double> sizes;

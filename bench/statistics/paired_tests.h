@@ -8,9 +8,9 @@
 
 namespace etude {
 
-/// Both tests are two-sided. Their null hypothesis is that the differences are symmetric around zero, i.e. that
-/// exchanging the two methods in a world changes nothing. With n non-zero differences, neither test can reach a p below
-/// 2 / 2ⁿ.
+/// The signed-rank test and the sign-flip test are two-sided. Their null hypothesis is that the differences are
+/// symmetric around zero, i.e. that exchanging the two methods in a world changes nothing. With n non-zero differences,
+/// neither test can reach a p below 2 / 2ⁿ.
 
 /// Computes Wilcoxon's signed-rank test. Zeros are treated as by Pratt (1959): they are ranked with the other
 /// differences, and then their ranks are left out. Tied differences share their mean rank. Up to 50 non-zero
@@ -20,8 +20,8 @@ namespace etude {
 PairedTest SignedRankTest(std::span<const double> differences);
 
 /// Returns the matched-pairs rank-biserial correlation (Kerby 2014), −1…1: the rank sum of the positive differences
-/// minus the rank sum of the negative ones, divided by the total of both. The ranks are those of the signed-rank test.
-/// It is 0 if all differences are zero.
+/// minus the rank sum of the negative ones, divided by the total of these two sums. The ranks are those of the
+/// signed-rank test. It is 0 if all differences are zero.
 double RankBiserial(std::span<const double> differences);
 
 /// Computes the sign-flip permutation test (Fisher 1935) of the differences' median or mean. Up to 16 non-zero

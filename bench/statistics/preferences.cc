@@ -19,7 +19,7 @@ constexpr double kSettled = 1e-12;
 constexpr std::size_t kRaterResamples = 1999;
 constexpr double kOneSided = 0.01;
 
-/// One rater's answers as wins of methods, and as counts of sides.
+/// The answers of one rater, counted as wins of methods and as choices of the left and the right side.
 struct Rater {
   WinTable wins;
   int left = 0, decided = 0;
@@ -36,7 +36,8 @@ void AddTo(WinTable& sum, const WinTable& wins) {
   }
 }
 
-/// Returns, for each item, its probability of being preferred, averaged over the items with which it was compared.
+/// Returns, for each item, the probability that the item is preferred, averaged over the items with which it was
+/// compared.
 std::vector<std::optional<double>> SharesOf(const WinTable& wins) {
   const std::vector<double> strengths = FitBradleyTerry(wins);
   std::vector<std::optional<double>> shares(wins.size());

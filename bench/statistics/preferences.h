@@ -23,7 +23,7 @@ std::vector<double> FitBradleyTerry(const WinTable& wins);
 struct PreferredMethod {
   std::string method;
   double wins = 0, answers = 0;
-  /// Probability of being preferred, averaged over the methods with which it was compared.
+  /// Probability of being preferred, averaged over the methods with which this method was compared.
   std::optional<double> share;
   std::optional<Interval> interval;  ///< resampled over raters; nullopt below kMinSample raters
 };
@@ -33,7 +33,8 @@ struct PreferredMethod {
 struct MetricAgreement {
   std::string metric;
   int agreed = 0, decided = 0;
-  int equal = 0, missing = 0;             ///< pairs on which the raters decided, but not the metric
+  int equal = 0, missing = 0;             ///< pairs in which the raters prefer one film, but the metric's values are
+                                          ///< equal or missing
   std::optional<Interval> interval = {};  ///< Wilson interval over pairs
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Returns the worst value that any method reached under the condition, which counts as the value of a failed cell.
-/// Returns nothing if there is no value.
+/// Returns the worst value that any method reached under the condition. This value counts as the value of a failed
+/// cell. Returns nothing if there is no value.
 std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& metric) {
   std::optional<double> worst;
   for (const MethodColumns& method : table.methods) {

@@ -23,7 +23,7 @@ class MethodColumns {
   const std::string& name() const { return name_; }
   /// Returns the status of the trial's cell; nothing if there is no such cell.
   std::optional<Status> StatusAt(int trial) const { return statuses_[static_cast<std::size_t>(trial)]; }
-  /// Returns the trial's value of a metric; nothing if its cell has none.
+  /// Returns the trial's value of a metric; nothing if the trial's cell has none.
   std::optional<double> ValueAt(const std::string& metric, int trial) const;
   /// Returns all values of a metric in the order of trials. `missing` receives the number of cells without a value.
   std::vector<double> ValuesOf(const std::string& metric, int& missing) const;
@@ -85,8 +85,8 @@ struct PairedWorlds {
 };
 
 /// Multiplies the values of each pair by the world's weight (MetricInfo::weight) divided by the mean weight. The plain
-/// mean of differences then is the weighted mean, and its tests are weighted, too. All cells of a world have the same
-/// weight, because it depends on the truth alone. Does nothing for metrics without weights.
+/// mean of differences then is the weighted mean, and the tests are weighted, too. All cells of a world have the same
+/// weight, because the weight depends on the truth alone. Does nothing for metrics without weights.
 void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWorlds& paired);
 
 /// Returns the pairs of values of `baseline` and `method` in all worlds of the condition.
@@ -111,7 +111,7 @@ std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>
 struct Rival {
   std::array<std::string, 2> of_half;  ///< the rival in worlds of even units, then the rival in worlds of odd units
 
-  std::string Name() const;  ///< the rival's name: "a", or "a or b" if the two halves chose differently
+  std::string Name() const;  ///< the rival's name: "a", or "a or b" if the two halves have different rivals
   std::string Note() const;  ///< says how the two rivals were chosen; "" if they are the same
 };
 

@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-/// Returns the metrics that the condition's cells report: those of the catalogue in its order, then the added ones.
+/// Returns the metrics that the condition's cells report: the catalogue's in its order, then the added metrics.
 std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   std::vector<const MetricInfo*> present;
   for (const MetricInfo& metric : AllMetrics()) {
@@ -345,7 +345,7 @@ class BudgetMaker {
   }
 
  private:
-  /// Adds the reduction of the error in one step of the chain, as the share of the stages that the step replaces.
+  /// Adds one step of the chain: the reduction of the error, as the share of the stages that the step replaces.
   void AddStep(const Member& before, const Member& after) {
     std::string name;
     for (const std::string& stage : Without(after.stages, before.stages)) name += (name.empty() ? "" : ", ") + stage;

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Returns the number of comparisons between methods and their baselines, which are judged together as one family.
+/// Returns the number of comparisons of methods with their baselines. These are judged together as one family.
 int CountComparisons(const Study& study);
 
 /// The summary of one condition and its comparisons, before the comparisons of all conditions are judged together.
@@ -25,7 +25,7 @@ ConditionFindings MeasureMethod(const Study& study, const ConditionTable& table,
                                 std::uint64_t seed);
 void Append(ConditionFindings more, ConditionFindings& findings);
 
-/// Returns the summary of a study. `findings` are those of all its conditions, in their order.
+/// Returns the summary of a study. `findings` has one entry per condition of the study, in the order of the conditions.
 ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, std::vector<ConditionFindings> findings,
                               std::uint64_t seed);
 

@@ -30,7 +30,7 @@ struct GeneticResult {
   int generations = 0;
 };
 
-/// Loads the module that contains Pagmo. It is next to the program. Fails if the module is missing.
+/// Loads the module that contains Pagmo. The module is next to the program. Fails if the module is missing.
 Result<void> LoadGeneticSearch();
 
 /// Searches for the genome with the highest `score` with a genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2,
@@ -42,13 +42,13 @@ GeneticResult SearchGenetically(const std::function<double(std::span<const doubl
                                 std::span<const Genome> ancestors, const GeneticOptions& options = {});
 
 /// The type of the module's only function, which performs the search. The module's symbol `etude_pagmo_evolve` points
-/// to it. The function also receives the seeds of the random genomes and of the algorithm.
+/// to this function. The function also receives the seeds of the random genomes and of the algorithm.
 using PagmoEvolve = void(const std::function<double(std::span<const double>)>& score, std::span<const Genome> ancestors,
                          const GeneticOptions& options, unsigned population_seed, unsigned algorithm_seed,
                          GeneticResult& result);
 
 /// The half-width of the ramp of PairTable::SoftF1, as a share of d² = 0.4². On the ramp, a pair counts as partly
-/// matched. There are few close pairs, so F1 without a ramp jumps with every single pair. A search with it would
+/// matched. There are few close pairs, so F1 without a ramp jumps with every single pair. A search without a ramp would
 /// overfit these pairs and do worse on other clips.
 constexpr double kFitnessRamp = 0.5;
 

@@ -34,8 +34,8 @@ constexpr int kFramesPerClip = 16;
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
                           const BodyProportions& proportions);
 
-/// The largest number of training clips. The number of pairs grows with its square, so more clips would make learning
-/// slow, and they would improve it little.
+/// The largest number of training clips. The number of pairs grows with the square of the number of clips, so more
+/// clips would make learning slow, and would improve it little.
 constexpr std::size_t kMaxTrainingClips = 40;
 
 /// Returns every built-in move and the clips of `clips` with other identities, all retargeted to `proportions`. If
@@ -43,8 +43,8 @@ constexpr std::size_t kMaxTrainingClips = 40;
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
                                           const BodyProportions& proportions);
 
-/// Returns every pair of a frame of `a` and a frame of `b`. A pair is labelled close if its true pose gap is below
-/// kCloseGap.
+/// Returns every pair that consists of a frame of `a` and a frame of `b`. A pair is labelled close if its true pose gap
+/// is below kCloseGap.
 std::vector<LabelledPair> LabelPairs(std::span<const TrainingFrame> a, std::span<const TrainingFrame> b,
                                      const Memberships& memberships = PaperMemberships());
 

@@ -12,7 +12,7 @@ namespace etude {
 
 using ClipFrames = std::span<const std::vector<TrainingFrame>>;
 
-/// The parts of the system that are learnt, and the learning method.
+/// The parts of the fuzzy system that are learnt, and the learning method.
 enum class Tuning {
   kAdaptive,            ///< the weights, by logistic regression (engine/fuzzy/weights.h)
   kGenetic,             ///< the weights, by the genetic algorithm (genetic_search.h)
@@ -30,7 +30,7 @@ struct TunedSystem {
 /// this to future work; the methods are Etude's). `genetic` has no effect on kAdaptive.
 TunedSystem TuneSystem(ClipFrames clips, Tuning tuning, const GeneticOptions& genetic = {});
 
-/// Measures how well a system separates close pairs of clips.
+/// How well a system separates close pairs of frames from other pairs.
 struct SystemScore {
   MatchScore at_threshold;    ///< the score at the threshold 0.4
   std::optional<double> auc;  ///< area under the curve over all thresholds; nullopt if all pairs are close, or none is

@@ -13,8 +13,8 @@ struct Admitted {
   int right = 0, wrong = 0;
 };
 
-/// Returns the numbers of admitted events for every threshold from the highest to the lowest. The first entry admits no
-/// event. Events with equal scores are admitted in one step.
+/// Returns, for every threshold from the highest to the lowest, how many right and how many wrong events have a score
+/// at or above it (are admitted). The first entry admits no event. Events with equal scores are admitted in one step.
 std::vector<Admitted> AdmitByScore(std::span<const JudgedEvent> events) {
   std::vector<JudgedEvent> sorted(events.begin(), events.end());
   std::ranges::stable_sort(sorted, std::ranges::greater{}, &JudgedEvent::score);

@@ -14,8 +14,8 @@ inline std::optional<double> Share(std::int64_t part, std::int64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// A scripted performance of a move, which was truly right or wrong (docs/reference/metrics.md). Grey performances are
-/// not events. "Right" is the positive class.
+/// A scripted performance that was truly right or wrong (docs/reference/metrics.md). Grey performances are not events.
+/// "Right" is the positive class.
 struct JudgedEvent {
   bool is_right = false;      ///< true if the performance was truly right
   bool called_right = false;  ///< true: the recogniser called it right before the end of the event's window

@@ -20,7 +20,7 @@ bool IsIn(double value, const Range& range) { return range.lowest <= value && va
 
 std::string ShowRange(const Range& range) { return fmt::format("{:g}…{:g}", range.lowest, range.highest); }
 
-/// Returns the reason why the value is not a number in the range; nothing if it is one.
+/// Returns the reason why the value is not a number in the range; nothing if it is such a number.
 std::optional<std::string> NumberComplaint(const Json& json, const Range& range) {
   if (!json.is_number() || !std::isfinite(json.get<double>())) {
     return fmt::format("{} is not a finite number", ShowJson(json));

@@ -44,7 +44,7 @@ class FileWorld : public TaskWorld {
 };
 
 /// A task that judges files. The constructor of `World` receives the study, a world's files, and a flag that is true if
-/// its cells keep their motion.
+/// the world's cells keep their motion.
 template <typename Study, typename World>
 class FileTask final : public Task {
  public:

@@ -17,7 +17,7 @@ Field<Options> FuzzyField() {
   return {FuzzyKey(), [](Fields& condition, Options&) { condition.Raw(kFuzzyKey); }};
 }
 
-/// Returns the fuzzy system that the condition names, or paper A's if it names none.
+/// Returns the fuzzy system that the condition names; if it names none, the fuzzy system of paper A.
 Result<FuzzySystem> FuzzySystemOf(const TaskInput& input);
 
 }  // namespace etude

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Returns the targets that `state` reaches exactly: the positions and axes of its end effectors.
+/// Returns the targets that `state` reaches exactly: the positions and axes of the end effectors.
 std::vector<EffectorTarget> TargetsMetBy(const KinematicTree& tree, const TreeState& state);
 
 /// Adds the positions and axes of targets to the digest of a world.

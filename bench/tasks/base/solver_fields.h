@@ -19,7 +19,7 @@ std::vector<std::string> WeighingSolvers();
 /// Adds an error if the method names a solver by its former name. The error states the present name.
 void RefuseFormerName(Fields& method);
 
-/// Declares a method's `solver` and the settings of that solver: `weights`, `refresh` and its own.
+/// Declares a method's `solver` and the settings of that solver: `weights`, `refresh` and the solver's own settings.
 template <typename Method>
 std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOptions Method::*options) {
   using Key = Field<Method>;

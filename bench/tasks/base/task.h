@@ -47,8 +47,9 @@ class TaskWorld {
 
   /// Runs the built-in method with this index in TaskInput::methods.
   virtual CellResult Run(std::size_t method) = 0;
-  /// Runs a method with `program` in the seat that the method leaves open (TaskKind::seats). Fails, like Judge, if an
-  /// answer has a wrong shape, size or range. If the program has failed, the result is ignored.
+  /// Runs a method in which `program` replaces the part of the loop that the method's `seat` names (TaskKind::seats).
+  /// Fails, like Judge, if an answer has a wrong shape, size or range. If the program has failed, the result is
+  /// ignored.
   virtual Result<CellResult> RunWith(LiveProgram& /*program*/, std::size_t /*method*/) {
     return Fail({}, "worlds of this task have no loop");
   }
@@ -72,7 +73,7 @@ class Task {
  public:
   virtual ~Task() = default;
 
-  /// Builds the world of `key`, which is a pure function of the arguments. If `keeps_motion`, cells fill
+  /// Builds the world of `key`. The world is a pure function of the arguments. If `keeps_motion`, cells fill
   /// CellResult::recording. The task must outlive its worlds.
   virtual std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const = 0;
 
@@ -99,9 +100,9 @@ struct OpenOptions;
 /// One world of a task that judges files: the answer of each method, and the truth, if the task has truths.
 struct JudgedFiles {
   std::string name;   ///< identifier of the world; it does not depend on which other files exist
-  std::string unit;   ///< the sampling unit to which the world belongs, such as a person; "" = its name
+  std::string unit;   ///< the sampling unit to which the world belongs, such as a person; "" = the world's name
   std::string truth;  ///< a reference to a motion (io/clips/references.h); "" = the task knows no truths
-  std::vector<std::string> answers;  ///< references to motions, by method; "" = the method has no answer of this name
+  std::vector<std::string> answers;  ///< references to motions, by method; "" = the method has no answer in this world
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 
@@ -134,16 +135,16 @@ struct TaskKind {
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
   /// The metric that says how well a cell reached the task's goal (solved, recovered, clean, …).
   std::string success;
-  std::vector<std::string> metrics;          ///< all metrics that its cells report, by a value or by a reason
+  std::vector<std::string> metrics;  ///< all metrics that the task's cells report, by a value or by a reason
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< the keys that the task adds to a scenario
   std::vector<KeyInfo> method_keys;     ///< the keys that the task adds to a method, except `name`
-  /// The seats of the task's loop that a program may take; the method's key `seat` names one. The program is then asked
-  /// step by step. The task's keys configure everything else of the method.
+  /// The seats of the task: the parts of the loop that a program may replace. The method's key `seat` names one. The
+  /// program is then asked step by step. The task's keys configure everything else of the method.
   std::vector<std::string> seats = {};
   bool has_problems = true;      ///< true: a program without a seat may be asked one question per world
-  bool uses_clips = true;        ///< true: its worlds use a scenario's `clips`
-  bool uses_recordings = false;  ///< true: its worlds use a scenario's `streams`
+  bool uses_clips = true;        ///< true: the task's worlds use a scenario's `clips`
+  bool uses_recordings = false;  ///< true: the task's worlds use a scenario's `streams`
   /// The units from which worlds are drawn. The first is the default; a scenario may name one of the others. The list
   /// is never empty.
   std::vector<SamplingUnit> units = {SamplingUnit::kWorld};

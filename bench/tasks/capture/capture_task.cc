@@ -18,7 +18,7 @@ struct CaptureStudy {
   StudioOptions options;
   std::vector<CaptureMethod> methods;
   std::vector<PersonSource>
-      sources;  ///< the sources of all methods, each once; methods with equal sources share their marks
+      sources;  ///< the sources of all methods; equal sources are listed once, and their marks are shared
   ClipLibrary clips;
 };
 

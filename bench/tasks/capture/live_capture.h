@@ -26,8 +26,8 @@ class LiveCapture {
   /// if their clocks are off.
   void Add(const BodyPose& pose) { stages_.Add(pose); }
 
-  /// Returns the skeleton of the next frame. The pose of that frame, and those it needs (Add), must have been added.
-  /// Between pictures, the last skeleton is returned again.
+  /// Returns the skeleton of the next frame. The pose of that frame, and the later poses that the frame needs (Add),
+  /// must have been added. Between pictures, the last skeleton is returned again.
   std::optional<RecoveredFrame> Next();
 
  private:

@@ -23,9 +23,9 @@ class Marking {
   /// determines where its joints lie in its limbs, and which point of its head is marked.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-  /// Marks one picture and returns the marks as methods receive them. A stroke or disc that both annotators drew is the
-  /// mean of the two; one that a single annotator drew is returned unchanged. The result is empty if the frame is not
-  /// marked. The frames of a camera must come in order.
+  /// Marks one picture and returns the marks as methods receive them. If both annotators drew a stroke or disc, it is
+  /// the mean of the two marks; if a single annotator drew it, it is returned unchanged. The result is empty if the
+  /// frame is not marked. The frames of a camera must come in order.
   Marks Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture);
 
   /// Returns exact marks at the joints of `pose`, for the limbs and ends that are visible in the picture. Nothing is
@@ -37,8 +37,8 @@ class Marking {
   /// numbers.
   Marks ReadColours(std::size_t frame, const AnnotatedPicture& picture) const;
 
-  /// Returns the marks of both annotators for each joint in all pictures so far; `limbs` does so for each limb. Both
-  /// are empty if there is a single annotator.
+  /// Returns the marks of both annotators for each joint in all pictures so far; `limbs` returns them for each limb.
+  /// The two lists are empty if there is a single annotator.
   const std::vector<MarkedTwice>& joints() const { return joints_; }
   const std::vector<MarkedTwice>& limbs() const { return limbs_; }
 
@@ -56,7 +56,8 @@ class Marking {
 /// every pose and is measured beforehand.
 double HeadBelowCrown(const Figure& figure, const BodyPose& body);
 
-/// Returns the mean of both marks for each stroke and disc, or the single mark if only one annotator drew it.
+/// Returns the mean of the two annotators' marks for each stroke and disc, or the single mark if only one annotator
+/// drew it.
 Marks MeanMarks(const Marks& first, const Marks& second);
 
 }  // namespace etude

@@ -22,7 +22,7 @@ LimbObservation Observed(const BodyPose& truth) {
   return seen;
 }
 
-/// Returns a copy of the body with a joint at its root that turns freely.
+/// Returns a copy of the body with a freely turning joint at its root.
 CaptureBody OnTurningRoot(CaptureBody body) {
   std::vector<TreeJoint>& joints = body.tree.joints;
   joints.insert(joints.begin() + 1,
@@ -36,7 +36,7 @@ CaptureBody OnTurningRoot(CaptureBody body) {
 }
 
 /// Fits poses of paper B's body. It alternates between two steps (block coordinate descent): it fits all angles and the
-/// root's rotation, and it moves the root to the best position for them.
+/// root's rotation, and it moves the root to the best position for these angles and this rotation.
 class PaperFitter {
  public:
   explicit PaperFitter(const CaptureBody& body) : body_(body), turning_(OnTurningRoot(body)), fitter_(turning_) {}

@@ -12,8 +12,8 @@ Field<StudioOptions> Effect(const std::string& key, double CameraEffects::*effec
   return Field<StudioOptions>::Number(key, Path(&StudioOptions::camera, effect), range, std::move(meaning));
 }
 
-/// Returns the keys of the cameras' optical and electronic effects, one for each member of CameraEffects, in their
-/// order.
+/// Returns the keys of the cameras' optical and electronic effects, one for each member of CameraEffects, in the order
+/// of the members.
 std::vector<Field<StudioOptions>> CameraFields() {
   using E = CameraEffects;
   return {

@@ -22,7 +22,7 @@ enum class Clothes {
 };
 
 enum class PerformerFigure {
-  kStaged,  ///< "staged": the stage's own people; `clothes` and `scene` choose their clothes
+  kStaged,  ///< "staged": the stage's own people; `clothes` and `scene` choose the people's clothes
   kOwn,     ///< "own": the meshes and textures of the clip's file
 };
 
@@ -32,7 +32,7 @@ enum class CalibrationTargetKind {
   kBoards,  ///< "boards": a cube of calibration boards, found in the picture
 };
 
-/// One condition of a capture scenario: the studio and its errors.
+/// One condition of a capture scenario: the studio, and the errors of cameras, measurements and annotation.
 struct StudioOptions {
   double duration_s = 2;
   RigOptions rig = {};  ///< the places of the cameras
@@ -52,8 +52,8 @@ struct StudioOptions {
   int annotators = 1;                ///< number of people who mark the same pictures independently: 1 or 2
   int mark_every = 1;                ///< the annotator marks every n-th frame; directions are interpolated in between
   std::vector<double> moments = {};  ///< frames, counted from 1, for which a recording keeps every stage
-  /// The cameras take a picture of every n-th frame only. It is above 1 if the cameras are the sensor of another task,
-  /// whose takes are long.
+  /// The cameras take a picture of every n-th frame only. The number is above 1 if the cameras are the sensor of
+  /// another task, whose takes are long.
   int picture_every = 1;
 
   bool IsPictured(std::size_t frame) const { return frame % static_cast<std::size_t>(picture_every) == 0; }
@@ -103,9 +103,9 @@ struct Oracle {
 enum class Recovery {
   kIk,      ///< "ik": inverse kinematics to limb directions and ends, with known lengths (paper B)
   kEnds,    ///< "ends": each joint is triangulated from the strokes that end there; no body is fitted
-  kBundle,  ///< "bundle": bundle adjustment of one body in smooth motion to all marks of all frames
+  kBundle,  ///< "bundle": one body in smooth motion is fitted to all marks of all frames (bundle adjustment)
   /// "keypoints": the method of `etude capture`. Joints are triangulated robustly, and a body with the median limb
-  /// lengths is fitted to all of them (engine/keypoints).
+  /// lengths is fitted to all joints (engine/keypoints).
   kKeypoints,
   /// "silhouettes": no marks. A body is fitted to the masks and tracked from frame to frame (engine/silhouettes).
   kSilhouettes,
@@ -124,8 +124,8 @@ enum class LengthSource {
 
 /// The way in which a method that tracks silhouettes finds its first pose.
 enum class SilhouetteStart {
-  kCold,  ///< "cold": it uses the pictures alone
-  kNear,  ///< "near": it starts from the first true pose, with errors of up to 10° in every angle
+  kCold,  ///< "cold": the method uses the pictures alone
+  kNear,  ///< "near": the method starts from the first true pose, with errors of up to 10° in every angle
   /// "keypoints": as kCold; in addition, in every picture the marks give the positions of joints, like the keypoints of
   /// a pose estimator.
   kKeypoints,
@@ -150,7 +150,7 @@ class SeatedSegmenter;
 struct CaptureMethod {
   std::string name;
   CaptureSeat seat = CaptureSeat::kNone;
-  SeatedSegmenter* program = nullptr;  ///< the program in that seat during a run
+  SeatedSegmenter* program = nullptr;  ///< the program in the method's seat during a run
   Segmenter segmenter = Segmenter::kHue;
   PersonPieces pieces = PersonPieces::kLargest;  ///< methods that read silhouettes always use all large pieces
   MarkSource marks = MarkSource::kAnnotator;

@@ -20,7 +20,7 @@ struct CaptureRun {
   const Take& take;
   const Observation& observation;
   const MeasuredTake& measured;
-  CaptureBody body;  ///< the body of `frames`
+  CaptureBody body;  ///< the body whose poses `frames` holds
   std::vector<std::optional<RecoveredFrame>> frames;
 };
 
@@ -28,7 +28,7 @@ struct CaptureRun {
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
 /// Returns the limits on gaps for a live method. A live method receives marked frames only, so each limit is a number
-/// of marked frames. It is scaled to the same duration as if every frame were marked.
+/// of marked frames. The limit is scaled to the duration that it would have if every frame were marked.
 BridgeOptions LiveBridgeOptions(const StudioOptions& options);
 
 /// Returns the body with which a method begins. Its limb lengths are known, or are measured from the marks. Fails, with

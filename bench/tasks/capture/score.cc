@@ -161,7 +161,7 @@ std::vector<bool> FramesSeen(const Observation& observation) {
 /// Measures the joint errors separately over frames with marks and over frames without marks.
 void ReportSeen(const CaptureWorld& world, const Observation& observation, const PoseErrors& errors, CellResult& cell) {
   const std::vector<bool> all_seen = FramesSeen(observation);
-  std::vector<bool> seen, held;  // for each frame in view: has marks; has no marks
+  std::vector<bool> seen, held;  // for each frame in view: true if the frame has marks; true if it has none
   for (std::size_t k = 0; k < all_seen.size(); ++k) {
     if (!world.in_view[k]) continue;
     seen.push_back(all_seen[k]);
@@ -212,7 +212,7 @@ void ReportPoses(const CaptureWorld& world, const CaptureRun& run, const std::ve
 }
 
 /// Measures the share of frames in view and, of these, the share with a skeleton. Returns true if any frame in view has
-/// one.
+/// a skeleton.
 template <typename Frame>
 bool ReportRecovered(const CaptureWorld& world, const std::vector<std::optional<Frame>>& frames, CellResult& cell) {
   const auto judged = InView(world, frames);

@@ -17,8 +17,8 @@ BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 /// Returns the figure of the performer at a fractional frame.
 Figure PerformerAt(const CaptureWorld& world, double frame);
 
-/// Returns a copy of `effects` with only those that determine the camera's time and geometry (clocks, shutter, lens).
-/// Effects that degrade the picture are left out. Used for pictures of the truth.
+/// Returns a copy of `effects` with only the effects on the camera's time and geometry (clocks, shutter, lens). Effects
+/// that degrade the picture are left out. Used for pictures of the truth.
 CameraEffects FaultlessPictures(const CameraEffects& effects);
 
 /// Shoots the pictures of a take.
@@ -26,8 +26,8 @@ class Shooting {
  public:
   Shooting(const CaptureWorld& world, const CameraEffects& effects, const WorldKey& key, Renderer& renderer);
 
-  /// Shoots a camera's picture of a frame with its clock, lens and sensor. `targets` selects labels and depth in
-  /// addition to colour.
+  /// Shoots a camera's picture of a frame with the camera's clock, lens and sensor. `targets` selects labels and depth
+  /// in addition to colour.
   View Shoot(std::size_t camera, std::size_t frame, Targets targets);
   /// Shoots the stage with `props` but without the performer. Without props, this is the background picture. Moving
   /// objects are where they were before the take.

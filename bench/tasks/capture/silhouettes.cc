@@ -54,7 +54,7 @@ std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteIn
 }
 
 // Makes a recovered frame from a pose. It also finds the state of paper B's tree that is near this pose, because the
-// recording's BVH file needs one.
+// recording's BVH file needs such a state.
 RecoveredFrame FrameOf(const BodyPose& pose, const KinematicTree& tree, const TreeState& last) {
   return {.fixed = pose, .state = FindStartState(tree, pose, tree.limits).value_or(last), .pose = pose, .errors = {}};
 }

@@ -31,7 +31,7 @@ struct SilhouetteInputs {
 std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInputs& inputs,
                                                              std::span<const std::vector<Mask>> masks);
 
-/// Tracks silhouettes picture by picture. Each pose depends only on the pictures up to its time.
+/// Tracks silhouettes picture by picture. Each pose depends only on the pictures up to the time of the pose.
 class LiveSilhouettes {
  public:
   /// `inputs.body` must outlive this object.

@@ -152,7 +152,7 @@ std::vector<std::vector<Marks>> UndistortAll(std::span<const Camera> lenses, std
 
 MeasuredTake MeasureTake(std::span<const ProjectionMatrix> cameras, std::vector<std::vector<Marks>> marks,
                          std::span<const KnownMeasurement> known, const BridgeOptions& bridge) {
-  // Measure limb directions and end effectors in each frame, bridge their gaps, and triangulate all joints.
+  // Measure limb directions and end effectors in each frame, bridge gaps between frames, and triangulate all joints.
   MeasuredTake take;
   take.marks = std::move(marks);
   const MeasureInputs inputs{.cameras = cameras, .marks = take.marks, .known = known};

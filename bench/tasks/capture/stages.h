@@ -28,8 +28,9 @@ using CalibrationPairs = std::vector<std::vector<PointPair>>;
 /// (standard deviations).
 CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-/// Returns the corners of a cube of boards (sim/rig/calibration_target.h), found in a picture that each camera takes of
-/// it with all effects of its optics and sensor. A board is measured as a whole: all its corners have the same error.
+/// Returns the corners of a cube of boards (sim/rig/calibration_target.h). Each camera takes one picture of the cube,
+/// with all effects of the camera's optics and sensor, and the corners are found in the picture. A board is measured as
+/// a whole: all its corners have the same error.
 CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
                               Renderer& renderer);
 
@@ -70,7 +71,7 @@ class CaptureStages {
   const std::vector<bool>& marked() const { return marked_; }
   /// Adds the performer's next pose. Used for live capture.
   void Add(const BodyPose& pose);
-  /// Returns the renderer. Fails, with the reason, if it cannot be made.
+  /// Returns the renderer. Fails, with the reason, if the renderer cannot be made.
   Result<Renderer*> GetRenderer();
   Result<const Take*> GetTake();
   Result<const CalibrationPairs*> GetCalibrationPairs();
@@ -78,7 +79,7 @@ class CaptureStages {
   /// Returns the measurements of `method`. `cameras` and `observation` must be those of the same method.
   const MeasuredTake& GetMeasured(const CaptureMethod& method, const CalibratedCameras& cameras,
                                   const Observation& observation);
-  /// Returns the body of `method`. Fails, with the reason, if it cannot be made from the performer's joints.
+  /// Returns the body of `method`. Fails, with the reason, if the body cannot be made from the performer's joints.
   Result<const CaptureBody*> GetBody(const CaptureMethod& method);
   /// Returns the body of `method` with known limb lengths.
   Result<const CaptureBody*> GetKnownBody(const CaptureMethod& method);
@@ -124,7 +125,7 @@ class CaptureStages {
   std::map<BodyChoice, NearestPoses> nearest_;
 };
 
-/// Returns those measurements of a frame, with their true values, that the oracles of a method replace.
+/// Returns the true values for those measurements of a frame that the oracles of a method replace.
 KnownMeasurement KnownMeasurementOf(const BodyPose& truth, const Oracle& oracle);
 
 }  // namespace etude

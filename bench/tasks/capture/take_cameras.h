@@ -24,7 +24,8 @@ class SeatedSegmenter {
   /// `program` must outlive this object.
   explicit SeatedSegmenter(LiveProgram& program) : program_(program) {}
 
-  /// Begins the session of a camera and sends its picture of the empty room. The camera's pictures must follow.
+  /// Begins the session of a camera and sends the camera's picture of the empty room. The camera's other pictures must
+  /// follow.
   void Begin(std::size_t camera, const ColourImage& background);
   /// Sends the next picture and returns the mask in the program's answer. If the program has failed or an answer was
   /// invalid, the mask is all zero, and the program is not asked again.
@@ -43,8 +44,8 @@ class SeatedSegmenter {
 /// The cameras of a take, and the data that all its pictures share: backgrounds, clocks, annotators.
 class TakeCameras {
  public:
-  /// The objects behind the references must outlive this object. The world must already have its first pose. It must
-  /// have the poses that a frame needs before that frame is shot.
+  /// The objects behind the references must outlive this object. The world must already have its first pose. Before a
+  /// frame is shot, the world must have the poses that the frame needs.
   TakeCameras(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
               std::span<const PersonSource> sources, Renderer& renderer);
 
@@ -59,7 +60,7 @@ class TakeCameras {
   /// The pictures of one camera. Its TakeCameras must outlive this object.
   class Feed {
    public:
-    /// Shoots the next picture, cuts out the person and marks it. The frames of a camera must come in order.
+    /// Shoots the next picture, cuts out the person, and marks the picture. The frames of a camera must come in order.
     Picture Next(std::size_t frame);
 
    private:

@@ -32,7 +32,8 @@ class LearnerPlayer final : public Player {
 
   const CoachStage& stage_;
   Learner learner_;
-  /// The frame of the dance that was shown in the previous frame; empty if the dance was not shown.
+  /// The number of the dance's frame that was shown in the previous frame of the session; empty if the dance was not
+  /// shown.
   std::optional<double> last_frame_;
   int danced_ = -1;          ///< the repetition that the learner danced in the previous frame; −1: none
   int performances_ = 0;     ///< number of performances begun; each repeat of a repetition counts again

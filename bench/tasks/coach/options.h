@@ -33,10 +33,10 @@ struct CoachCondition {
   LearnerOptions learner;
   std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that do not set their own
   MusicClockOptions music;
-  DetectionOptions sight;  ///< the person and the sensor; the session script in it is not used
+  DetectionOptions sight;  ///< the person and the sensor; `sight.session` is not used
 };
 
-/// The part of the loop that an outside program takes.
+/// The part of the loop (the seat) that an outside program replaces.
 enum class Seat { kNone, kRecogniser, kPolicy, kLearner };
 /// Returns "recogniser", "policy", "learner".
 const std::vector<std::string>& SeatNames();

@@ -32,7 +32,8 @@ SessionParts PartsOf(const ReadyCoach& ready, const Coach& coach, const Recognis
   return {coach, recogniser, sight.filter, sight.sees_truth, sight.Capture()};
 }
 
-/// Runs a session of another person under the same condition. A yoked session takes its correction times from it.
+/// Runs a session of another person under the same condition. A yoked session takes its correction times from this
+/// session.
 Result<SessionLog> RunPartner(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                               const CoachWorld& world) {
   const std::string scenario = fmt::format("{}/partner", world.key.scenario);
@@ -47,8 +48,8 @@ bool AreAlike(const TransitionWay& a, const TransitionWay& b) {
          a.rules.within_class == b.rules.within_class;
 }
 
-/// Returns the coach's own policy. If a program takes the seat of the policy, returns the yoked policy, because the
-/// program then decides when to correct.
+/// Returns the coach's own policy. If a program replaces the policy, returns the yoked policy, because the program then
+/// decides when to correct.
 Coach::PolicyChoice PolicyOf(const CoachMethod& method) {
   if (method.seat == Seat::kPolicy) return {FindPolicy("yoked"), {}};
   return method.policy;
@@ -83,7 +84,7 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
 
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program) {
-  // If there is a program, let it take its part of the loop: recogniser, policy or learner.
+  // If there is a program, let it replace its part of the loop: recogniser, policy or learner.
   const Seat seat = program != nullptr ? ready.method.seat : Seat::kNone;
   std::optional<SeatedCoachProgram> seated;
   if (program != nullptr) seated.emplace(*program, stage);

@@ -18,7 +18,7 @@ namespace etude {
 /// A prepared method: its coach, and its recogniser, which has been taught the moves of the dance.
 struct ReadyCoach {
   CoachMethod method;
-  /// Transitions, shared by all methods with transitions of this kind.
+  /// The transitions of the dance. All methods that need the same transitions share one object.
   std::shared_ptr<const DanceTransitions> transitions;
   std::unique_ptr<Recogniser> recogniser;
   std::unique_ptr<Coach> coach;
@@ -34,8 +34,8 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program);
 
-/// Adds all metrics of a session to a result, by a value or by the reason why it is missing. Also adds the curves, and
-/// digests of the motions danced and sensed, of the decisions and of the motion shown.
+/// Adds all metrics of a session to a result, by a value or by the reason why a metric is missing. Also adds the
+/// curves, and digests of the motions danced and sensed, of the decisions and of the motion shown.
 void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result);
 std::vector<std::string> CoachMetrics();
 

@@ -166,7 +166,7 @@ class Loop {
     open_.reset();
   }
 
-  /// Logs the first frame of a correction, which is the frame after the transition to it.
+  /// Logs the first frame of a correcting act. It is the frame after the transition to the act.
   void NoteAct() {
     const bool acts = shown_.mode == CoachMode::kCorrect && !shown_.in_transition;
     if (acts && !log_.corrections.empty() && !log_.corrections.back().act_frame) {

@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// The truth of a performance, which only its player knows.
+/// The truth of a performance. Only the player of the performance knows it.
 struct PlayedPerformance {
   PerformanceTruth truth = PerformanceTruth::kRight;
   std::string faults = "none";  ///< names of the faults, e.g. "amplitude+late"
@@ -34,13 +34,14 @@ class Player {
   virtual bool HasGivenUp() const = 0;
   /// Tests the player without a coach, after the time that `performances_later` performances would take. Returns, for
   /// every move of the dance, the probability of dancing it without a fault. A player that does not know this
-  /// probability performs each move once; its value is 1 if right and 0 if wrong, and a grey performance has no entry.
+  /// probability performs each move once: the value is then 1 for a right and 0 for a wrong performance; a grey
+  /// performance has no entry.
   virtual std::vector<double> TakeTest(int performances_later) = 0;
 };
 
 /// A performance that the coach asked for: how it was danced and how it was judged.
 struct LoggedPerformance {
-  int repetition = 0;  ///< the repetition of the dance
+  int repetition = 0;  ///< index of the repetition in the dance
   int move = 0;
   CoachedPerformance judged;
   std::string faults;
@@ -49,7 +50,7 @@ struct LoggedPerformance {
 /// A transition of the coach.
 struct LoggedTransition {
   std::vector<int> points;
-  bool is_bridged = false;  ///< true: it uses bridge frames, directly or with clips in between
+  bool is_bridged = false;  ///< true: the transition uses bridge frames, directly or with clips in between
 };
 
 /// The words on the screen. They are shown from `begin_frame` on.
@@ -61,10 +62,10 @@ struct LoggedWords {
 
 /// The record of a session.
 struct SessionLog {
-  std::vector<CoachMode> modes;  ///< the mode in each frame
+  std::vector<CoachMode> modes;  ///< the coach's mode in each frame
   std::vector<LoggedPerformance> performances;
   std::vector<GivenCorrection> corrections;
-  std::vector<CoachRecord> records;  ///< records whose frames count from the session's first frame
+  std::vector<CoachRecord> records;  ///< the coach's decisions; their frames count from the session's first frame
   std::vector<LoggedTransition> transitions;
   std::vector<LoggedWords> words;     ///< one entry per change of the words
   std::vector<double> beat_errors_s;  ///< timing errors in the frames danced to music
@@ -78,7 +79,7 @@ struct SessionLog {
   int Frames() const { return static_cast<int>(modes.size()); }
 };
 
-/// The parts of a session. All must outlive it.
+/// The parts of a session. All parts must outlive the session.
 struct SessionParts {
   const Coach& coach;
   const Recogniser& recogniser;

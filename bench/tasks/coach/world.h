@@ -18,7 +18,7 @@ namespace etude {
 
 /// The data that all worlds of a condition share: a song with its dance and its moves.
 struct CoachStage {
-  std::vector<Move> moves;                   ///< the moves of the dance, in its order, at the song's tempo
+  std::vector<Move> moves;                   ///< the moves, in the order of the dance, at the song's tempo
   std::vector<TaughtMove> taught;            ///< the same moves, as recognisers are taught them
   std::unique_ptr<ShowableFaults> showable;  ///< the faults that each move can have; never null
   std::unique_ptr<DanceLibrary> library;     ///< never null

@@ -68,7 +68,7 @@ std::vector<Classified> ByNearest(const std::vector<NamedStream>& streams, const
   return verdicts;
 }
 
-/// Classifies all performances of one person, and spots their action points.
+/// Classifies all performances of one person, and spots the person's action points.
 class PersonLeftOut {
  public:
   PersonLeftOut(const std::vector<NamedStream>& streams, const std::vector<LabelledPart>& parts,

@@ -21,12 +21,13 @@ std::optional<double> Accuracy(std::span<const Classified> verdicts);
 
 /// The result of leave-one-person-out: each person is recognised with moves taught by all others.
 struct LeaveOneOut {
-  std::vector<std::string> people;   ///< names, sorted
+  std::vector<std::string> people;   ///< names of the people, sorted
   std::vector<Classified> verdicts;  ///< the right performances whose labels give a beginning and an end
-  /// The same performances, classified by the nearest whole performance of any other person. This is a baseline for
-  /// comparison.
+  /// The performances of `verdicts`, classified by the nearest whole performance of any other person. This is a
+  /// baseline for comparison.
   std::vector<Classified> nearest;
-  std::vector<Moment> points, detections;  ///< moments in recordings with action points, on one time axis
+  std::vector<Moment> points, detections;  ///< times of action points and of detections, in recordings with action
+                                           ///< points, on one time axis
   /// The number of performances whose move nobody else performed right. `verdicts` contains them as not recognised.
   int untaught_performances = 0;
 };

@@ -34,7 +34,7 @@ struct AlarmTrial {
 /// Returns 1 if the rate is higher even at a threshold of 1. At least one trial is required, and each must have frames.
 double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);
 
-/// A method's results for other people: its evidence for all moves, and its scores of the requested performances before
+/// A method's results for other people: the evidence for all moves, and the scores of the requested performances before
 /// a threshold is applied.
 struct MethodTrials {
   std::vector<AlarmTrial> alarms;

@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-constexpr double kGrace = 0.5;  // seconds, the same as after a simulated performance
+constexpr double kGrace = 0.5;  // seconds that a window lasts after its performance, as for a simulated performance
 
 /// Appends recordings, with their labels, to a world.
 class RecordingAppender {
@@ -206,7 +206,7 @@ class RecordedTask final : public Task {
  private:
   const std::string& NameOf(std::size_t person) const { return set_.people[person].name; }
 
-  /// Returns the setting for an outside method that judges this person: the moves that all others taught.
+  /// Returns the setting for an outside method that judges this person: the moves that all other people taught.
   /// `FoldOf(person)` must have succeeded.
   Payload SettingOf(std::size_t person) const {
     const auto by_others = [&](const LabelledPart& part) { return part.person != NameOf(person); };
@@ -218,7 +218,7 @@ class RecordedTask final : public Task {
     return TaughtPayload(repertoire.names, repertoire.taught, examples);
   }
 
-  /// Returns the fold in which this person is judged. It holds the moves that all others taught.
+  /// Returns the fold in which this person is judged. It holds the moves that all other people taught.
   const Result<Fold>& FoldOf(std::size_t person) const {
     const std::size_t index = taught_ ? 0 : person;  // moves taught beforehand are the same for all
     const auto known = folds_.find(index);
@@ -226,8 +226,8 @@ class RecordedTask final : public Task {
     return folds_.emplace(index, MakeFold(set_, taught_, {NameOf(person)}, methods_)).first->second;
   }
 
-  /// Returns the thresholds of the methods, which are found on other people. The recognisers that judge one of these
-  /// people were taught neither by that person nor by the judged person.
+  /// Returns the thresholds of the methods. The thresholds are found on other people. The recognisers that judge one of
+  /// these people were taught neither by that person nor by the judged person.
   const std::vector<MethodDecision>& DecisionsFor(const WorldKey& key) const {
     const auto known = decisions_.find(key.trial);
     if (known != decisions_.end()) return known->second;
@@ -297,7 +297,7 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   const LabelledStreams& set = *input.recordings;
   const Node& condition = input.condition.node();
   RETURN_IF_ERROR(RefuseKeys(condition, PeopleKeys(), "people were recorded, nobody is simulated"));
-  // Refuse keys and oracles that do not apply.
+  // Refuse keys and oracles that have no effect on recordings.
   const bool are_sensed = std::ranges::any_of(set.streams, [](const NamedStream& s) { return s.motion.has_value(); });
   if (!are_sensed) RETURN_IF_ERROR(RefuseKeys(condition, SensingKeys(), "a recording contains what its sensor saw"));
   if (options.has_cameras) {

@@ -53,7 +53,8 @@ std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const Seen
 
 namespace {
 
-/// Returns the move with the most evidence in any frame of the window. If several have the most, returns the first.
+/// Returns the move with the most evidence in any frame of the window. If several moves have the most, returns the
+/// first.
 std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const EvidenceTrace& trace) {
   std::optional<std::size_t> named;
   double most = 0;

@@ -12,7 +12,7 @@ namespace etude {
 /// The results of a method in one session.
 struct SessionVerdict {
   SkeletonStream filtered;
-  /// One judgement per event; its frames count from the first frame of the event's window.
+  /// One judgement per event; the frames of a judgement count from the first frame of the event's window.
   std::vector<Judgement> events;
   /// For each event, the index (in Repertoire::taught) of the move with the most evidence in the event's window. Empty
   /// for an outside method, which names no moves.

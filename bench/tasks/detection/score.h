@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// Returns the requested performances that are right or wrong, with their judgements. Grey ones are left out.
+/// Returns the requested performances that are right or wrong, with their judgements. Grey performances are left out.
 /// `judgements` has one entry per event.
 std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<const Judgement> judgements);
 
@@ -36,7 +36,7 @@ StageDigests WorldDigests(const DetectionWorld& world);
 /// Returns the digests of the filtered stream and of the verdicts.
 StageDigests VerdictDigests(const SessionVerdict& verdict, const Repertoire& repertoire);
 
-/// Returns, for each frame, the score of the requested move so far in its window. It is 0 between windows.
+/// Returns, for each frame in a window, the score that the requested move has reached so far; 0 between windows.
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
 
 /// Returns curves with one value per performance, for curves over many sessions (reports/plots). `performance_score` is

@@ -18,7 +18,7 @@ struct Measured {
   PerformanceMeasures measures;
 };
 
-/// Collects labelled bags of performances by key. Each bag keeps only its nearest performances.
+/// Collects labelled bags of performances by key. Each bag keeps only the performances nearest to the move.
 class BagMaker {
  public:
   void Add(const std::array<int, 3>& key, bool is_right, const PerformanceMeasures& performance) {
@@ -53,7 +53,7 @@ DetectionOptions DrawCondition(const WorldKey& key) {
   return options;
 }
 
-/// Runs a measuring recogniser over the session, and returns its measures.
+/// Runs a measuring recogniser over the session, and returns the recogniser's measures.
 std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoire& repertoire,
                                      const TrackingWeights& weights) {
   std::vector<Measured> measured;

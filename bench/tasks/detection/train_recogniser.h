@@ -24,7 +24,8 @@ struct RecogniserTraining {
 /// scenario, so no judged person is among the simulated people.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
 
-/// Keeps only the nearest performances of a bag, nearest first. The farther ones cannot influence the fit.
+/// Keeps only those performances of a bag that are nearest to the move, nearest first. The farther ones cannot
+/// influence the fit.
 void KeepNearest(std::vector<PerformanceMeasures>& performances);
 
 }  // namespace etude

@@ -143,7 +143,7 @@ bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world
   for (const DetectionEvent& event : world.events) {
     windows.push_back({event.move, event.danced, event.window.begin, event.window.end});
   }
-  constexpr double kAboutPoints = 0.5;  // half of a point's window, seconds
+  constexpr double kAboutPoints = 0.5;  // half of the window around an action point, seconds
   for (const ActionPoint& point : world.points) {
     const auto margin = static_cast<int>(kAboutPoints * world.stream.rate_hz);
     windows.push_back({point.move, point.move, point.frame - margin, point.frame + margin + 1});

@@ -46,7 +46,7 @@ struct DetectionEvent {
   std::string danced;                    ///< the move that was performed; "" if none was
   double start_s = 0, end_s = 0;         ///< time of the performance, from the first beat to the last
   FrameInterval performed;               ///< time of the performance, frames
-  FrameInterval window;                  ///< the frames in which it is judged; windows do not overlap
+  FrameInterval window;                  ///< the frames in which the performance is judged; windows do not overlap
   Truth truth = Truth::kRight;
   /// The time at which the performer had truly passed every requested key pose. Only right performances have it.
   std::optional<double> first_right_s = {};
@@ -84,7 +84,7 @@ struct DetectionWorld {
 /// Makes the world of `key`. If cameras are the sensor, `options` must outlive the world.
 DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key);
 
-/// Returns a session's event in the frames of `stream`.
+/// Returns a session's event with its times as frames of `stream`.
 DetectionEvent EventOf(const SessionEvent& event, const SkeletonStream& stream);
 
 /// Returns the skeletons that a sensor under this condition reports for this motion.

@@ -16,8 +16,8 @@ std::vector<bool> ContactsByMotion(const RawMotion& motion);
 /// deviation (at least 1 cm) of each judged joint.
 EvaluationSideData SideDataOf(const MatchedMotions& matched, EvaluationSideData given);
 
-/// Hides `percent` per cent of the joints, over all frames: those farthest from the truth. Both motions have the same
-/// joints and frames.
+/// Hides `percent` per cent of the joints, over all frames: the joints farthest from the truth. Both motions have the
+/// same joints and frames.
 void HideWorst(RawMotion& answer, const RawMotion& truth, double percent);
 
 }  // namespace etude

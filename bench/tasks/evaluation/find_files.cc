@@ -127,7 +127,7 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
 struct PairColumns {
   std::size_t truth = 0;
   std::optional<std::size_t> name;
-  std::vector<std::size_t> answers;  ///< the column of each method's answers
+  std::vector<std::size_t> answers;  ///< the CSV column of each method's answers
 };
 
 Result<PairColumns> ReadHeading(const std::vector<std::string>& heading, std::span<const EvaluationMethod> methods,

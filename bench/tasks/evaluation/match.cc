@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// A joint that both motions have, by its index in each.
+/// A joint that both motions have, by the joint's index in each motion.
 struct CommonJoint {
   std::string name;
   int truth = -1, answer = -1;
@@ -275,7 +275,8 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   matched.pair.truth = Columns(truth, of_truth, frames);
   const ClockOffset clock = OffsetOf(truth, answer);
   if (lag == Lag::kFind) {
-    // Move the answer to the truth's clock. Frames before its beginning are added, so that its end is kept.
+    // Move the answer to the truth's clock. Frames before the answer's beginning are added, so that the answer's end is
+    // kept.
     const std::size_t count =
         answer.FrameCount() + static_cast<std::size_t>(std::ceil(std::max(clock.seconds, 0.0) * answer.rate_hz));
     RawMotion moved;

@@ -19,15 +19,16 @@ struct MatchedMotions {
   std::vector<std::string> joints;   ///< the judged joints
   std::vector<int> parents;          ///< for each joint, the next judged joint towards the root; −1: none
   std::vector<std::string> lacking;  ///< joints of the set that the truth or the answer lacks
-  std::vector<std::array<std::size_t, 3>> bends;  ///< knees and elbows: the joint above, itself, the joint below
-  AngleTracks true_angles, found_angles;          ///< the common angles, by name; empty if a motion has no rotations
-  std::size_t uncovered = 0;                      ///< number of frames of the truth outside the answer
-  std::size_t surplus = 0;                        ///< number of frames of the answer outside the truth
-  std::optional<TimeShift> lag;                   ///< the time shift that was found and removed
-  std::string note;                               ///< a note on the match, in one line
+  /// Knees and elbows: the joint above, the joint itself, the joint below.
+  std::vector<std::array<std::size_t, 3>> bends;
+  AngleTracks true_angles, found_angles;  ///< the angles that both motions have; empty if a motion has no rotations
+  std::size_t uncovered = 0;              ///< number of frames of the truth that the answer does not cover
+  std::size_t surplus = 0;                ///< number of frames of the answer that the truth does not cover
+  std::optional<TimeShift> lag;           ///< the time shift that was found and removed
+  std::string note;                       ///< a note on the match, in one line
 };
 
-/// The rule that finds the frame of the answer that belongs to the truth's first frame.
+/// The rule by which the frame of the answer is found that is paired with the truth's first frame.
 enum class Lag {
   kNone,  ///< the answer's first frame
   kFind,  ///< the time that FindTimeShift finds, which may be between two frames

@@ -43,7 +43,7 @@ std::vector<std::string> JointsOfSet(std::string_view name) {
 
 const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
   using Key = Field<EvaluationOptions>;
-  // The files that are judged come first.
+  // The keys of the judged files come first.
   static const FieldTable<EvaluationOptions> table{
       {Key::Texts("truth", &EvaluationOptions::truth, "a list of motion files, patterns, folders",
                   "The truths; a truth and the answers of the same name are a pair.")
@@ -51,7 +51,7 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
        {{"pairs", FileKind("a CSV file"), "(files of one name are a pair)",
          "A table of pairs: a column `truth`, a column named after each method and, optionally, a column `name`."},
         [](Fields& fields, EvaluationOptions& options) { options.pairs = fields.Text("pairs", ""); }},
-       // The joints, the noise of controls, the units and the time shift.
+       // Keys of the joints, the noise of controls, the units and the time shift.
        {{"joints", NameKind(JointSetNames()), "roles",
          "Which joints are judged: those with the same role, those with the same name, or those of a set that both "
          "files have."},
@@ -100,7 +100,7 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
   using Method = EvaluationMethod;
   using Key = Field<Method>;
   const auto part = [](auto member) { return Path(&Method::spoiler, member); };
-  // The answers, or a control, come first.
+  // The keys of the answers, or of a control, come first.
   static const FieldTable<Method> table{
       {Key::Texts("answers", &Method::answers, "a list of motion files, patterns, folders",
                   "The answers; they have the same names as their truths.")

@@ -23,14 +23,15 @@ struct EvaluationOptions {
 
 const FieldTable<EvaluationOptions>& EvaluationConditionFields();
 
-/// Fails unless the condition names its files in exactly one way. Fails also if it states a number of trials.
+/// Fails unless the condition names its files in exactly one way. Fails also if the condition states a number of
+/// trials.
 Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options);
 
 /// A method of task evaluation: answers from elsewhere, or a control that tests the metrics.
 struct EvaluationMethod {
   std::string name;
   std::vector<std::string> answers;  ///< files, patterns or folders; empty if the condition's `pairs` name the files
-  bool is_control = false;           ///< true: its answer is the truth with the spoiler's faults
+  bool is_control = false;           ///< true: the method's answer is the truth with the spoiler's faults
   Spoiler spoiler;                   ///< the faults of a control's answer
 };
 

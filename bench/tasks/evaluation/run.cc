@@ -13,7 +13,7 @@ constexpr const char* kNoFit = "the alignment is not determined: fewer than thre
 constexpr const char* kNoRoot = "no root is seen in both";
 constexpr const char* kNoFeet = "the answer has no ankles and toes, or fewer than two frames";
 
-/// A metric that is the mean joint error after an alignment, and the reason if it has no value.
+/// A metric that is the mean joint error after an alignment, and the reason if the metric has no value.
 struct AlignedError {
   const char* id;
   Alignment alignment;
@@ -39,7 +39,7 @@ std::string DigestOf(const PointTracks& tracks) {
   Digest digest;
   const auto& points = tracks.positions;
   for (std::size_t at = 0; at < points.size();) {
-    // Add the points up to the next one that is not seen.
+    // Add the points up to the next point that is not seen.
     std::size_t end = at;
     while (end < points.size() && !std::isnan(points[end].x)) ++end;
     if (end > at) digest.Add(std::span(&points[at].x, 3 * (end - at)));
@@ -163,7 +163,7 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
                               StandardisedChannels(matched.pair.truth.positions, means, deviations));
   }
   result.MeasureOr("l2p@lafan1", l2p, why);
-  // Measure NPSS, and its weight among other pairs.
+  // Measure NPSS, and the weight of this pair among other pairs.
   const auto measure = [&](PowerOf kind) {
     return rotations ? MeasurePowerSpectrum(rotations->found, rotations->truth, kWindowFrames, kind) : std::nullopt;
   };

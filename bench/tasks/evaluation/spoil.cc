@@ -130,8 +130,8 @@ void Mirror(RawMotion& motion, std::size_t begin) {
     const glm::dvec3& q = before.At(f, other[j]);
     return f < begin ? p : glm::dvec3(2 * middle - q.x, q.y, q.z);
   });
-  // Reflect the rotation by which the joint on the other side differs from its rest, and apply it to this joint at
-  // rest.
+  // Reflect the rotation by which the joint on the other side differs from its pose at rest, and apply this rotation to
+  // this joint at rest.
   TurnEach(motion, [&](std::size_t f, std::size_t j, const glm::dquat& rotation) {
     if (f < begin) return rotation;
     const std::size_t k = other[j];

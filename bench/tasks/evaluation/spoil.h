@@ -17,7 +17,7 @@ struct Spoiler {
   double feet_locked_cm = 0;  ///< ankles and toes are held at rest while the toes are below this height
   double mirrored_share = 0;  ///< share of the take, at its end, in which left and right are exchanged
   int kept_frames = 1;        ///< n, if only every n-th frame is kept, with linear interpolation in between
-  double late_ms = 0;         ///< delay of the motion; the first pose is held until it begins
+  double late_ms = 0;         ///< delay of the motion; the first pose is held until the motion begins
   double frozen_share = 0;    ///< share of the take, at its end, in which the body stands still
   double hidden_percent = 0;  ///< share of all joints that are hidden; these have the largest errors (HideWorst)
 

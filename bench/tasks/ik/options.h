@@ -29,10 +29,10 @@ struct IkTrialOptions {
   LimitSet limit_set = LimitSet::kAdult;
   double pose_range = 0.5;  ///< true angles are drawn uniformly from this share of their ranges, around the middle
   IkStart start = IkStart::kDisturbed;
-  double joint_noise_deg = 15;  ///< size of the disturbance of the start
+  double joint_noise_deg = 15;  ///< strength of the noise on the start angles (NoiseKind)
   NoiseKind noise = NoiseKind::kGaussian;
   TargetNoise target_noise;
-  double unreachable_cm = 0;  ///< distance of one target beyond the effector's reach; 0: all can be reached
+  double unreachable_cm = 0;  ///< distance of one target beyond the effector's reach; 0: all targets can be reached
   bool asks_positions = true;
   bool asks_axes = true;
 };
@@ -63,7 +63,7 @@ struct IkMethod {
 const FieldTable<IkCondition>& IkConditionFields();
 const FieldTable<IkMethod>& IkMethodFields();
 
-/// Reads the methods. Each begins with the options that the condition sets for all methods.
+/// Reads the methods. Each method begins with the options that the condition sets for all methods.
 Result<std::vector<IkMethod>> ReadIkMethods(TaskInput& input, const IkCondition& condition);
 
 }  // namespace etude

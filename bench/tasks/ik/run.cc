@@ -73,7 +73,7 @@ namespace {
 /// each step.
 double LargestFkCount(int max_steps) { return max_steps + 1; }
 
-/// Adds a cost and its penalised form. Both are missing if the method did not report the cost.
+/// Adds a cost, and the cost in penalised form. Both are missing if the method did not report the cost.
 void AddCost(const char* id, const char* penalised_id, const std::optional<int>& spent, double limit, bool solved,
              CellResult& cell) {
   if (spent) {

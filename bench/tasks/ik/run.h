@@ -21,11 +21,11 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
 /// Returns the parts of the targets that the effectors of a world must reach: positions, axes or both.
 IkTargetParts AskedOf(const IkProblem& problem);
 
-/// The costs that a method reports, and the reason if it did not reach the targets.
+/// The costs that a method reports, and the reason if the method did not reach the targets.
 struct IkAccount {
   std::optional<int> iterations, fk_evaluations;  ///< costs; empty if the method does not report them
   int max_steps = 0;
-  std::string why_not_met;  ///< the reason if the targets are not met
+  std::string why_not_met;  ///< why the targets are not met, if they are not
 };
 
 /// Scores the final angles of a solver or of an outside method: metrics, and the series of the final pose that
@@ -58,13 +58,13 @@ std::vector<Series> WorstErrorCurves(std::span<const IkTraceEntry> trace);
 /// `right_foot_x_axis_error_deg`, … (paper B, figure 5.2).
 std::vector<Series> EffectorCurves(const KinematicTree& tree, std::span<const IkTraceEntry> trace);
 
-/// Returns the effectors' errors along the axis "effector", at the start (`start_…`) and at the end (table 5.1).
-/// `position_error_{x,y,z}_cm` is effector minus target along the world's axes. `orientation_error_{x,y,z}_deg` is the
-/// angle between the effector's axis and the target's.
+/// Returns series of the effectors' errors, one value per effector, at the start (`start_…`) and at the end (table
+/// 5.1). `position_error_{x,y,z}_cm` is effector minus target along the world's axes. `orientation_error_{x,y,z}_deg`
+/// is the angle between the effector's axis and the target's axis.
 std::vector<Series> EffectorErrors(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles);
 
-/// Returns differences of angles along the axis "angle", in the tree's order (table 5.2): `angle_change_deg` is the
-/// solution minus the start, `angle_error_deg` the solution minus the truth.
+/// Returns series of differences of angles, one value per angle in the tree's order (table 5.2): `angle_change_deg` is
+/// the solution minus the start, `angle_error_deg` the solution minus the truth.
 std::vector<Series> AngleChanges(const IkWorld& world, std::span<const double> angles);
 
 }  // namespace etude

@@ -12,7 +12,7 @@ namespace {
 
 double LengthOf(const KinematicTree& tree, BodyTreeJoint upper_end) { return glm::length(tree.joints[upper_end].p_PJ); }
 
-/// Bends both legs in their planes. The shanks lean forward by `shank`, the thighs backward by `thigh`, radians.
+/// Bends each leg in its plane. The shanks lean forward by `shank`, the thighs backward by `thigh`, radians.
 void BendLegs(const KinematicTree& tree, double shank, double thigh, std::vector<double>& angles) {
   constexpr int kZ = 2;
   const auto set = [&](BodyTreeJoint joint, int axis, double angle) {

@@ -104,7 +104,7 @@ class InbetweenTask final : public Task {
     return std::make_unique<InbetweenWorld>(study_, WindowOf(key), keeps_motion);
   }
 
-  /// Returns the name of the window's file or, with the key `people`, its person.
+  /// Returns the name of the window's file or, with the key `people`, the person in that name.
   std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {WindowOf(key).unit}; }
 
   Result<Payload> Setting() const override {

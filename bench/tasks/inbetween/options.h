@@ -13,13 +13,14 @@ namespace etude {
 struct InbetweenOptions {
   std::vector<std::string> truth;     ///< files whose windows are judged
   std::vector<std::string> training;  ///< training files: for L2P's deviations, the offsets, and the library of fillers
-  std::string people;                 ///< the person in a file's name, e.g. *_{person}; "" = each file is a unit
+  std::string people;                 ///< pattern for the person in a file's name, e.g. *_{person}; "" = each file is a
+                                      ///< unit
   int window = 65, offset = 40;       ///< length of a window, and distance of successive windows, frames
   int training_window = 50, training_offset = 20;
   int past = 10;                  ///< number of frames before the gap; all are given
   int gap = 30;                   ///< number of hidden frames
   int future = 10;                ///< number of frames that a window must have after the gap
-  int given = 1;                  ///< number of future frames that are given
+  int given = 1;                  ///< number of frames after the gap that are given
   std::optional<double> rate_hz;  ///< rate to which motions are sampled; nullopt = each file's own
   glm::dvec3 facing{0, 1, 0};     ///< the root's axis that is turned to X in the last past frame
   /// True: a window has its file's own offsets; false: those of the first training file.

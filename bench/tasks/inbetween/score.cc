@@ -157,7 +157,7 @@ bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Glob
                   .possible = IsPossible(MeasureBody(view, support))});
 }
 
-/// Measures if a body could move like this: support, foot slide, jitter, and all parts of `clean_share`.
+/// Measures if a body could move as in the filled gap: support, foot slide, jitter, and all parts of `clean_share`.
 void MeasureMovement(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
   using enum Role;
   const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, hidden.file->floor_m);

@@ -14,8 +14,8 @@
 
 namespace etude {
 
-/// Measurements of a whole file, with which each of its windows is judged. Bodies are scaled so that their hips stand
-/// at 0.90 m.
+/// Measurements of a whole file, used to judge each window of the file. Bodies are scaled so that their hips stand at
+/// 0.90 m.
 struct JudgedFile {
   double floor_m = 0;  ///< the 5th percentile, over the frames, of the lowest joint's height (hands do not count)
   double scale = 1;    ///< factor from the size of the file's body to that of the judged body
@@ -32,7 +32,7 @@ struct HiddenWindow {
   /// The divisors of L2P: the standard deviations of each joint's position in training, metres. Empty if they are
   /// unknown.
   std::vector<glm::dvec3> deviations;
-  std::shared_ptr<const JudgedFile> file;  ///< shared by all windows of a file; they outlive the file's motion
+  std::shared_ptr<const JudgedFile> file;  ///< shared by all windows of a file; the windows outlive the file's motion
 };
 
 /// Returns the ids of all metrics, in the order in which they are measured.
@@ -42,7 +42,7 @@ std::vector<std::string> InbetweenMetrics();
 std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole);
 
 /// Measures a window after its hidden frames are replaced by `filled`, which has one pose per hidden frame. With
-/// `keeps_motion`, the result's recording contains this window and the true one.
+/// `keeps_motion`, the result's recording contains this window and the true window.
 CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> filled, bool keeps_motion);
 
 }  // namespace etude

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A clip of a method's answers.
+/// A clip among a method's answers.
 struct LoneClip {
   std::string reference;
   std::string folders;  ///< the folders for which wildcards stand: "walks/", or ""

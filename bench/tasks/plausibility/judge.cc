@@ -76,7 +76,7 @@ std::string DigestOf(const BodyMotion& motion) {
 
 Recording RecordingOf(BodyInPlace body, const MotionFaults& found) {
   PlausibilityExtras extras{.floor_m = found.floor_m, .faults = {}};
-  // A gap may begin before the body's first frame and end after its last one.
+  // A gap may begin before the first frame of the body and end after the body's last frame.
   const auto frame_at = [&](double time_s) {
     const auto frame = static_cast<int>(std::lround((time_s - body.begin_s) * body.motion.rate_hz));
     return std::clamp(frame, 0, static_cast<int>(body.motion.poses.size()) - 1);

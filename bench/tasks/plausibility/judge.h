@@ -16,8 +16,8 @@ std::vector<std::string> PlausibilityMetrics();
 std::vector<std::string> LimitedMetrics();
 
 /// Measures the faults of a body. The reason of the result describes the limits that are exceeded, the faults
-/// (FaultSentences), the floor, and the changes made by the reader. Its status is failed if there are fewer than
-/// kMinFramesForFaults frames. With `keeps_motion`, the body is recorded with its faults.
+/// (FaultSentences), the floor, and the changes made by the reader. The result's status is failed if there are fewer
+/// than kMinFramesForFaults frames. With `keeps_motion`, the body is recorded with its faults.
 CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool keeps_motion = false);
 
 /// Returns the part of a reason of JudgeAlone that describes limits and faults.

@@ -18,7 +18,7 @@ struct PairStudy {
   std::vector<PoseDistanceMethod> methods;
   DancedClips clips;
   FuzzySystem fuzzy;
-  mutable LearntWeights learnt;  ///< caches fits; its results depend on the arguments alone
+  mutable LearntWeights learnt;  ///< caches fitted weights; the weights depend on the arguments alone
 };
 
 class PoseDistanceWorld final : public TaskWorld {

@@ -14,8 +14,8 @@ namespace etude {
 /// A definition of the distance of two poses.
 enum class PoseDistance {
   kFuzzy,           ///< paper A's d, equation 1
-  kPointCloud,      ///< Kovar's distance: RMS over the joints after the best alignment on the floor, cm
-  kJointPositions,  ///< mean over the joints after aligning heading and hip centre, cm
+  kPointCloud,      ///< Kovar's distance: RMS joint distance after the best alignment on the floor, cm
+  kJointPositions,  ///< mean joint distance after aligning heading and hip centre, cm
 };
 
 /// Returns the names "fuzzy", "point-cloud", "joint-positions".
@@ -28,7 +28,7 @@ struct PoseDistanceMethod {
   PoseDistance distance = PoseDistance::kFuzzy;
   WeightSource weights = WeightSource::kFixed;  ///< the source of the fuzzy distance's weights
   /// Poses are called alike if their distance is below this threshold. It has no unit for the fuzzy distance, and is in
-  /// centimetres for the others.
+  /// centimetres for the other distances.
   double threshold = kPaperThreshold;
 };
 
@@ -46,7 +46,7 @@ PairVerdict ComputePairVerdict(const PairWorld& world, const PoseDistanceMethod&
 std::vector<std::string> PoseDistanceMetrics();
 
 /// Scores a verdict. `distance` is the built-in distance that was used; its value is a metric if the world has a single
-/// pair. It is null for an outside method, whose scale is unknown.
+/// pair. `distance` is null for an outside method, whose scale is unknown.
 CellResult ScorePairs(const PairWorld& world, const PairVerdict& verdict, const PoseDistance* distance);
 
 }  // namespace etude

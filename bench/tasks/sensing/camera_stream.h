@@ -49,8 +49,8 @@ class CameraTake {
   std::deque<std::pair<CaptureMethod, Result<SkeletonStream>>> seen_;
 };
 
-/// Cameras as the sensor of a feedback loop. A causal method captures the person frame by frame. Its computing time is
-/// not simulated.
+/// Cameras as the sensor of a feedback loop. A causal method captures the person frame by frame. The method's computing
+/// time is not simulated.
 class CameraSensor final : public LiveSensor {
  public:
   /// Sets up the cameras for a person who stands as in `first`, for `frames` frames. `key` must outlive this object.

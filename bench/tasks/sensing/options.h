@@ -10,14 +10,14 @@ namespace etude {
 /// The cameras of a condition with `sensor: cameras`.
 struct CameraSensing {
   StudioOptions studio;
-  std::vector<PersonSource> sources;  ///< the sources of all methods, each once
+  std::vector<PersonSource> sources;  ///< the sources of all methods; equal sources are listed once
 };
 
-/// Returns the keys of a condition with `sensor: cameras`: the keys of `task: capture` that do not concern its takes,
-/// and `picture_every`.
+/// Returns the keys of a condition with `sensor: cameras`: `picture_every`, and those keys of `task: capture` that do
+/// not concern that task's takes.
 const FieldTable<StudioOptions>& CameraSensingFields();
 
-/// Returns the key `capture` of a method, which says how pictures become skeletons. Its value is a mapping with the
+/// Returns the key `capture` of a method. The key says how pictures become skeletons; its value is a mapping with the
 /// keys of a method of `task: capture`.
 template <typename Method, typename Member>
 Field<Method> CaptureField(Member member) {

@@ -32,7 +32,7 @@ class Crowd {
 
   struct Followed {
     int met = 0;    ///< number of characters that met all targets
-    int steps = 0;  ///< steps of all characters together
+    int steps = 0;  ///< number of solver steps of all characters together
   };
   /// Solves the next frame. May be called as often as the worlds have frames.
   Followed FollowNext(const IkOptions& options, Precision precision);

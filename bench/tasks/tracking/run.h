@@ -23,7 +23,7 @@ Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& 
 
 /// Measures an answer against the given targets and the true motion. The answer has one entry per frame. The cell is
 /// `ok` if every frame is solved practically. Otherwise it is `unsolved`, with the number of unsolved frames and the
-/// first of them. An exceeded limit makes its frame unsolved. The cell's series have one value per frame. With
+/// first of them. A frame in which a limit is exceeded is unsolved. The cell's series have one value per frame. With
 /// `keeps_motion`, a recording has the tracks "truth" and "solution".
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion);
 

@@ -20,7 +20,8 @@ namespace etude {
 /// is nearer.
 struct TrackingWorld {
   KinematicTree tree;
-  std::vector<TreeState> truth;                      ///< one state per frame; solvers are given its root
+  std::vector<TreeState> truth;                      ///< one state per frame; solvers are given only the root of each
+                                                     ///< state
   std::vector<std::vector<EffectorTarget>> targets;  ///< indexed [frame][effector]
   std::vector<double> first_angles;                  ///< the angles at which the first frame starts, within the limits
 };
@@ -31,7 +32,7 @@ struct TrackingWorld {
 /// heading are random, and the five angles that no target determines are random functions of time. Fails if the clip
 /// has fewer than kMinTrackedFrames frames, or if a frame's limbs give no pose of the body.
 Result<TrackingWorld> MakeTrackingWorld(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key);
-/// Makes a world for a given body. Its limb lengths may differ from those of the clip's performer.
+/// Makes a world for a given body. The body's limb lengths may differ from those of the clip's performer.
 Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const TrackingOptions& options,
                                         const LibraryClip& clip, const WorldKey& key);
 

@@ -66,7 +66,7 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 struct TransitionAnswer {
   std::optional<std::string> unsolved;  ///< why there is no transition; the other members are then empty
   std::vector<Segment> segments;        ///< the segments, in the form of a TransitionRecord
-  const JoinKind* join = nullptr;       ///< the join; not null if there are segments; it has default settings
+  const JoinKind* join = nullptr;       ///< the join, with default settings; not null if there are segments
   bool matched = false;
 };
 
@@ -77,10 +77,11 @@ Result<TransitionAnswer> ReadTransitionAnswer(const Json& answer, const Stage& s
 /// to one second after the last.
 Series JumpSeries(const TransitionOutcome& outcome);
 
-/// Returns the numbers that explain a transition, for cells that keep them. `point_partials` has ten values for each
-/// transition point (axis "feature"). These have one value for each candidate (axis "candidate"): `candidate_point`,
-/// `candidate_from_frame`, `candidate_to_frame`, `candidate_distance`, and `candidate_outcome` (0 taken, 1 too far, 2
-/// later, 3 worse). `candidate_partials` has ten values for each candidate (axis "feature").
+/// Returns the numbers that explain a transition, for cells that keep these numbers. `point_partials` has ten values
+/// for each transition point (axis "feature"). The following series have one value for each candidate (axis
+/// "candidate"): `candidate_point`, `candidate_from_frame`, `candidate_to_frame`, `candidate_distance`, and
+/// `candidate_outcome` (0 taken, 1 too far, 2 later, 3 worse). `candidate_partials` has ten values for each candidate
+/// (axis "feature").
 std::vector<Series> ExplanationOf(const TransitionRecord& record);
 
 /// Records the transition, with 2.5 s before and after it: the track "coach", the clips, and TransitionExtras. The

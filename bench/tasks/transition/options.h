@@ -17,7 +17,7 @@ TransitionWay DefaultWay();
 ///     - {name: fuzzy, choice: fuzzy-bridge, join: cut, weights: adaptive, threshold: 0.4, pick: first}
 struct TransitionMethod {
   std::string name;
-  /// The choice and the join. Its weights are paper A's, because learnt weights depend on the world.
+  /// The choice and the join. The weights in `way` are paper A's, because learnt weights depend on the world.
   TransitionWay way = DefaultWay();
   WeightSource weights = WeightSource::kFixed;
   double wait_s = 1;  ///< the longest wait of the method's requests, seconds

@@ -95,7 +95,7 @@ bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResul
   const bool natural = IsNatural(smoothness.jump_cm, std::move(nature));
   result.Measure("natural_share", natural ? 1 : 0);
 
-  // Measure gaps and foot slide at the worst point.
+  // Measure gaps and foot slide at the worst transition point.
   double pose_gap = 0, velocity_gap = 0, foot_slide = 0;
   for (const PlacedPoint& point : splice.points) {
     pose_gap = std::max(pose_gap, PoseGapCm(point.leaving, point.arriving));
@@ -111,7 +111,7 @@ bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResul
     result.Missing("false_smooth", "the frames were not chosen because they match");
   }
   result.Measure("foot_slide_cmps", foot_slide);
-  // Measure the smoothness of the joints' mean speed around the points, and the remaining metrics.
+  // Measure the smoothness of the joints' mean speed around the transition points, and the remaining metrics.
   const FrameWindow second = AroundPoints(splice, 1);
   const std::vector<double> speed = MeanJointSpeed(splice.motion, second.first, second.last);
   constexpr const char* kStill = "nothing moves around the transition point, or not long enough";

@@ -40,12 +40,12 @@ std::optional<double> TransitionFailureValue(std::string_view metric);
 /// Records the metrics of ScoreTransition as missing, for a world in which no transition was found.
 void MeasureNoWay(CellResult& result);
 
-/// The data that the runs of a task share. All of it must outlive them.
+/// The data that the runs of a task share. All data must outlive the runs.
 struct TransitionBasis {
   const std::vector<TransitionMethod>& methods;
   const Stage& stage;
-  LearntWeights& learnt;  ///< caches fits; its results depend on the arguments alone
-  double max_wait_s = 0;  ///< the wait that is sent to outside methods; built-in ones have their own
+  LearntWeights& learnt;  ///< caches fitted weights; the weights depend on the arguments alone
+  double max_wait_s = 0;  ///< the wait that is sent to outside methods; built-in methods have waits of their own
   bool explain = false;   ///< true: every cell keeps the explanation of its transition
 };
 

@@ -17,7 +17,8 @@ struct StageRules {
   int min_clips = TagRules{}.min_clips;
   int most_per_class = TagRules{}.most_per_class;
   TweenRules tween;            ///< the rules of clips in between
-  bool asks_for_acts = false;  ///< true: the coach's acts are requested while other clips play, if there are both
+  bool asks_for_acts = false;  ///< true: if there are acts and other clips, the coach's acts are requested while other
+                               ///< clips play
 };
 
 /// A library of clips prepared for transitions. All clips are transferred to one body (`JudgedProportions`) and tagged.
